@@ -1,0 +1,9 @@
+// The program's commands: render, devices, info.
+#pragma once
+
+namespace quasilux {
+
+/// Exit code: 0 done, 1 the device or the program failed, 2 bad input, 130 interrupted before the first pass.
+int runCommandLine(int argc, char** argv);
+
+} // namespace quasilux

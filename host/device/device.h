@@ -1,0 +1,66 @@
+// One OpenCL device with its context, queue, kernels and timing table. The only folder that calls OpenCL.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+struct DeviceInfo {
+    std::string name, platform, version, driver;
+    unsigned computeUnits = 0;
+    uint64_t globalMemory = 0;      ///< bytes
+    uint64_t maximumAllocation = 0; ///< bytes
+    bool isCpu = false;
+};
+
+/// All OpenCL devices of all platforms; the index is the number that `--device` takes.
+std::vector<DeviceInfo> listDevices();
+
+/// Time spent in one kernel, from the runtime's profiling counters.
+struct KernelTiming {
+    uint64_t launches = 0;
+    double seconds = 0;
+};
+
+class Device {
+public:
+    /// `index` as in listDevices(); -1 takes the first GPU, else the first device. Throws InputError if there is none.
+    explicit Device(int index = -1, unsigned workGroupSize = 64);
+
+    const DeviceInfo& info() const { return info_; }
+    cl::Context& context() { return context_; }
+    cl::CommandQueue& queue() { return queue_; }
+    unsigned workGroupSize() const { return workGroupSize_; }
+
+    /// Allocates, or throws DeviceError that names `label`, the bytes asked for and the device's limit.
+    cl::Buffer allocate(size_t bytes, const std::string& label);
+    uint64_t allocatedBytes() const { return allocated_; }
+    /// Bytes by label, as allocated so far (a label used twice holds the later size).
+    const std::map<std::string, uint64_t>& allocations() const { return allocations_; }
+
+    /// Waits for all work.
+    void finish();
+
+    void addTiming(const std::string& kernel, const cl::Event& event);
+    /// Waits, then sums what addTiming collected.
+    const std::map<std::string, KernelTiming>& timings();
+
+private:
+    DeviceInfo info_;
+    cl::Device device_;
+    cl::Context context_;
+    cl::CommandQueue queue_;
+    unsigned workGroupSize_;
+    uint64_t allocated_ = 0;
+    std::map<std::string, uint64_t> allocations_;
+    std::vector<std::pair<std::string, cl::Event>> pending_;
+    std::map<std::string, KernelTiming> timings_;
+};
+
+} // namespace quasilux

@@ -1,0 +1,58 @@
+// Kernel programs: sources joined with #line marks, built with the scene's features, launched by name.
+#pragma once
+
+#include "device/buffer.h"
+
+#include <string>
+#include <type_traits>
+
+namespace quasilux {
+
+/// `source` with every `#include "…"` replaced by the file's text (each file once), with #line marks so that build
+/// errors name the real file. `extra` adds or replaces files (tests). Throws DeviceError for an unknown include.
+std::string joinKernelSource(const std::string& file, const std::map<std::string, std::string>& extra = {});
+
+class Kernel {
+public:
+    Kernel() = default;
+    Kernel(Device& device, cl::Kernel kernel, std::string name)
+        : device_(&device), kernel_(std::move(kernel)), name_(std::move(name)) {}
+
+    /// Runs `count` work-items (rounded up to whole groups; the kernel must check its index against its count).
+    template <typename... Args>
+    void launch(size_t count, const Args&... args) {
+        cl_uint index = 0;
+        (setArgument(index++, args), ...);
+        enqueue(count);
+    }
+
+private:
+    template <typename T>
+    void setArgument(cl_uint index, const Buffer<T>& buffer) { check(kernel_.setArg(index, buffer.memory()), index); }
+    template <typename T, typename = std::enable_if_t<std::is_trivially_copyable_v<T>>>
+    void setArgument(cl_uint index, const T& value) { check(kernel_.setArg(index, sizeof(T), &value), index); }
+    void check(cl_int status, cl_uint index);
+    void enqueue(size_t count);
+
+    Device* device_ = nullptr;
+    cl::Kernel kernel_;
+    std::string name_;
+};
+
+class Program {
+public:
+    /// Builds kernels/`file`; `options` are such as "-DHAS_LOBE_PHONG". Throws DeviceError with the build log.
+    Program(Device& device, const std::string& file, const std::string& options,
+            const std::map<std::string, std::string>& extra = {});
+
+    Kernel kernel(const std::string& name);
+    double buildSeconds() const { return buildSeconds_; }
+
+private:
+    Device* device_;
+    std::string file_;
+    cl::Program program_;
+    double buildSeconds_ = 0;
+};
+
+} // namespace quasilux

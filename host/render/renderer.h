@@ -1,0 +1,72 @@
+// The method, stage by stage: photons, map, camera paths, film. Calls only named stages.
+#pragma once
+
+#include "render/film_image.h"
+#include "render/settings.h"
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace quasilux {
+
+class Device;
+
+/// What a scene needs and what was chosen for it: `quasilux info` prints it, statistics record it.
+struct SceneReport {
+    size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
+    std::vector<std::string> features; ///< compiled in, such as "lobe phong", "emitter rectangle"
+    struct EmitterRow { std::string id, type; double power = 0; /* W, mean of R, G, B */ };
+    std::vector<EmitterRow> emitters;
+    struct LobeRow { std::string bsdf, lobe, scattering, why; };
+    std::vector<LobeRow> lobes;
+    std::vector<std::string> photonClasses; ///< stored
+    std::map<std::string, uint64_t> bufferBytes;
+    unsigned photonsPerPass = 0;
+    std::map<std::string, double> initialRadius; ///< scene units, by photon class
+};
+
+/// Counted over all passes.
+struct RenderCounters {
+    uint64_t passes = 0;
+    uint64_t photonsEmitted = 0;
+    std::map<std::string, uint64_t> photonsStored; ///< by class
+    uint64_t cameraPaths = 0;
+    uint64_t nonFinite = 0;       ///< samples dropped since they were not finite; a right render has none
+    uint64_t cutPaths = 0;        ///< paths ended by the hard limit on events
+    double fluxEmitted = 0, fluxCut = 0; ///< W, mean of R, G, B
+    double prepareSeconds = 0, compileSeconds = 0, firstPassSeconds = 0, renderSeconds = 0;
+};
+
+struct Progress {
+    std::string phase; ///< "preparing", "compiling", "rendering", "writing"
+    unsigned passes = 0;
+    double seconds = 0, secondsLeft = -1; ///< -1 unknown
+    double photonsPerSecond = 0, pathsPerSecond = 0;
+    double relativeError = -1; ///< -1 unknown yet
+};
+
+class Renderer {
+public:
+    /// Prepares the scene and compiles the kernels it needs.
+    Renderer(Device& device, const Scene& scene, const RenderSettings& settings);
+    ~Renderer();
+
+    /// Adds the independent estimate number `pass` (from 0) to the film.
+    void renderPass(unsigned pass);
+    FilmImage develop() const;
+    const SceneReport& report() const;
+    const RenderCounters& counters() const;
+
+private:
+    struct Stages;
+    std::unique_ptr<Stages> stages_;
+};
+
+/// Renders passes 0, 1, … until the rule, or `interrupted`, ends it.
+FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
+                      const std::atomic<bool>& interrupted);
+
+} // namespace quasilux

@@ -1,0 +1,47 @@
+// What decides the image besides the scene: the method, its numbers, and when to stop.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace quasilux {
+
+enum class Variant { main, alternative };   ///< of the law, kernels/law.clh
+enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
+
+/// The law, or one of its known wrong readings, which tests switch on as negative controls (kernels/law.clh).
+enum class LawRule { right, quasiSpecularUntilFirst, diffuseAtEveryHit, fullAlongChain };
+
+struct RenderSettings {
+    unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
+    Variant variant = Variant::main;
+    DirectLight direct = DirectLight::emitters;
+    std::string quasiSpecular = "auto"; ///< auto | none | all | ID,ID,…
+    bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
+    unsigned photonsPerPass = 0; ///< emitted; 0 = chosen from the image size
+    uint64_t seed = 1;
+    double radiusScale = 1.0;    ///< factor on the initial density radius
+    bool genericKernels = false; ///< compile every feature, used or not (for comparison)
+    LawRule lawRule = LawRule::right;
+};
+
+/// The first limit reached ends the render; none set = 30 s.
+struct StopRule {
+    std::optional<double> seconds;
+    std::optional<unsigned> passes;
+    std::optional<double> relativeError; ///< estimated relative standard error, mean over pixels
+};
+
+/// Defaults, then what the scene says. The command line writes over the result.
+RenderSettings settingsFromScene(const Scene& scene);
+
+const char* name(Variant variant);
+const char* name(DirectLight direct);
+/// Throw InputError that lists the known names.
+Variant parseVariant(const std::string& text);
+DirectLight parseDirect(const std::string& text);
+
+} // namespace quasilux

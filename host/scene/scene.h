@@ -1,0 +1,121 @@
+// What a scene file says, in world space and resolved: the input of host/prepare. No device, no Embree, no XML here.
+#pragma once
+
+#include "bsdf/lobe_list.h"
+#include "shared_types.h"
+#include "util/error.h"
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+using shared::Rgb;
+
+/// What `<?quasilux quasi-specular="…"?>` in a bsdf, or the command line, says of its lobes.
+struct QuasiSpecularChoice {
+    enum class Kind { automatic, yes, no, lobes };
+    Kind kind = Kind::automatic;
+    std::vector<std::string> lobes; ///< Kind::lobes: names such as "specular"
+    bool stated = false;            ///< false: nothing was said, the global setting decides
+};
+
+/// One lobe as the scene describes it. `device.scattering` is SCATTER_SPECULAR for delta lobes and otherwise 0 until
+/// host/prepare/split decides between genuine diffuse and quasi-specular.
+struct LobeDescription {
+    shared::Lobe device{};
+    std::string name;                 ///< "diffuse", "specular", …, as a quasi-specular list names it
+    QuasiSpecularChoice quasiSpecular; ///< from the innermost bsdf that says something
+    double halfWidth = 0;             ///< radians: half the lobe's energy lies within this angle of its peak (0 delta, 45° Lambert)
+};
+
+struct Bsdf {
+    std::string id;     ///< as in the scene, or "<plugin>@line" where it has none
+    std::string plugin; ///< outermost plugin name
+    SourceLocation where;
+    std::vector<LobeDescription> front; ///< lobes seen from the side of the normal
+    std::vector<LobeDescription> back;  ///< lobes seen from behind; empty = black (one-sided)
+    bool isNull = false;
+};
+
+/// Radiance that a shape emits on the side of its normal, W sr^-1 m^-2.
+struct AreaEmitter {
+    Rgb radiance{};
+    SourceLocation where;
+};
+
+struct Mesh {
+    std::vector<glm::vec3> positions;     ///< world space
+    std::vector<glm::uvec3> triangles;    ///< indices into positions; counter-clockwise seen from the normal's side
+    std::vector<glm::vec3> cornerNormals; ///< 3 per triangle, unit; empty = flat. flip_normals is already applied
+};
+
+struct Sphere {
+    glm::vec3 center{};
+    float radius = 0;
+};
+
+/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides, unit normal.
+struct RectangleFrame {
+    glm::vec3 corner{}, edgeU{}, edgeV{}, normal{};
+};
+
+struct ShapeDescription {
+    std::string id; ///< as in the scene, or "<plugin>@line"
+    std::string plugin;
+    SourceLocation where;
+    Mesh mesh;                                ///< empty for a sphere
+    std::optional<Sphere> sphere;
+    std::optional<RectangleFrame> rectangle;  ///< set for `rectangle` whose sides stayed orthogonal
+    bool flipNormals = false; ///< already applied to a mesh's winding; a sphere's normal points inwards
+    int bsdf = -1;            ///< index into Scene::bsdfs
+    std::optional<AreaEmitter> emitter;
+};
+
+struct PointEmitter {
+    std::string id;
+    SourceLocation where;
+    glm::vec3 position{};
+    Rgb intensity{}; ///< W sr^-1
+};
+
+struct Sensor {
+    SourceLocation where;
+    glm::dmat4 toWorld{1.0}; ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
+    double fovX = 0;         ///< full horizontal angle, radians (fov_axis already resolved)
+    double nearClip = 1e-2, farClip = 1e4;
+    unsigned width = 768, height = 576;
+    unsigned filter = FILTER_GAUSSIAN;
+    double filterRadius = 2.0, filterStddev = 0.5; ///< pixels
+};
+
+/// quasilux settings of the scene; std::nullopt = not said. Command-line options override them.
+struct SceneSettings {
+    std::optional<unsigned> bdd;
+    std::optional<std::string> variant;        ///< "main", "alternative"
+    std::optional<std::string> quasiSpecular;  ///< "auto", "none", "all", "ID,ID"
+    std::optional<std::string> direct;         ///< "emitters", "photons"
+    std::optional<unsigned> photons;           ///< emitted per pass
+    std::optional<uint64_t> seed;
+};
+
+struct Scene {
+    std::string path;
+    std::vector<Bsdf> bsdfs;
+    std::vector<ShapeDescription> shapes;
+    std::vector<PointEmitter> pointEmitters;
+    Sensor sensor;
+    int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
+    SceneSettings settings;
+    std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
+};
+
+/// Loads a Mitsuba 3 scene (docs/scene-language.md). Throws InputError at file:line:column.
+/// `parameters` replace `<default>` values, as `-D name=value` does.
+Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {});
+
+} // namespace quasilux

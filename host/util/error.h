@@ -1,0 +1,34 @@
+// Errors shown to users. Every one says what is wrong, what was expected and what to do.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace quasilux {
+
+/// A place in an input file; line and column count from 1, 0 where unknown.
+struct SourceLocation {
+    std::string file;
+    int line = 0;
+    int column = 0;
+
+    /// "file:line:column", leaving out what is unknown.
+    std::string text() const;
+};
+
+/// Input that the user can mend (scene, mesh, option, output folder). The program ends with exit code 2.
+class InputError : public std::runtime_error {
+public:
+    explicit InputError(const std::string& message) : std::runtime_error(message) {}
+    /// The message becomes "file:line:column: message".
+    InputError(const SourceLocation& where, const std::string& message)
+        : std::runtime_error(where.file.empty() ? message : where.text() + ": " + message) {}
+};
+
+/// The device or its runtime failed; names the kernel or buffer, its bytes and the device. Exit code 1.
+class DeviceError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace quasilux

@@ -1,0 +1,155 @@
+/* Structs and constants that host (C++20) and device (OpenCL C 1.2) share, written once.
+ *
+ * Plain C: scalar fields only (a float3 takes 16 bytes on the device), no padding, 4-byte alignment throughout.
+ * tests/layout_test.cpp compares size and offset of every field on both sides, so add a new struct there too.
+ * Lengths are in scene units, flux in W, radiance in W sr^-1 m^-2 (taking one scene unit as one metre).
+ */
+#ifndef QUASILUX_SHARED_TYPES_H
+#define QUASILUX_SHARED_TYPES_H
+
+#ifdef __cplusplus
+namespace quasilux::shared {
+#endif
+
+#define QL_NONE 0xffffffffu
+
+typedef struct {
+    float x, y, z;
+} Packed3; /* point, vector or normal */
+
+typedef struct {
+    float r, g, b;
+} Rgb; /* linear sRGB primaries */
+
+/* ---- geometry: 8-wide bounding volume hierarchy ------------------------------------------------------------- */
+
+#define BVH_WIDTH 8
+#define BVH_LEAF_BIT 0x80000000u       /* child reference: leaf bit | (blocks - 1) << 27 | first block */
+#define BVH_LEAF_COUNT_SHIFT 27        /* 4 bits: up to 16 blocks in one leaf */
+#define BVH_LEAF_FIRST_MASK 0x07ffffffu
+#define PRIMITIVE_NULL_BIT 0x80000000u   /* primitive whose bsdf is `null`: shadow and photon rays pass through it */
+#define PRIMITIVE_SPHERE_BIT 0x40000000u /* lane holds a sphere: v0 = centre, e1x = radius, e2 = 0 */
+#define PRIMITIVE_INDEX_MASK 0x3fffffffu
+
+/* Inner node, 224 bytes. An empty slot has lower = +inf, upper = -inf, so no ray enters it. */
+typedef struct {
+    float lowerX[8], lowerY[8], lowerZ[8];
+    float upperX[8], upperY[8], upperZ[8];
+    unsigned int child[8];
+} BvhNode;
+
+/* Leaf block, 320 bytes: eight triangles p = v0 + u e1 + v e2. An unused lane is degenerate (all zero, primitive QL_NONE). */
+typedef struct {
+    float v0x[8], v0y[8], v0z[8];
+    float e1x[8], e1y[8], e1z[8];
+    float e2x[8], e2y[8], e2z[8];
+    unsigned int primitive[8]; /* index | PRIMITIVE_*_BIT */
+} PrimitiveBlock;
+
+/* What a primitive belongs to; indexed by primitive index. */
+typedef struct {
+    unsigned int shape; /* index into Shape records */
+    unsigned int patch; /* smooth surface component: primitives joined across edges flatter than the crease angle */
+} PrimitiveInfo;
+
+typedef struct {
+    unsigned int material;
+    unsigned int emitter;        /* index, or QL_NONE */
+    unsigned int firstPrimitive; /* primitives of a shape are consecutive */
+    unsigned int firstNormal;    /* index of its first corner normal (3 per triangle), or QL_NONE: flat */
+    float normalSign;            /* -1 where `flip_normals` is set */
+} Shape;
+
+/* A straight piece of a border of a surface patch: free edge, crease, or curve where another surface cuts it.
+ * The density estimate does not look across it (docs/density.md). */
+typedef struct {
+    Packed3 a, b;
+    unsigned int patchA, patchB; /* the patches that it bounds; QL_NONE where there is only one */
+} BorderSegment;
+
+/* ---- scattering ---------------------------------------------------------------------------------------------- */
+
+/* How a lobe scatters, by the law (kernels/law.clh). */
+#define SCATTER_GENUINE_DIFFUSE 1u
+#define SCATTER_QUASI_SPECULAR 2u
+#define SCATTER_SPECULAR 4u /* delta */
+
+/* One lobe of a BSDF. Which fields mean what is said in kernels/bsdf/<lobe>.clh; `type` is LOBE_* of kernels/bsdf/lobe_list.h. */
+typedef struct {
+    unsigned int type;
+    unsigned int scattering; /* SCATTER_* */
+    Rgb reflectance;         /* scale of the lobe, blend weight included */
+    Rgb transmittance;       /* scale of a transmitted part */
+    Rgb eta;                 /* real index of refraction relative to the outside, per channel; dielectric: .r only */
+    Rgb k;                   /* imaginary part */
+    float alphaU, alphaV;    /* microfacet roughness */
+    float exponent;          /* Phong */
+} Lobe;
+
+#define MATERIAL_NULL 1u
+/* Lobes seen from the side of the normal and from behind; a count of 0 is black. */
+typedef struct {
+    unsigned int frontFirst, frontCount;
+    unsigned int backFirst, backCount;
+    unsigned int flags;
+} Material;
+
+/* ---- emitters ------------------------------------------------------------------------------------------------- */
+
+#define EMITTER_RECTANGLE 0u /* emits on the side of `normal`; sampled by solid angle */
+#define EMITTER_TRIANGLES 1u /* any other mesh; sampled by area */
+#define EMITTER_SPHERE 2u    /* origin, radius; emits outwards (inwards if normalSign < 0); sampled by solid angle */
+#define EMITTER_POINT 3u     /* origin; radiance field holds the intensity in W sr^-1 */
+
+typedef struct {
+    unsigned int type;
+    unsigned int shape;   /* QL_NONE for a point */
+    Rgb radiance;         /* point: radiant intensity */
+    Packed3 origin;       /* rectangle: corner; sphere, point: centre */
+    Packed3 edgeU, edgeV; /* rectangle: sides, orthogonal */
+    Packed3 normal;       /* rectangle: unit normal of the emitting side */
+    float area;
+    float radius;
+    float normalSign;
+    float selectionProbability; /* in proportion to power */
+    float selectionCdf;         /* sum of the probabilities up to and including this emitter; last = 1 */
+    unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
+} Emitter;
+
+typedef struct {
+    Packed3 p0, e1, e2; /* the emitting side is the one of cross(e1, e2) */
+    float areaCdf;      /* share of the emitter's area up to and including this triangle; last = 1 */
+} EmitterTriangle;
+
+/* ---- sensor ---------------------------------------------------------------------------------------------------- */
+
+#define FILTER_BOX 0u
+#define FILTER_TENT 1u
+#define FILTER_GAUSSIAN 2u
+
+typedef struct {
+    Packed3 origin;
+    Packed3 corner;         /* direction to the upper left corner of the image, at depth 1 */
+    Packed3 stepX, stepY;   /* direction per pixel, to the right and down */
+    Packed3 forward;        /* unit */
+    float nearClip, farClip; /* depths along `forward` */
+    unsigned int width, height;
+    unsigned int filter;    /* FILTER_* */
+    float filterRadius;     /* pixels */
+    float filterStddev;     /* pixels, Gaussian only */
+} Camera;
+
+/* ---- light classes (kernels/law.clh) ----------------------------------------------------------------------------- */
+
+#define LIGHT_DIRECT 0u
+#define LIGHT_CAUSTIC 1u
+#define LIGHT_QUASI_CAUSTIC 2u
+#define LIGHT_DIFFUSE 3u
+#define LIGHT_CLASSES 4
+#define FILM_EMISSION 4u /* emitters seen straight or through specular events; a film component, not a photon class */
+#define FILM_COMPONENTS 5
+
+#ifdef __cplusplus
+} // namespace quasilux::shared
+#endif
+#endif
