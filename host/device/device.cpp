@@ -1,0 +1,118 @@
+#include "device/device.h"
+
+#include "util/error.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+std::vector<cl::Device> allDevices() {
+    std::vector<cl::Platform> platforms;
+    // Without any ICD the loader reports an error instead of an empty list: both mean "no device".
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return {};
+    }
+    std::vector<cl::Device> devices;
+    for (const auto& platform : platforms) {
+        std::vector<cl::Device> here;
+        try {
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &here);
+        } catch (const cl::Error&) {
+            continue; // a platform without devices (CL_DEVICE_NOT_FOUND)
+        }
+        devices.insert(devices.end(), here.begin(), here.end());
+    }
+    return devices;
+}
+
+DeviceInfo describe(const cl::Device& device) {
+    const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+    DeviceInfo info;
+    info.name = device.getInfo<CL_DEVICE_NAME>();
+    info.platform = platform.getInfo<CL_PLATFORM_NAME>();
+    info.version = device.getInfo<CL_DEVICE_VERSION>();
+    info.driver = device.getInfo<CL_DRIVER_VERSION>();
+    info.computeUnits = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    info.globalMemory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    info.maximumAllocation = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    info.isCpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
+    return info;
+}
+
+cl::Device pick(int index) {
+    const auto devices = allDevices();
+    if (devices.empty())
+        throw InputError("no OpenCL device found, expected at least one: install a runtime, such as the Debian package "
+                         "pocl-opencl-icd for the CPU");
+    if (index >= static_cast<int>(devices.size()) || index < -1)
+        throw InputError(fmt::format("--device {}: there are {} devices, expected 0 to {}; `quasilux devices` lists them",
+                                     index, devices.size(), devices.size() - 1));
+    if (index >= 0) return devices[static_cast<size_t>(index)];
+    for (const auto& device : devices)
+        if ((device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0) return device;
+    return devices.front();
+}
+
+} // namespace
+
+std::vector<DeviceInfo> listDevices() {
+    std::vector<DeviceInfo> list;
+    for (const auto& device : allDevices()) list.push_back(describe(device));
+    return list;
+}
+
+Device::Device(int index, unsigned workGroupSize) : workGroupSize_(workGroupSize) {
+    device_ = pick(index);
+    info_ = describe(device_);
+    try {
+        context_ = cl::Context(device_);
+        queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("device {}: {} failed with OpenCL error {}", info_.name, error.what(), error.err()));
+    }
+}
+
+cl::Buffer Device::allocate(size_t bytes, const std::string& label) {
+    constexpr double mib = 1024.0 * 1024.0;
+    if (bytes > info_.maximumAllocation)
+        throw DeviceError(fmt::format("buffer '{}' needs {:.1f} MiB, but device {} allows {:.1f} MiB in one allocation", label,
+                                      bytes / mib, info_.name, info_.maximumAllocation / mib));
+    try {
+        cl::Buffer buffer(context_, CL_MEM_READ_WRITE, bytes);
+        auto& known = allocations_[label];
+        allocated_ += bytes - known;
+        known = bytes;
+        return buffer;
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("buffer '{}' of {:.1f} MiB could not be allocated on device {} (OpenCL error {})", label,
+                                      bytes / mib, info_.name, error.err()));
+    }
+}
+
+void Device::finish() {
+    try {
+        queue_.finish();
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("device {}: running kernels failed with OpenCL error {}", info_.name, error.err()));
+    }
+}
+
+void Device::addTiming(const std::string& kernel, const cl::Event& event) { pending_.emplace_back(kernel, event); }
+
+const std::map<std::string, KernelTiming>& Device::timings() {
+    finish();
+    for (const auto& [kernel, event] : pending_) {
+        auto& timing = timings_[kernel];
+        ++timing.launches;
+        timing.seconds += 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                                     event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+    }
+    pending_.clear();
+    return timings_;
+}
+
+} // namespace quasilux

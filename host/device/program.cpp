@@ -1,0 +1,97 @@
+#include "device/program.h"
+
+#include "device/kernel_sources.h"
+#include "util/error.h"
+
+#include <chrono>
+#include <fmt/format.h>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace quasilux {
+
+namespace {
+
+using Sources = std::map<std::string, std::string>;
+
+const std::string& sourceText(const std::string& file, const Sources& extra) {
+    if (const auto found = extra.find(file); found != extra.end()) return found->second;
+    const auto& sources = kernelSources();
+    if (const auto found = sources.find(file); found != sources.end()) return found->second;
+    throw DeviceError(fmt::format("kernel source '{}' is not built in", file));
+}
+
+void join(const std::string& file, const Sources& extra, std::set<std::string>& seen, std::string& out) {
+    static const std::regex include(R"re(^\s*#include\s+"([^"]+)"\s*$)re");
+    if (!seen.insert(file).second) return;
+    out += fmt::format("#line 1 \"{}\"\n", file);
+    std::istringstream lines(sourceText(file, extra));
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        std::smatch match;
+        if (line.find("#include") != std::string::npos && std::regex_match(line, match, include)) {
+            join(match[1], extra, seen, out);
+            out += fmt::format("#line {} \"{}\"\n", number + 1, file);
+        } else {
+            out += line + '\n';
+        }
+    }
+}
+
+} // namespace
+
+std::string joinKernelSource(const std::string& file, const Sources& extra) {
+    std::set<std::string> seen;
+    std::string out;
+    join(file, extra, seen, out);
+    return out;
+}
+
+void Kernel::check(cl_int status, cl_uint index) {
+    if (status != CL_SUCCESS)
+        throw DeviceError(fmt::format("kernel {}: argument {} was refused (OpenCL error {})", name_, index, status));
+}
+
+void Kernel::enqueue(size_t count) {
+    if (count == 0) return;
+    const size_t group = device_->workGroupSize();
+    const size_t global = (count + group - 1) / group * group;
+    try {
+        cl::Event event;
+        device_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global), cl::NDRange(group), nullptr, &event);
+        device_->addTiming(name_, event);
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("kernel {} over {} work-items in groups of {} failed on device {} (OpenCL error {})",
+                                      name_, global, group, device_->info().name, error.err()));
+    }
+}
+
+Program::Program(Device& device, const std::string& file, const std::string& options, const Sources& extra)
+    : device_(&device), file_(file) {
+    const auto start = std::chrono::steady_clock::now();
+    program_ = cl::Program(device.context(), joinKernelSource(file, extra));
+    try {
+        // Fast-math stays off: it would let the compiler assume that there is no NaN or infinity.
+        program_.build(("-cl-std=CL1.2 " + options).c_str());
+    } catch (const cl::BuildError& error) {
+        std::string log;
+        for (const auto& [builtFor, text] : error.getBuildLog()) log += text;
+        throw DeviceError(fmt::format("kernels of {} do not build on device {} with options '{}':\n{}", file,
+                                      device.info().name, options, log));
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("kernels of {} do not build on device {} (OpenCL error {})", file, device.info().name,
+                                      error.err()));
+    }
+    buildSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Kernel Program::kernel(const std::string& name) {
+    try {
+        return Kernel(*device_, cl::Kernel(program_, name.c_str()), name);
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("{} holds no kernel '{}' (OpenCL error {})", file_, name, error.err()));
+    }
+}
+
+} // namespace quasilux

@@ -1,0 +1,16 @@
+// Runs kernels of tests/kernels/ on the device, with the same .clh files as the renderer.
+#pragma once
+
+#include "device/program.h"
+
+#include <string>
+
+namespace quasilux {
+
+/// The first device, shared by all tests of a program.
+Device& testDevice();
+
+/// Builds tests/kernels/`file`, which may include anything of kernels/.
+Program testProgram(const std::string& file, const std::string& options = "");
+
+} // namespace quasilux
