@@ -1,0 +1,204 @@
+// Runs Embree's binned-SAH builder with eight-wide nodes and eight-wide leaves, and flattens its tree
+// (docs/traversal.md).
+#include "prepare/bvh.h"
+
+#include "prepare/bvh_block.h"
+
+#include <algorithm>
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <new>
+
+namespace quasilux {
+namespace {
+
+constexpr size_t maximumPrimitives = size_t(PRIMITIVE_INDEX_MASK); // the mask itself is left to QL_NONE
+constexpr size_t maximumBlocks = size_t(BVH_LEAF_FIRST_MASK) + 1;
+
+/// What Embree's builder makes of the tree before it is flattened; lives in Embree's own arena.
+struct BuildItem {
+    unsigned count; // children, or primitives of a leaf
+    bool isLeaf;
+    unsigned primitive[BVH_WIDTH]; // leaf only
+    BuildItem* child[BVH_WIDTH];   // inner node only
+    RTCBounds bounds[BVH_WIDTH];   // inner node only
+};
+
+BuildItem* allocateItem(RTCThreadLocalAllocator allocator) {
+    return new (rtcThreadLocalAlloc(allocator, sizeof(BuildItem), 16)) BuildItem;
+}
+
+void* createNode(RTCThreadLocalAllocator allocator, unsigned childCount, void*) {
+    BuildItem* item = allocateItem(allocator);
+    item->isLeaf = false;
+    item->count = childCount;
+    return item;
+}
+
+void setChildren(void* node, void** children, unsigned childCount, void*) {
+    for (unsigned i = 0; i < childCount; ++i)
+        static_cast<BuildItem*>(node)->child[i] = static_cast<BuildItem*>(children[i]);
+}
+
+void setBounds(void* node, const RTCBounds** bounds, unsigned childCount, void*) {
+    for (unsigned i = 0; i < childCount; ++i) static_cast<BuildItem*>(node)->bounds[i] = *bounds[i];
+}
+
+void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count, void*) {
+    BuildItem* item = allocateItem(allocator);
+    item->isLeaf = true;
+    item->count = unsigned(count);
+    for (size_t i = 0; i < count; ++i) item->primitive[i] = primitives[i].primID;
+    // The builder's threads leave the order open; lanes in order of index make the tree the same every time.
+    std::sort(item->primitive, item->primitive + count);
+    return item;
+}
+
+RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, size_t count) {
+    RTCBuildArguments arguments = rtcDefaultBuildArguments();
+    arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
+    arguments.maxBranchingFactor = BVH_WIDTH;
+    // Minimum = maximum = block size: with smaller leaves allowed, half of the lanes stay empty.
+    arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = BVH_WIDTH;
+    arguments.bvh = bvh;
+    arguments.primitives = primitives.data();
+    arguments.primitiveCount = count;
+    arguments.primitiveArrayCapacity = primitives.size();
+    arguments.createNode = createNode;
+    arguments.setNodeChildren = setChildren;
+    arguments.setNodeBounds = setBounds;
+    arguments.createLeaf = createLeaf;
+    return arguments;
+}
+
+shared::BvhNode emptyNode() {
+    shared::BvhNode node;
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (float* lower : {node.lowerX, node.lowerY, node.lowerZ}) std::fill_n(lower, BVH_WIDTH, infinity);
+    for (float* upper : {node.upperX, node.upperY, node.upperZ}) std::fill_n(upper, BVH_WIDTH, -infinity);
+    std::fill_n(node.child, BVH_WIDTH, 0u);
+    return node;
+}
+
+void setSlot(shared::BvhNode& node, unsigned slot, const RTCBounds& bounds) {
+    node.lowerX[slot] = bounds.lower_x;
+    node.lowerY[slot] = bounds.lower_y;
+    node.lowerZ[slot] = bounds.lower_z;
+    node.upperX[slot] = bounds.upper_x;
+    node.upperY[slot] = bounds.upper_y;
+    node.upperZ[slot] = bounds.upper_z;
+}
+
+RTCBounds unionOf(const std::vector<RTCBuildPrimitive>& primitives) {
+    RTCBounds all{};
+    all.lower_x = all.lower_y = all.lower_z = std::numeric_limits<float>::infinity();
+    all.upper_x = all.upper_y = all.upper_z = -std::numeric_limits<float>::infinity();
+    for (const RTCBuildPrimitive& primitive : primitives) {
+        all.lower_x = std::min(all.lower_x, primitive.lower_x);
+        all.lower_y = std::min(all.lower_y, primitive.lower_y);
+        all.lower_z = std::min(all.lower_z, primitive.lower_z);
+        all.upper_x = std::max(all.upper_x, primitive.upper_x);
+        all.upper_y = std::max(all.upper_y, primitive.upper_y);
+        all.upper_z = std::max(all.upper_z, primitive.upper_z);
+    }
+    return all;
+}
+
+/// Turns the builder's tree into nodes and blocks, depth first.
+class Flattener {
+public:
+    Flattener(const std::vector<BvhPrimitive>& primitives, Bvh& bvh) : primitives_(primitives), bvh_(bvh) {}
+
+    /// Appends `item` and what lies below it; returns the reference that a parent's slot holds.
+    unsigned append(const BuildItem& item, unsigned depth) {
+        if (item.isLeaf) return appendLeaf(item);
+        const unsigned index = unsigned(bvh_.nodes.size());
+        bvh_.depth = std::max(bvh_.depth, depth);
+        bvh_.nodes.push_back(emptyNode());
+        for (unsigned slot = 0; slot < item.count; ++slot) {
+            setSlot(bvh_.nodes[index], slot, item.bounds[slot]);
+            const unsigned reference = append(*item.child[slot], depth + 1);
+            bvh_.nodes[index].child[slot] = reference;
+        }
+        return index;
+    }
+
+private:
+    unsigned appendLeaf(const BuildItem& item) {
+        const size_t block = bvh_.blocks.size();
+        if (block >= maximumBlocks)
+            throw InputError(
+                fmt::format("the scene has too many primitives ({}): the tree holds at most {} blocks of up "
+                            "to {}; simplify the meshes or split the scene",
+                            primitives_.size(), maximumBlocks, BVH_WIDTH));
+        bvh_.blocks.push_back(makeBlock(primitives_, item.primitive, item.count));
+        return BVH_LEAF_BIT | unsigned(block); // one block: (blocks - 1) << BVH_LEAF_COUNT_SHIFT is 0
+    }
+
+    const std::vector<BvhPrimitive>& primitives_;
+    Bvh& bvh_;
+};
+
+struct EmbreeRelease {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
+};
+
+/// Bounds in the builder's form; its array has room to spare, as the builder asks for.
+std::vector<RTCBuildPrimitive> buildPrimitives(const std::vector<BvhPrimitive>& primitives) {
+    std::vector<RTCBuildPrimitive> result(primitives.size());
+    for (size_t i = 0; i < primitives.size(); ++i) {
+        const PrimitiveBounds bounds = boundsOf(primitives[i], i);
+        result[i] = {bounds.lower.x, bounds.lower.y, bounds.lower.z, 0,
+                     bounds.upper.x, bounds.upper.y, bounds.upper.z, unsigned(i)};
+    }
+    return result;
+}
+
+} // namespace
+
+Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
+    Bvh bvh;
+    if (primitives.size() > maximumPrimitives)
+        throw InputError(
+            fmt::format("the scene has {} primitives; at most {} fit. Simplify the meshes or split the scene",
+                        primitives.size(), maximumPrimitives));
+    if (primitives.empty()) {
+        bvh.nodes.push_back(emptyNode());
+        return bvh;
+    }
+    std::vector<RTCBuildPrimitive> bounded = buildPrimitives(primitives);
+    const RTCBounds all = unionOf(bounded);
+
+    const std::unique_ptr<RTCDeviceTy, EmbreeRelease> device(rtcNewDevice(nullptr));
+    if (!device)
+        throw std::runtime_error(fmt::format("Embree did not start (error {})", int(rtcGetDeviceError(nullptr))));
+    const std::unique_ptr<RTCBVHTy, EmbreeRelease> arena(rtcNewBVH(device.get()));
+    const RTCBuildArguments arguments = buildArguments(arena.get(), bounded, bounded.size());
+    const BuildItem* root = static_cast<const BuildItem*>(rtcBuildBVH(&arguments));
+    if (!root)
+        throw std::runtime_error(fmt::format("Embree could not build the tree over {} primitives (error {})",
+                                             primitives.size(), int(rtcGetDeviceError(device.get()))));
+
+    Flattener flattener(primitives, bvh);
+    if (root->isLeaf) {
+        bvh.nodes.push_back(emptyNode());
+        setSlot(bvh.nodes[0], 0, all);
+        const unsigned reference = flattener.append(*root, 1);
+        bvh.nodes[0].child[0] = reference;
+    } else {
+        flattener.append(*root, 1);
+    }
+    return bvh;
+}
+
+std::string bvhOptions(const Bvh& bvh) {
+    // Each inner node on the way leaves at most BVH_WIDTH - 1 children behind; one more while they are being sorted.
+    const unsigned bound = (BVH_WIDTH - 1) * bvh.depth + 1;
+    constexpr unsigned step = 32;
+    return fmt::format("-DBVH_STACK_SIZE={}", (bound + step - 1) / step * step);
+}
+
+} // namespace quasilux

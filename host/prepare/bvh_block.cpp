@@ -1,0 +1,93 @@
+// Primitives as the traversal kernels test them: blocks of eight, and boxes that surely hold them.
+#include "prepare/bvh_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace quasilux {
+namespace {
+
+// The triangle test multiplies three lengths: 1e12 cubed leaves a factor of 300 to the largest float.
+constexpr float largestCoordinate = 1e12f;
+
+bool isUsable(const glm::vec3& v) {
+    return std::abs(v.x) <= largestCoordinate && std::abs(v.y) <= largestCoordinate &&
+           std::abs(v.z) <= largestCoordinate;
+}
+
+/// The float at or below (above) `value`.
+float roundDown(double value) {
+    const float nearest = float(value);
+    return double(nearest) <= value ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+}
+float roundUp(double value) { return -roundDown(-value); }
+
+PrimitiveBounds sphereBounds(const glm::vec3& center, float radius) {
+    PrimitiveBounds bounds{};
+    for (int axis = 0; axis < 3; ++axis) {
+        bounds.lower[axis] = roundDown(double(center[axis]) - radius);
+        bounds.upper[axis] = roundUp(double(center[axis]) + radius);
+    }
+    return bounds;
+}
+
+/// A block keeps v0 and the rounded edges, so a corner may lie half an ulp beside the one that was given.
+PrimitiveBounds triangleBounds(const BvhPrimitive& primitive) {
+    PrimitiveBounds bounds{glm::min(glm::min(primitive.v0, primitive.v1), primitive.v2),
+                           glm::max(glm::max(primitive.v0, primitive.v1), primitive.v2)};
+    for (const glm::vec3& edge : {primitive.v1 - primitive.v0, primitive.v2 - primitive.v0})
+        for (int axis = 0; axis < 3; ++axis) {
+            const double corner = double(primitive.v0[axis]) + edge[axis];
+            bounds.lower[axis] = std::min(bounds.lower[axis], roundDown(corner));
+            bounds.upper[axis] = std::max(bounds.upper[axis], roundUp(corner));
+        }
+    return bounds;
+}
+
+/// Edges that are parallel within rounding span no area: their cross product would be noise, and so would t be.
+bool isDegenerate(const glm::vec3& e1, const glm::vec3& e2) {
+    constexpr double smallestSine = 4e-7;
+    const glm::dvec3 a(e1), b(e2);
+    return glm::length(glm::cross(a, b)) <= smallestSine * glm::length(a) * glm::length(b);
+}
+
+} // namespace
+
+PrimitiveBounds boundsOf(const BvhPrimitive& primitive, size_t index) {
+    const bool usable = primitive.isSphere ? isUsable(primitive.v0) && std::abs(primitive.v1.x) <= largestCoordinate
+                                           : isUsable(primitive.v0) && isUsable(primitive.v1) && isUsable(primitive.v2);
+    if (!usable)
+        throw InputError(
+            fmt::format("primitive {} of the scene ({}) has a coordinate that is not finite or exceeds {:g}; "
+                        "check the mesh and its to_world transform",
+                        index, primitive.isSphere ? "a sphere" : "a triangle", largestCoordinate));
+    return primitive.isSphere ? sphereBounds(primitive.v0, std::abs(primitive.v1.x)) : triangleBounds(primitive);
+}
+
+shared::PrimitiveBlock makeBlock(const std::vector<BvhPrimitive>& primitives, const unsigned* indices, unsigned count) {
+    shared::PrimitiveBlock block{};
+    std::fill_n(block.primitive, BVH_WIDTH, QL_NONE);
+    for (unsigned lane = 0; lane < count; ++lane) {
+        const BvhPrimitive& primitive = primitives[indices[lane]];
+        const bool sphere = primitive.isSphere;
+        glm::vec3 e1 = sphere ? glm::vec3(std::abs(primitive.v1.x), 0, 0) : primitive.v1 - primitive.v0;
+        glm::vec3 e2 = sphere ? glm::vec3(0) : primitive.v2 - primitive.v0;
+        if (!sphere && isDegenerate(e1, e2)) e1 = e2 = glm::vec3(0);
+        block.v0x[lane] = primitive.v0.x;
+        block.v0y[lane] = primitive.v0.y;
+        block.v0z[lane] = primitive.v0.z;
+        block.e1x[lane] = e1.x;
+        block.e1y[lane] = e1.y;
+        block.e1z[lane] = e1.z;
+        block.e2x[lane] = e2.x;
+        block.e2y[lane] = e2.y;
+        block.e2z[lane] = e2.z;
+        block.primitive[lane] =
+            indices[lane] | (sphere ? PRIMITIVE_SPHERE_BIT : 0u) | (primitive.isNull ? PRIMITIVE_NULL_BIT : 0u);
+    }
+    return block;
+}
+
+} // namespace quasilux

@@ -1,0 +1,30 @@
+/* Rays of a buffer (8 floats each: origin, direction, tMin, tMax) through kernels/bvh.clh. */
+#include "bvh.clh"
+
+inline Ray loadRay(__global const float* rays, size_t i) {
+    const float8 values = vload8(i, rays);
+    Ray ray;
+    ray.origin = values.s012;
+    ray.direction = values.s345;
+    ray.tMin = values.s6;
+    ray.tMax = values.s7;
+    return ray;
+}
+
+__kernel void closestHits(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                          __global const float* rays, __global Hit* hits, uint count) {
+    const size_t i = get_global_id(0);
+    if (i < count) hits[i] = intersectClosest(nodes, blocks, loadRay(rays, i));
+}
+
+__kernel void closestOpaqueHits(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                                __global const float* rays, __global Hit* hits, uint count) {
+    const size_t i = get_global_id(0);
+    if (i < count) hits[i] = intersectClosestOpaque(nodes, blocks, loadRay(rays, i));
+}
+
+__kernel void occlusion(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                        __global const float* rays, __global uint* isOccluded, uint count) {
+    const size_t i = get_global_id(0);
+    if (i < count) isOccluded[i] = occluded(nodes, blocks, loadRay(rays, i));
+}
