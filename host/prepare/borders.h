@@ -1,4 +1,5 @@
-// Smooth patches of the surfaces and the straight segments that border them, for the density estimate (docs/density.md).
+// Smooth patches of the surfaces and the straight segments that border them, for the density estimate
+// (docs/density.md).
 #pragma once
 
 #include "scene/scene.h"
@@ -8,22 +9,34 @@
 namespace quasilux {
 
 struct SurfaceBorders {
-    std::vector<unsigned> patchOfPrimitive;       ///< by primitive index (shapes in order, triangles in order; a sphere is one)
+    std::vector<unsigned>
+        patchOfPrimitive; ///< by primitive index (shapes in order, triangles in order; a sphere is one)
     unsigned patchCount = 0;
-    std::vector<shared::BorderSegment> segments;  ///< free edges, creases, and curves where other surfaces cut or touch
-    struct Grid {                                 ///< uniform grid over the segments: which may lie within `reach` of a cell
+    std::vector<float> patchCurvature; ///< by patch, 1/scene unit: larger principal curvature that 90 % of its area
+                                       ///< stays below; 0 = flat
+    std::vector<shared::BorderSegment> segments; ///< free edges, creases, and curves where other surfaces cut
+    struct Grid { ///< uniform grid over the segments: which may lie within `reach` of a cell
         glm::vec3 lower{};
         float cellSize = 1;
         glm::uvec3 cells{1};
-        std::vector<unsigned> cellStart;  ///< cells.x*cells.y*cells.z + 1 offsets into `items`
-        std::vector<unsigned> items;      ///< segment indices
+        std::vector<unsigned>
+            cellStart; ///< cells.x*cells.y*cells.z + 1 offsets into `items`; cell (z*cells.y + y)*cells.x + x
+        std::vector<unsigned> items; ///< segment indices, rising within a cell
     };
 };
 
-/// Finds them. Edges flatter than `creaseAngle` (radians) join a patch; so do coincident vertices within rounding.
+/// Finds them. Triangles, also of different shapes, join a patch across an edge that exactly two of them share, with
+/// the same orientation and normals less than `creaseAngle` (radians) apart; vertices that coincide within float
+/// rounding are one, and so are triangles with the same three vertices. Every other edge is a segment, once (several
+/// times only where more than two patches meet: each is named). Where a surface passes through another, or through
+/// itself, the curve of intersection is a segment of both; circles on spheres become chords, 32 to the full turn.
+/// Surfaces that only touch add none, as the edges of one of them are segments already. Edges that overlap without
+/// matching vertex by vertex (T-junctions) stay segments, also inside a plane: the estimate there is right, only
+/// noisier. A shape of a `null` bsdf is one patch without segments, and cuts nothing. Positions must be finite.
 SurfaceBorders findBorders(const Scene& scene, double creaseAngle = 0.35);
 
-/// Grid for points that look no further than `reach`: a point's own cell lists every segment within `reach` of it.
+/// Grid for points that look no further than `reach` (> 0, finite, scene units): a point's own cell lists every segment
+/// within `reach` of it, and a point outside the grid has none. At most about 2e6 cells, of at least `reach`.
 SurfaceBorders::Grid indexBorders(const SurfaceBorders& borders, float reach);
 
 } // namespace quasilux

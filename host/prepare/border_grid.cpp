@@ -1,0 +1,114 @@
+// Uniform grid over the border segments: count, prefix sum, scatter.
+#include "prepare/borders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quasilux {
+namespace {
+
+constexpr double maximumCells = 2e6;
+
+struct Box {
+    glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
+};
+
+glm::dvec3 point(const shared::Packed3& p) { return {p.x, p.y, p.z}; }
+
+Box boundsOf(const std::vector<shared::BorderSegment>& segments) {
+    Box box;
+    for (const shared::BorderSegment& segment : segments) {
+        box.lower = glm::min(box.lower, glm::min(point(segment.a), point(segment.b)));
+        box.upper = glm::max(box.upper, glm::max(point(segment.a), point(segment.b)));
+    }
+    return box;
+}
+
+/// Half-width of a cell's neighbourhood: `reach`, and what a point's cell may be off by if computed in floats.
+double safeReach(const Box& box, double reach) {
+    const glm::dvec3 largest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+    return 1.001 * reach + 1e-6 * std::max({largest.x, largest.y, largest.z});
+}
+
+/// Cell size from `reach` up that keeps the number of cells within bounds.
+void chooseCells(const glm::dvec3& extent, double reach, SurfaceBorders::Grid& grid) {
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    double cellSize = std::max({reach, longest * 1e-6, double(std::numeric_limits<float>::min())});
+    const auto cellsOf = [&] { return glm::max(glm::ceil(extent / double(float(cellSize))), glm::dvec3(1.0)); };
+    glm::dvec3 cells = cellsOf();
+    while (cells.x * cells.y * cells.z > maximumCells) {
+        cellSize *= 1.05;
+        cells = cellsOf();
+    }
+    grid.cellSize = float(cellSize);
+    grid.cells = glm::uvec3(cells);
+}
+
+double distanceToSegment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 along = b - a;
+    const double square = glm::dot(along, along);
+    const double t = square > 0 ? std::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0;
+    return glm::distance(p, a + t * along);
+}
+
+/// Whether the segment meets the box of half-width `half` about `center`.
+bool meetsBox(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& center, double half) {
+    double enter = 0, leave = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double from = a[axis] - center[axis], along = b[axis] - a[axis];
+        if (along == 0) {
+            if (std::abs(from) > half) return false;
+            continue;
+        }
+        const double t0 = (-half - from) / along, t1 = (half - from) / along;
+        enter = std::max(enter, std::min(t0, t1));
+        leave = std::min(leave, std::max(t0, t1));
+    }
+    return enter <= leave;
+}
+
+/// Calls visit(cell index) for the cells whose box may lie within `reach` of the segment: both the cell's box widened
+/// by `reach` and the ball about it widened by `reach` must meet the segment.
+template <typename Visit>
+void forEachCellNear(const shared::BorderSegment& segment, double reach, const SurfaceBorders::Grid& grid,
+                     const Visit& visit) {
+    const glm::dvec3 a = point(segment.a), b = point(segment.b), lower(grid.lower);
+    const double size = grid.cellSize, half = 0.5 * size + reach, ball = 0.5 * std::sqrt(3.0) * size + reach;
+    const glm::dvec3 last = glm::dvec3(grid.cells) - 1.0;
+    const glm::uvec3 from(glm::clamp(glm::floor((glm::min(a, b) - reach - lower) / size), glm::dvec3(0.0), last));
+    const glm::uvec3 to(glm::clamp(glm::floor((glm::max(a, b) + reach - lower) / size), glm::dvec3(0.0), last));
+    for (unsigned z = from.z; z <= to.z; ++z)
+        for (unsigned y = from.y; y <= to.y; ++y)
+            for (unsigned x = from.x; x <= to.x; ++x) {
+                const glm::dvec3 center = lower + (glm::dvec3(x, y, z) + 0.5) * size;
+                if (meetsBox(a, b, center, half) && distanceToSegment(center, a, b) <= ball)
+                    visit((size_t(z) * grid.cells.y + y) * grid.cells.x + x);
+            }
+}
+
+} // namespace
+
+SurfaceBorders::Grid indexBorders(const SurfaceBorders& borders, float reach) {
+    SurfaceBorders::Grid grid;
+    if (borders.segments.empty()) {
+        grid.cellStart.assign(2, 0);
+        return grid;
+    }
+    const Box box = boundsOf(borders.segments);
+    const double safe = safeReach(box, reach);
+    grid.lower = glm::vec3(box.lower - safe);
+    chooseCells(box.upper + safe - glm::dvec3(grid.lower), reach, grid);
+
+    grid.cellStart.assign(size_t(grid.cells.x) * grid.cells.y * grid.cells.z + 1, 0);
+    for (const shared::BorderSegment& segment : borders.segments)
+        forEachCellNear(segment, safe, grid, [&](size_t cell) { ++grid.cellStart[cell + 1]; });
+    for (size_t cell = 1; cell < grid.cellStart.size(); ++cell) grid.cellStart[cell] += grid.cellStart[cell - 1];
+    grid.items.resize(grid.cellStart.back());
+    std::vector<unsigned> next(grid.cellStart.begin(), grid.cellStart.end() - 1);
+    for (unsigned i = 0; i < borders.segments.size(); ++i)
+        forEachCellNear(borders.segments[i], safe, grid, [&](size_t cell) { grid.items[next[cell]++] = i; });
+    return grid;
+}
+
+} // namespace quasilux
