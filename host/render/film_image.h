@@ -21,7 +21,15 @@ struct FilmImage {
 /// Layer name of a component: "direct", "caustic", "quasi_caustic", "diffuse", "emission".
 std::string componentName(unsigned component);
 
-/// Mean over pixels of luminance standard error / luminance, each denominator at least 1 % of the mean luminance.
+/// Over pixels, of luminance standard error / luminance, each denominator at least 1 % of the mean luminance.
+/// Infinity where fewer than two passes tell nothing of the error; 0 for a black image.
+struct RelativeError {
+    double mean = 0;
+    double percentile95 = 0;
+};
+RelativeError relativeError(const FilmImage& image);
+
+/// relativeError().mean: what the stop rule looks at.
 double meanRelativeError(const FilmImage& image);
 
 } // namespace quasilux

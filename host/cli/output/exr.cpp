@@ -1,0 +1,102 @@
+#include "output/exr.h"
+
+#include "output/atomic_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace quasilux {
+
+namespace {
+
+struct Layer {
+    std::string prefix; ///< of the channel names, such as "direct."
+    const std::vector<float>* rgb;
+};
+
+std::vector<Layer> layersOf(const FilmImage& image) {
+    std::vector<Layer> layers{{"", &image.radiance}};
+    for (unsigned i = 0; i < FILM_COMPONENTS; ++i)
+        if (!image.components[i].empty()) layers.push_back({componentName(i) + ".", &image.components[i]});
+    if (!image.standardError.empty()) layers.push_back({"stderr.", &image.standardError});
+
+    const size_t expected = size_t{image.width} * image.height * 3;
+    for (const auto& layer : layers)
+        if (expected == 0 || layer.rgb->size() != expected)
+            throw std::runtime_error("layer '" + layer.prefix + "' of the image has " +
+                                     std::to_string(layer.rgb->size()) + " values, expected " +
+                                     std::to_string(expected));
+    return layers;
+}
+
+void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
+    const RenderSettings& settings = record.settings;
+    const auto text = [&](const char* key, const std::string& value) {
+        spec.attribute(std::string("quasilux:") + key, value);
+    };
+    const auto whole = [&](const char* key, uint64_t value) {
+        spec.attribute(std::string("quasilux:") + key, static_cast<int>(std::min<uint64_t>(value, INT32_MAX)));
+    };
+    const auto real = [&](const char* key, double value) {
+        spec.attribute(std::string("quasilux:") + key, static_cast<float>(value));
+    };
+    spec.attribute("Software", "quasilux " + record.version);
+    text("version", record.version);
+    text("scene", record.scene);
+    text("device", record.device.name);
+    text("driver", record.device.driver);
+    whole("bdd", settings.bdd);
+    text("variant", name(settings.variant));
+    text("direct", name(settings.direct));
+    text("quasiSpecular", settings.quasiSpecular);
+    text("kernels", settings.genericKernels ? "generic" : "scene");
+    text("seed", std::to_string(settings.seed)); // 64 bits: a header holds no whole number that large
+    whole("photonsPerPass", record.photonsPerPass());
+    real("radiusScale", settings.radiusScale);
+    whole("passes", record.counters.passes);
+    text("nonFinite", std::to_string(record.counters.nonFinite));
+    real("seconds", record.counters.renderSeconds);
+    if (std::isfinite(record.error.mean)) real("relativeError", record.error.mean);
+}
+
+/// Interleaves the layers a few rows at a time: with all layers at once a large image would take gigabytes.
+bool writeRows(OIIO::ImageOutput& output, const FilmImage& image, const std::vector<Layer>& layers) {
+    constexpr unsigned rowsAtOnce = 64; // a multiple of the 16 rows that zip packs together
+    const size_t channels = 3 * layers.size();
+    for (unsigned first = 0; first < image.height; first += rowsAtOnce) {
+        const unsigned end = std::min(first + rowsAtOnce, image.height);
+        const size_t firstPixel = size_t{first} * image.width, pixels = size_t{end - first} * image.width;
+        std::vector<float> rows(pixels * channels);
+        for (size_t l = 0; l < layers.size(); ++l)
+            for (size_t i = 0; i < pixels; ++i)
+                std::copy_n(&(*layers[l].rgb)[3 * (firstPixel + i)], 3, &rows[i * channels + 3 * l]);
+        if (!output.write_scanlines(static_cast<int>(first), static_cast<int>(end), 0, OIIO::TypeDesc::FLOAT,
+                                    rows.data()))
+            return false;
+    }
+    return true;
+}
+
+} // namespace
+
+void writeExr(const std::string& path, const FilmImage& image, const RenderRecord& record) {
+    const auto layers = layersOf(image);
+    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
+                         static_cast<int>(3 * layers.size()), OIIO::TypeDesc::FLOAT);
+    spec.channelnames.clear();
+    for (const auto& layer : layers)
+        for (const char* channel : {"R", "G", "B"}) spec.channelnames.push_back(layer.prefix + channel);
+    spec.attribute("compression", "zip");
+    describe(spec, record);
+
+    AtomicFile file(path);
+    const auto output = OIIO::ImageOutput::create("openexr"); // by format: the temporary name ends in .tmp
+    if (!output) throw std::runtime_error("cannot write " + path + ": " + OIIO::geterror());
+    if (!output->open(file.temporary(), spec) || !writeRows(*output, image, layers) || !output->close())
+        throw std::runtime_error("cannot write " + path + ": " + output->geterror());
+    file.commit();
+}
+
+} // namespace quasilux

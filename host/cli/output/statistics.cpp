@@ -1,0 +1,122 @@
+#include "output/statistics.h"
+
+#include "output/atomic_file.h"
+
+#include <fstream>
+#include <stdexcept>
+
+namespace quasilux {
+
+using nlohmann::json;
+
+namespace {
+
+template <typename T>
+json orNull(const std::optional<T>& value) {
+    return value ? json(*value) : json(nullptr);
+}
+
+json countersJson(const RenderCounters& counters) {
+    return {{"passes", counters.passes},
+            {"photonsEmitted", counters.photonsEmitted},
+            {"photonsStored", counters.photonsStored},
+            {"cameraPaths", counters.cameraPaths},
+            {"nonFinite", counters.nonFinite},
+            {"cutPaths", counters.cutPaths},
+            {"fluxEmitted", counters.fluxEmitted},
+            {"fluxCut", counters.fluxCut}};
+}
+
+json kernelsJson(const std::map<std::string, KernelTiming>& kernels) {
+    json rows = json::object();
+    for (const auto& [kernel, timing] : kernels)
+        rows[kernel] = {{"launches", timing.launches}, {"seconds", timing.seconds}};
+    return rows;
+}
+
+json phasesJson(const RenderRecord& record) {
+    return {{"load", record.loadSeconds},
+            {"prepare", record.counters.prepareSeconds},
+            {"compile", record.counters.compileSeconds},
+            {"firstPass", record.counters.firstPassSeconds},
+            {"render", record.counters.renderSeconds},
+            {"write", record.writeSeconds}};
+}
+
+} // namespace
+
+json deviceJson(const DeviceInfo& device) {
+    return {{"name", device.name},
+            {"platform", device.platform},
+            {"version", device.version},
+            {"driver", device.driver},
+            {"computeUnits", device.computeUnits},
+            {"globalMemory", device.globalMemory},
+            {"maximumAllocation", device.maximumAllocation},
+            {"isCpu", device.isCpu}};
+}
+
+json settingsJson(const RenderSettings& settings) {
+    return {{"bdd", settings.bdd},
+            {"variant", name(settings.variant)},
+            {"direct", name(settings.direct)},
+            {"quasiSpecular", settings.quasiSpecular},
+            {"quasiSpecularFromCommandLine", settings.quasiSpecularFromCommandLine},
+            {"photonsPerPass", settings.photonsPerPass},
+            {"seed", settings.seed},
+            {"radiusScale", settings.radiusScale},
+            {"kernels", settings.genericKernels ? "generic" : "scene"}};
+}
+
+json sceneReportJson(const SceneReport& report) {
+    json emitters = json::array(), lobes = json::array();
+    for (const auto& row : report.emitters)
+        emitters.push_back({{"id", row.id}, {"type", row.type}, {"power", row.power}});
+    for (const auto& row : report.lobes)
+        lobes.push_back({{"bsdf", row.bsdf}, {"lobe", row.lobe}, {"scattering", row.scattering}, {"why", row.why}});
+    return {{"triangles", report.triangles},
+            {"spheres", report.spheres},
+            {"patches", report.patches},
+            {"borderSegments", report.borderSegments},
+            {"features", report.features},
+            {"emitters", emitters},
+            {"lobes", lobes},
+            {"photonClasses", report.photonClasses},
+            {"bufferBytes", report.bufferBytes},
+            {"photonsPerPass", report.photonsPerPass},
+            {"initialRadius", report.initialRadius}};
+}
+
+json statisticsJson(const RenderRecord& record, const FilmImage& image) {
+    json device = deviceJson(record.device);
+    device["workGroupSize"] = record.workGroupSize;
+    // nlohmann writes infinity, an unknown error, as null.
+    return {{"version", record.version},
+            {"scene", record.scene},
+            {"image", {{"width", image.width}, {"height", image.height}}},
+            {"settings", settingsJson(record.settings)},
+            {"stop",
+             {{"seconds", orNull(record.stop.seconds)},
+              {"passes", orNull(record.stop.passes)},
+              {"relativeError", orNull(record.stop.relativeError)},
+              {"interrupted", record.interrupted}}},
+            {"device", device},
+            {"sceneReport", sceneReportJson(record.report)},
+            {"counters", countersJson(record.counters)},
+            {"error", {{"meanRelative", record.error.mean}, {"percentile95Relative", record.error.percentile95}}},
+            {"kernels", kernelsJson(record.kernels)},
+            {"phases", phasesJson(record)},
+            {"peakBufferBytes", record.peakBufferBytes}};
+}
+
+void writeJson(const std::string& path, const json& value) {
+    AtomicFile file(path);
+    std::ofstream stream(file.temporary());
+    // Names come from files and drivers: bytes that are not UTF-8 are replaced instead of ending the program.
+    stream << value.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
+    stream.close();
+    if (!stream) throw std::runtime_error("cannot write " + path);
+    file.commit();
+}
+
+} // namespace quasilux

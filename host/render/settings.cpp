@@ -1,0 +1,41 @@
+// Names of the settings, and what a scene file says of them.
+#include "render/settings.h"
+
+#include "util/nearest.h"
+
+namespace quasilux {
+
+RenderSettings settingsFromScene(const Scene& scene) {
+    const SceneSettings& said = scene.settings;
+    RenderSettings settings;
+    try {
+        if (said.bdd) settings.bdd = *said.bdd;
+        if (said.variant) settings.variant = parseVariant(*said.variant);
+        if (said.direct) settings.direct = parseDirect(*said.direct);
+        if (said.quasiSpecular) settings.quasiSpecular = *said.quasiSpecular;
+        if (said.photons) settings.photonsPerPass = *said.photons;
+        if (said.seed) settings.seed = *said.seed;
+    } catch (const InputError& error) {
+        throw InputError({scene.path}, error.what());
+    }
+    return settings;
+}
+
+const char* name(Variant variant) { return variant == Variant::main ? "main" : "alternative"; }
+
+const char* name(DirectLight direct) { return direct == DirectLight::emitters ? "emitters" : "photons"; }
+
+Variant parseVariant(const std::string& text) {
+    if (text == "main") return Variant::main;
+    if (text == "alternative") return Variant::alternative;
+    throw InputError("unknown variant '" + text + "', " + expectedNames(text, {"main", "alternative"}));
+}
+
+DirectLight parseDirect(const std::string& text) {
+    if (text == "emitters") return DirectLight::emitters;
+    if (text == "photons") return DirectLight::photons;
+    throw InputError("unknown way to estimate direct light '" + text + "', " +
+                     expectedNames(text, {"emitters", "photons"}));
+}
+
+} // namespace quasilux
