@@ -1,0 +1,93 @@
+#include "cli/info_command.h"
+
+#include "cli/interrupt.h"
+#include "cli/text_table.h"
+#include "output/progress_line.h"
+#include "output/statistics.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace quasilux {
+
+namespace {
+
+std::string orNone(const std::vector<std::string>& items) {
+    return items.empty() ? "none" : fmt::format("{}", fmt::join(items, ", "));
+}
+
+void printGeometry(const SceneReport& report) {
+    fmt::print("geometry: {} triangles, {} spheres, {} smooth patches, {} border segments\n", report.triangles,
+               report.spheres, report.patches, report.borderSegments);
+    fmt::print("features: {}\n", orNone(report.features));
+    fmt::print("photon classes stored: {}\n", orNone(report.photonClasses));
+    fmt::print("photons per pass: {}\n", report.photonsPerPass);
+}
+
+void printEmitters(const SceneReport& report) {
+    TextTable table({"emitter", "type", "power (W)"});
+    for (const auto& row : report.emitters) table.add({row.id, row.type, fmt::format("{:.6g}", row.power)});
+    fmt::print("\n{}", table.text());
+}
+
+void printLobes(const SceneReport& report) {
+    TextTable table({"bsdf", "lobe", "scattering", "why"});
+    for (const auto& row : report.lobes) table.add({row.bsdf, row.lobe, row.scattering, row.why});
+    fmt::print("\n{}", table.text());
+}
+
+void printRadii(const SceneReport& report) {
+    if (report.initialRadius.empty()) return;
+    TextTable table({"photon class", "initial radius (scene units)"});
+    for (const auto& [photonClass, radius] : report.initialRadius)
+        table.add({photonClass, fmt::format("{:.6g}", radius)});
+    fmt::print("\n{}", table.text());
+}
+
+void printBuffers(const std::map<std::string, uint64_t>& buffers) {
+    TextTable table({"buffer", "memory"});
+    uint64_t sum = 0;
+    for (const auto& [label, bytes] : buffers) {
+        table.add({label, bytesText(bytes)});
+        sum += bytes;
+    }
+    table.add({"sum", bytesText(sum)});
+    fmt::print("\n{}", table.text());
+}
+
+} // namespace
+
+void infoCommand(const SceneOptions& options) {
+    exitOnInterrupt();
+    const Scene scene = loadScene(options.scene, options.parameters());
+    if (!options.quiet)
+        for (const auto& warning : scene.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+    const RenderSettings settings = options.settings(scene);
+    Device device(options.device, options.workGroupSize);
+    ProgressLine progress(stderr, !options.quiet);
+    progress.update({.phase = "preparing"});
+    const Renderer renderer(device, scene, settings);
+    progress.clear();
+
+    const SceneReport& report = renderer.report();
+    const std::string file = std::filesystem::path(options.scene).filename().string();
+    if (options.json) {
+        const nlohmann::json json{{"version", QUASILUX_VERSION},
+                                  {"scene", file},
+                                  {"settings", settingsJson(settings)},
+                                  {"device", deviceJson(device.info())},
+                                  {"sceneReport", sceneReportJson(report)}};
+        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        return;
+    }
+    if (options.quiet) return;
+    fmt::print("scene: {}\ndevice: {}\n", file, device.info().name);
+    printGeometry(report);
+    printEmitters(report);
+    printLobes(report);
+    printRadii(report);
+    printBuffers(report.bufferBytes);
+}
+
+} // namespace quasilux

@@ -1,0 +1,92 @@
+#include "cli/option_checks.h"
+
+#include "util/nearest.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <optional>
+#include <sstream>
+
+namespace quasilux {
+
+namespace {
+
+/// The whole text as a number, or nothing. from_chars takes no locale, no blanks and no plus sign.
+template <typename T>
+std::optional<T> parseAll(const std::string& text) {
+    T value{};
+    const char* end = text.data() + text.size();
+    const auto [stopped, status] = std::from_chars(text.data(), end, value);
+    return status == std::errc() && stopped == end ? std::optional<T>(value) : std::nullopt;
+}
+
+CLI::Validator number(const std::string& expected, std::function<bool(double)> allowed) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            const auto value = parseAll<double>(text);
+            return value && allowed(*value) ? std::string() : fmt::format("'{}' given, expected {}", text, expected);
+        },
+        "");
+}
+
+} // namespace
+
+CLI::Validator wholeNumber(uint64_t from, uint64_t to) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            const auto value = parseAll<uint64_t>(text);
+            if (value && *value >= from && *value <= to) return std::string();
+            return fmt::format("'{}' given, expected a whole number from {} to {}", text, from, to);
+        },
+        "");
+}
+
+CLI::Validator numberAbove(double above, double to) {
+    return number(fmt::format("a number above {:g} and up to {:g}", above, to),
+                  [=](double value) { return value > above && value <= to; });
+}
+
+CLI::Validator numberBetween(double from, double to) {
+    return number(fmt::format("a number from {:g} to {:g}", from, to),
+                  [=](double value) { return value >= from && value <= to; });
+}
+
+CLI::Validator oneOf(std::vector<std::string> names) {
+    return CLI::Validator(
+        [names = std::move(names)](const std::string& text) {
+            if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
+            return fmt::format("unknown value '{}', {}", text, expectedNames(text, names));
+        },
+        "");
+}
+
+CLI::Validator definition() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            const auto equals = text.find('=');
+            if (equals != std::string::npos && equals > 0) return std::string();
+            return fmt::format("'{}' given, expected name=value", text);
+        },
+        "");
+}
+
+CLI::Validator quasiSpecularList() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            std::istringstream items(text + ',');
+            std::string item;
+            bool complete = !text.empty();
+            size_t count = 0, words = 0;
+            while (std::getline(items, item, ',')) {
+                complete = complete && !item.empty();
+                ++count;
+                words += item == "auto" || item == "none" || item == "all";
+            }
+            if (complete && (words == 0 || count == 1)) return std::string();
+            return fmt::format("'{}' given, expected auto, none, all or ids of bsdfs with commas between", text);
+        },
+        "");
+}
+
+} // namespace quasilux

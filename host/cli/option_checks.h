@@ -1,0 +1,21 @@
+// Checks of option values whose messages say what was expected.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+CLI::Validator wholeNumber(uint64_t from, uint64_t to);
+/// `above` itself is refused.
+CLI::Validator numberAbove(double above, double to);
+CLI::Validator numberBetween(double from, double to);
+CLI::Validator oneOf(std::vector<std::string> names);
+/// "name=value" with a name.
+CLI::Validator definition();
+/// "auto", "none", "all" or a comma-separated list without empty items.
+CLI::Validator quasiSpecularList();
+
+} // namespace quasilux

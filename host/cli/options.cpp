@@ -1,0 +1,196 @@
+#include "cli/options.h"
+
+#include "cli/option_checks.h"
+
+#include <filesystem>
+
+namespace quasilux {
+
+namespace {
+
+constexpr uint64_t maximumCount = 1000000000;
+
+void declareSettings(CLI::App& command, SceneOptions& options) {
+    const char* group = "Method (overrides what the scene says)";
+    command
+        .add_option("--bdd", options.bdd,
+                    "Backward diffuse depth: genuine diffuse scatterings that a camera path follows before it takes "
+                    "its light from the photon map, a count (default: the scene's, else 0)")
+        ->type_name("N")
+        ->check(wholeNumber(0, 1000))
+        ->group(group);
+    command
+        .add_option("--variant", options.variant,
+                    "Variant of the method: main or alternative (default: the scene's, else main)")
+        ->type_name("NAME")
+        ->check(oneOf({"main", "alternative"}))
+        ->group(group);
+    command
+        .add_option("--quasi-specular", options.quasiSpecular,
+                    "Lobes followed like mirrors: auto, none, all, or ids of bsdfs with commas between (default: the "
+                    "scene's, else auto)")
+        ->type_name("LIST")
+        ->check(quasiSpecularList())
+        ->group(group);
+    command
+        .add_option("--direct", options.direct,
+                    "Direct light from samples of the emitters or from the photon map: emitters or photons (default: "
+                    "the scene's, else emitters)")
+        ->type_name("NAME")
+        ->check(oneOf({"emitters", "photons"}))
+        ->group(group);
+    command
+        .add_option("--photons", options.photons,
+                    "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)")
+        ->type_name("N")
+        ->check(wholeNumber(1, maximumCount))
+        ->group(group);
+    command
+        .add_option("--seed", options.seed,
+                    "Seed of the random numbers, a whole number below 2^64 (default: the scene's, else 1)")
+        ->type_name("N")
+        ->check(wholeNumber(0, UINT64_MAX))
+        ->group(group);
+    command
+        .add_option("--radius-scale", options.radiusScale,
+                    "Factor on the initial radius of the density estimate, a ratio (default: 1)")
+        ->type_name("X")
+        ->check(numberAbove(0, 1000))
+        ->group(group);
+}
+
+void declareDevice(CLI::App& command, SceneOptions& options) {
+    const char* group = "Device";
+    command
+        .add_option("--device", options.device,
+                    "Device number, as `quasilux devices` lists them (default: the first GPU, else the first device)")
+        ->type_name("N")
+        ->check(wholeNumber(0, 1000))
+        ->group(group);
+    command
+        .add_option("--work-group-size", options.workGroupSize, "Work-items in each work-group, a count (default: 64)")
+        ->type_name("N")
+        ->check(wholeNumber(1, 4096))
+        ->group(group);
+    command
+        .add_option("--kernels", options.kernels,
+                    "Features compiled: scene (those that the scene needs) or generic (all) (default: scene)")
+        ->type_name("NAME")
+        ->check(oneOf({"scene", "generic"}))
+        ->group(group);
+}
+
+void declareScene(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.scene, "Scene file, Mitsuba 3 XML")->required()->type_name("FILE");
+    command
+        .add_option(
+            "-D", options.definitions,
+            "Replaces the value of the scene's <default name=\"...\"/>; may be given several times (default: none)")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false)
+        ->check(definition());
+    command.add_flag("--json", options.json, "The result on stdout as one JSON object (default: off, text)");
+    command.add_flag("--quiet", options.quiet,
+                     "No progress, no warnings and no summary; errors and --json are still printed (default: off)");
+}
+
+void declareFiles(CLI::App& command, RenderOptions& options) {
+    const char* group = "Files";
+    command
+        .add_option("-o,--output", options.output,
+                    "OpenEXR image with all layers, .exr (default: the scene's name with .exr, in the current folder)")
+        ->type_name("FILE")
+        ->group(group);
+    auto* png = command.add_option("--png", options.png, "Tone-mapped 8-bit sRGB picture, .png (default: none)")
+                    ->type_name("FILE")
+                    ->group(group);
+    command.add_option("--stats", options.stats, "Statistics, .json (default: none)")->type_name("FILE")->group(group);
+    auto* stops = command
+                      .add_option("--exposure", options.exposure.stops,
+                                  "Exposure of the PNG in stops relative to the automatic one (default: 0)")
+                      ->type_name("STOPS")
+                      ->check(numberBetween(-60, 60))
+                      ->group(group)
+                      ->needs(png);
+    command
+        .add_option("--exposure-scale", options.exposure.scale,
+                    "Exposure of the PNG as a factor on radiance, per W sr^-1 m^-2, with plain clamping (default: "
+                    "automatic)")
+        ->type_name("X")
+        ->check(numberAbove(0, 1e30))
+        ->group(group)
+        ->needs(png)
+        ->excludes(stops);
+}
+
+void declareStop(CLI::App& command, StopRule& stop) {
+    const char* group = "Stop rules (the first one reached ends the render)";
+    command.add_option("--time", stop.seconds, "Time to render, in seconds (default: 30 if no stop rule is given)")
+        ->type_name("SECONDS")
+        ->check(numberAbove(0, 1e9))
+        ->group(group);
+    command.add_option("--passes", stop.passes, "Passes to render, a count (default: no limit)")
+        ->type_name("N")
+        ->check(wholeNumber(1, maximumCount))
+        ->group(group);
+    command
+        .add_option("--error", stop.relativeError,
+                    "Estimated relative standard error to reach, mean over pixels, as a ratio: 0.01 is 1 % (default: "
+                    "no limit)")
+        ->type_name("RATIO")
+        ->check(numberAbove(0, 1))
+        ->group(group);
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>> SceneOptions::parameters() const {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (const auto& text : definitions) {
+        const auto equals = text.find('=');
+        pairs.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return pairs;
+}
+
+RenderSettings SceneOptions::settings(const Scene& loaded) const {
+    RenderSettings result = settingsFromScene(loaded);
+    if (bdd) result.bdd = *bdd;
+    if (variant) result.variant = parseVariant(*variant);
+    if (direct) result.direct = parseDirect(*direct);
+    if (photons) result.photonsPerPass = *photons;
+    if (seed) result.seed = *seed;
+    if (quasiSpecular) {
+        result.quasiSpecular = *quasiSpecular;
+        result.quasiSpecularFromCommandLine = true;
+    }
+    result.radiusScale = radiusScale;
+    result.genericKernels = kernels == "generic";
+    return result;
+}
+
+std::string RenderOptions::outputPath() const {
+    return output.empty() ? std::filesystem::path(scene).stem().string() + ".exr" : output;
+}
+
+void declareOptions(CLI::App& app, Options& options) {
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "quasilux " QUASILUX_VERSION, "Print the version");
+
+    CLI::App& render = *app.add_subcommand("render", "Render a scene to an OpenEXR image");
+    declareScene(render, options.render);
+    declareFiles(render, options.render);
+    declareStop(render, options.render.stop);
+    declareSettings(render, options.render);
+    declareDevice(render, options.render);
+
+    CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices");
+    devices.add_flag("--json", options.devicesJson, "The list on stdout as a JSON array (default: off, a table)");
+
+    CLI::App& info = *app.add_subcommand("info", "Say what a scene needs and what is chosen for it, without rendering");
+    declareScene(info, options.info);
+    declareSettings(info, options.info);
+    declareDevice(info, options.info);
+}
+
+} // namespace quasilux

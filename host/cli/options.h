@@ -1,0 +1,51 @@
+// What the command line can say: the one source of --help.
+#pragma once
+
+#include "output/png.h"
+#include "render/settings.h"
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace quasilux {
+
+/// What render and info share: a scene, the device, and settings that override those of the scene.
+struct SceneOptions {
+    std::string scene;
+    std::vector<std::string> definitions; ///< "name=value"
+    std::optional<unsigned> bdd, photons;
+    std::optional<uint64_t> seed;
+    std::optional<std::string> variant, direct, quasiSpecular;
+    double radiusScale = 1;
+    std::string kernels = "scene";
+    int device = -1;
+    unsigned workGroupSize = 64;
+    bool json = false, quiet = false;
+
+    /// `definitions` as loadScene takes them.
+    std::vector<std::pair<std::string, std::string>> parameters() const;
+    /// The scene's settings, overridden by what was given here. Throws InputError.
+    RenderSettings settings(const Scene& loaded) const;
+};
+
+struct RenderOptions : SceneOptions {
+    std::string output, png, stats; ///< paths; empty = not asked for
+    StopRule stop;
+    ExposureChoice exposure;
+
+    /// `output`, or the scene's stem with .exr in the current folder.
+    std::string outputPath() const;
+};
+
+struct Options {
+    RenderOptions render;
+    SceneOptions info;
+    bool devicesJson = false;
+};
+
+/// Declares the commands and all their options, filled into `options` (which must outlive `app`) by app.parse().
+void declareOptions(CLI::App& app, Options& options);
+
+} // namespace quasilux

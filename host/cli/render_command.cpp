@@ -1,0 +1,149 @@
+#include "cli/render_command.h"
+
+#include "cli/interrupt.h"
+#include "output/atomic_file.h"
+#include "output/exr.h"
+#include "output/progress_line.h"
+#include "output/statistics.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+struct WrittenFiles {
+    std::vector<std::string> paths;
+    std::optional<ToneCurve> curve; ///< of the PNG
+};
+
+void checkOutputs(const RenderOptions& options) {
+    checkOutputPath(options.outputPath(), "--output", ".exr");
+    if (!options.png.empty()) checkOutputPath(options.png, "--png", ".png");
+    if (!options.stats.empty()) checkOutputPath(options.stats, "--stats", ".json");
+}
+
+void warn(const RenderOptions& options, const std::string& message) {
+    if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
+}
+
+WrittenFiles writeFiles(const RenderOptions& options, const FilmImage& image, RenderRecord& record) {
+    const auto start = Clock::now();
+    WrittenFiles written;
+    writeExr(options.outputPath(), image, record);
+    written.paths.push_back(options.outputPath());
+    if (!options.png.empty()) {
+        written.curve = chooseToneCurve(image, options.exposure);
+        writePng(options.png, image, *written.curve, record);
+        written.paths.push_back(options.png);
+    }
+    record.writeSeconds = secondsSince(start);
+    if (!options.stats.empty()) {
+        writeJson(options.stats, statisticsJson(record, image));
+        written.paths.push_back(options.stats);
+    }
+    return written;
+}
+
+void printJsonSummary(const RenderRecord& record, const WrittenFiles& written) {
+    nlohmann::json summary{{"version", record.version},
+                           {"scene", record.scene},
+                           {"device", record.device.name},
+                           {"passes", record.counters.passes},
+                           {"seconds", record.counters.renderSeconds},
+                           {"relativeError", record.error.mean},
+                           {"interrupted", record.interrupted},
+                           {"nonFinite", record.counters.nonFinite},
+                           {"cutPaths", record.counters.cutPaths},
+                           {"files", written.paths}};
+    if (written.curve) summary["exposure"] = {{"scale", written.curve->scale}, {"white", written.curve->white}};
+    fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void printSummary(const RenderRecord& record, const WrittenFiles& written) {
+    fmt::print("{} {}, {:.1f} s", record.counters.passes, record.counters.passes == 1 ? "pass" : "passes",
+               record.counters.renderSeconds);
+    if (std::isfinite(record.error.mean)) fmt::print(", estimated relative error {:.3g} %", 100 * record.error.mean);
+    fmt::print("{}\n", record.interrupted ? ", interrupted" : "");
+    for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
+    if (written.curve)
+        fmt::print("exposure scale {:.6g} per W sr^-1 m^-2, white at {:.6g}\n", written.curve->scale,
+                   written.curve->white);
+}
+
+void warnOfCounters(const RenderOptions& options, const RenderCounters& counters) {
+    if (counters.nonFinite > 0)
+        warn(options, fmt::format("{} samples were not finite and were dropped, the image lacks their light",
+                                  counters.nonFinite));
+    if (counters.cutPaths > 0)
+        warn(options,
+             fmt::format("{} paths were cut by the limit on events, with {:.3g} % of the flux", counters.cutPaths,
+                         counters.fluxEmitted > 0 ? 100 * counters.fluxCut / counters.fluxEmitted : 0.0));
+}
+
+RenderRecord makeRecord(const RenderOptions& options, const RenderSettings& settings, Device& device,
+                        const Renderer& renderer, const FilmImage& image) {
+    RenderRecord record;
+    record.scene = std::filesystem::path(options.scene).filename().string();
+    record.settings = settings;
+    record.stop = options.stop;
+    record.device = device.info();
+    record.workGroupSize = device.workGroupSize();
+    record.report = renderer.report();
+    record.counters = renderer.counters();
+    record.error = relativeError(image);
+    record.kernels = device.timings();
+    record.peakBufferBytes = device.allocatedBytes();
+    record.interrupted = interruptFlag();
+    return record;
+}
+
+} // namespace
+
+int renderCommand(const RenderOptions& options) {
+    exitOnInterrupt();
+    checkOutputs(options);
+    ProgressLine progress(stderr, !options.quiet);
+    progress.update({.phase = "loading"});
+    const auto start = Clock::now();
+    const Scene scene = loadScene(options.scene, options.parameters());
+    const double loadSeconds = secondsSince(start);
+    progress.clear();
+    for (const auto& warning : scene.warnings) warn(options, warning);
+    const RenderSettings settings = options.settings(scene);
+
+    Device device(options.device, options.workGroupSize);
+    progress.update({.phase = "preparing"});
+    Renderer renderer(device, scene, settings);
+    catchInterrupt();
+    const auto onProgress = [&](const Progress& now) {
+        catchInterrupt();
+        progress.update(now);
+    };
+    const FilmImage image = renderUntil(renderer, options.stop, onProgress, interruptFlag());
+    if (image.passes == 0) {
+        if (interruptFlag()) return 130;
+        throw std::runtime_error("no pass was rendered before the stop rule was reached");
+    }
+
+    progress.update({.phase = "writing"});
+    RenderRecord record = makeRecord(options, settings, device, renderer, image);
+    record.loadSeconds = loadSeconds;
+    const WrittenFiles written = writeFiles(options, image, record);
+    progress.clear();
+    warnOfCounters(options, record.counters);
+    if (options.json)
+        printJsonSummary(record, written);
+    else if (!options.quiet)
+        printSummary(record, written);
+    return 0;
+}
+
+} // namespace quasilux
