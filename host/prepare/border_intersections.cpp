@@ -1,0 +1,77 @@
+// Finds the pairs of primitives that may cut each other and gathers their cuts.
+#include "prepare/border_intersections.h"
+
+#include "prepare/border_pairs.h"
+
+namespace quasilux {
+namespace {
+
+/// The primitives that take part: regular triangles, then spheres.
+struct Candidates {
+    std::vector<const SurfaceTriangle*> triangles;
+    std::vector<const SurfaceSphere*> spheres;
+    std::vector<BorderBox> boxes;
+};
+
+Candidates collectCandidates(const Surface& surface) {
+    Candidates candidates;
+    for (const SurfaceTriangle& triangle : surface.triangles) {
+        if (triangle.kind != SurfaceTriangle::Kind::regular) continue;
+        BorderBox box;
+        for (int i = 0; i < 3; ++i) box.add(surface.vertices[triangle.corner[i]]);
+        candidates.triangles.push_back(&triangle);
+        candidates.boxes.push_back({box.lower - triangle.rounding, box.upper + triangle.rounding});
+    }
+    for (const SurfaceSphere& sphere : surface.spheres) {
+        candidates.spheres.push_back(&sphere);
+        candidates.boxes.push_back({sphere.center - sphere.radius, sphere.center + sphere.radius});
+    }
+    return candidates;
+}
+
+bool shareCorner(const SurfaceTriangle& a, const SurfaceTriangle& b) {
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (a.corner[i] == b.corner[j]) return true;
+    return false;
+}
+
+shared::Packed3 packed(const glm::dvec3& p) { return {float(p.x), float(p.y), float(p.z)}; }
+
+} // namespace
+
+std::vector<shared::BorderSegment> intersectSurfaces(const Surface& surface,
+                                                     const std::vector<unsigned>& patchOfPrimitive) {
+    const Candidates candidates = collectCandidates(surface);
+    const auto triangleCount = unsigned(candidates.triangles.size());
+    std::vector<shared::BorderSegment> segments;
+    std::vector<CutSegment> cuts;
+    forEachOverlappingPair(candidates.boxes, [&](unsigned i, unsigned j) {
+        cuts.clear();
+        unsigned primitiveA, primitiveB;
+        if (j < triangleCount) {
+            const SurfaceTriangle &a = *candidates.triangles[i], &b = *candidates.triangles[j];
+            primitiveA = a.primitive;
+            primitiveB = b.primitive;
+            if (patchOfPrimitive[primitiveA] == patchOfPrimitive[primitiveB] && shareCorner(a, b)) return;
+            if (const std::optional<CutSegment> cut = cutTriangles(surface, a, b)) cuts.push_back(*cut);
+        } else if (i < triangleCount) {
+            const SurfaceSphere& sphere = *candidates.spheres[j - triangleCount];
+            primitiveA = candidates.triangles[i]->primitive;
+            primitiveB = sphere.primitive;
+            cutTriangleSphere(surface, *candidates.triangles[i], sphere, cuts);
+        } else {
+            const SurfaceSphere &a = *candidates.spheres[i - triangleCount],
+                                &b = *candidates.spheres[j - triangleCount];
+            primitiveA = a.primitive;
+            primitiveB = b.primitive;
+            cutSpheres(a, b, cuts);
+        }
+        for (const CutSegment& cut : cuts)
+            segments.push_back(
+                {packed(cut.a), packed(cut.b), patchOfPrimitive[primitiveA], patchOfPrimitive[primitiveB]});
+    });
+    return segments;
+}
+
+} // namespace quasilux

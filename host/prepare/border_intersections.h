@@ -1,0 +1,31 @@
+// Where surfaces pass through each other: the curves of intersection as segments.
+#pragma once
+
+#include "prepare/border_surface.h"
+
+#include <optional>
+#include <vector>
+
+namespace quasilux {
+
+struct CutSegment {
+    glm::dvec3 a, b;
+};
+
+/// The segment along which two regular triangles pass through each other. None where they only touch at a point, lie
+/// in one plane, share an edge, or meet along an edge that is a border already. Along an edge inside a patch only the
+/// triangle that owns the edge yields the segment, so that a surface cut along a row of its edges is cut once.
+std::optional<CutSegment> cutTriangles(const Surface& surface, const SurfaceTriangle& a, const SurfaceTriangle& b);
+
+/// Appends the arcs of the circle in which the sphere cuts the triangle, as chords, 32 to the full turn.
+void cutTriangleSphere(const Surface& surface, const SurfaceTriangle& triangle, const SurfaceSphere& sphere,
+                       std::vector<CutSegment>& cuts);
+
+/// Appends the circle in which two spheres cut each other, as 32 chords.
+void cutSpheres(const SurfaceSphere& a, const SurfaceSphere& b, std::vector<CutSegment>& cuts);
+
+/// All intersections in the scene, with the patches that meet there. Neighbours in one patch are not tested.
+std::vector<shared::BorderSegment> intersectSurfaces(const Surface& surface,
+                                                     const std::vector<unsigned>& patchOfPrimitive);
+
+} // namespace quasilux
