@@ -224,6 +224,13 @@ TEST(Borders, FlippedWindingIsABorder) {
     EXPECT_EQ(borders.segments.size(), 7u);
     EXPECT_EQ(countNaming(borders, 0, 1), 1u);
 
+    // Folded back over itself with the winding turned: the normals agree, yet the surface does not go on.
+    Scene folded;
+    addPlane(folded, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    addPlane(folded, {0, 0, 0}, {1, 0, 0.1}, {0, 1, 0});
+    EXPECT_EQ(findBorders(folded).patchCount, 2u);
+    EXPECT_EQ(findBorders(folded).segments.size(), 7u);
+
     Scene joined;
     addPlane(joined, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     addPlane(joined, {1, 0, 0}, {1, 0, 0}, {0, 1, 0});
