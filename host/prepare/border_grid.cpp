@@ -68,23 +68,43 @@ bool meetsBox(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& center
     return enter <= leave;
 }
 
+struct CellRange {
+    glm::uvec3 from, to; ///< inclusive
+};
+
+CellRange cellsAround(const glm::dvec3& a, const glm::dvec3& b, double reach, const SurfaceBorders::Grid& grid) {
+    const glm::dvec3 lower(grid.lower), last = glm::dvec3(grid.cells) - 1.0;
+    const double size = grid.cellSize;
+    return {glm::uvec3(glm::clamp(glm::floor((glm::min(a, b) - reach - lower) / size), glm::dvec3(0.0), last)),
+            glm::uvec3(glm::clamp(glm::floor((glm::max(a, b) + reach - lower) / size), glm::dvec3(0.0), last))};
+}
+
 /// Calls visit(cell index) for the cells whose box may lie within `reach` of the segment: both the cell's box widened
-/// by `reach` and the ball about it widened by `reach` must meet the segment.
+/// by `reach` and the ball about it widened by `reach` must meet the segment. Goes slab by slab along the segment's
+/// longest axis, so that a long oblique segment does not visit the whole box about it.
 template <typename Visit>
 void forEachCellNear(const shared::BorderSegment& segment, double reach, const SurfaceBorders::Grid& grid,
                      const Visit& visit) {
-    const glm::dvec3 a = point(segment.a), b = point(segment.b), lower(grid.lower);
+    const glm::dvec3 a = point(segment.a), b = point(segment.b), lower(grid.lower), extent = glm::abs(b - a);
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const double size = grid.cellSize, half = 0.5 * size + reach, ball = 0.5 * std::sqrt(3.0) * size + reach;
-    const glm::dvec3 last = glm::dvec3(grid.cells) - 1.0;
-    const glm::uvec3 from(glm::clamp(glm::floor((glm::min(a, b) - reach - lower) / size), glm::dvec3(0.0), last));
-    const glm::uvec3 to(glm::clamp(glm::floor((glm::max(a, b) + reach - lower) / size), glm::dvec3(0.0), last));
-    for (unsigned z = from.z; z <= to.z; ++z)
-        for (unsigned y = from.y; y <= to.y; ++y)
-            for (unsigned x = from.x; x <= to.x; ++x) {
-                const glm::dvec3 center = lower + (glm::dvec3(x, y, z) + 0.5) * size;
-                if (meetsBox(a, b, center, half) && distanceToSegment(center, a, b) <= ball)
-                    visit((size_t(z) * grid.cells.y + y) * grid.cells.x + x);
-            }
+    const CellRange all = cellsAround(a, b, reach, grid);
+    for (unsigned slab = all.from[axis]; slab <= all.to[axis]; ++slab) {
+        const double middle = lower[axis] + (slab + 0.5) * size;
+        const auto shareAt = [&](double coordinate) {
+            return extent[axis] > 0 ? std::clamp((coordinate - a[axis]) / (b[axis] - a[axis]), 0.0, 1.0) : 0.0;
+        };
+        CellRange range =
+            cellsAround(glm::mix(a, b, shareAt(middle - half)), glm::mix(a, b, shareAt(middle + half)), reach, grid);
+        range.from[axis] = range.to[axis] = slab;
+        for (unsigned z = range.from.z; z <= range.to.z; ++z)
+            for (unsigned y = range.from.y; y <= range.to.y; ++y)
+                for (unsigned x = range.from.x; x <= range.to.x; ++x) {
+                    const glm::dvec3 center = lower + (glm::dvec3(x, y, z) + 0.5) * size;
+                    if (meetsBox(a, b, center, half) && distanceToSegment(center, a, b) <= ball)
+                        visit((size_t(z) * grid.cells.y + y) * grid.cells.x + x);
+                }
+    }
 }
 
 } // namespace
