@@ -1,0 +1,46 @@
+// Reading of bsdfs. A new plugin is one file here and one line in bsdf_table.cpp.
+#pragma once
+
+#include "scene/properties.h"
+
+namespace quasilux {
+
+/// What a plugin makes of its parameters.
+struct BsdfLobes {
+    std::vector<LobeDescription> front, back;
+    bool isNull = false;
+};
+
+/// Reads a <bsdf> and those nested in it. Throws InputError for unknown plugins and parameters, and for cycles.
+BsdfLobes readBsdfLobes(const Element& element, LoadContext& context);
+
+/// Index into Scene::bsdfs of the bsdf that `element` describes; read once however often it is used.
+int useBsdf(const Element& element, LoadContext& context);
+/// The bsdf of shapes without one, as in Mitsuba: diffuse, reflectance 0.5, or black where the shape emits. `shape` is
+/// where it is needed first.
+int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
+
+BsdfLobes readDiffuse(Properties& properties);
+BsdfLobes readPhong(Properties& properties);
+BsdfLobes readConductor(Properties& properties);
+BsdfLobes readRoughConductor(Properties& properties);
+BsdfLobes readDielectric(Properties& properties);
+BsdfLobes readBlend(Properties& properties);
+BsdfLobes readTwoSided(Properties& properties);
+BsdfLobes readNull(Properties& properties);
+
+/// A lobe of type LOBE_* with everything else zero. `halfWidth` in radians.
+LobeDescription makeLobe(unsigned type, const std::string& name, Rgb reflectance, double halfWidth);
+
+constexpr double lambertHalfWidth = 0.78539816339744831; ///< cos² = 1/2
+/// Half the energy of cos^n about the mirror direction: cos^(n+1) = 1/2.
+double phongHalfWidth(double exponent);
+/// Twice the tilt of the microfacets within which half of D(h) cos lies; the lobe moves by twice the facet's tilt.
+double ggxHalfWidth(double alpha);      ///< tan² = alpha²
+double beckmannHalfWidth(double alpha); ///< tan² = alpha² ln 2
+
+/// eta and k of <bsdf type="conductor|roughconductor">: `material`, or `eta` and `k`. Without Fresnel reflection
+/// (material "none") they are 0 and 1, which makes the Fresnel factor |(eta - 1 - ik)/(eta + 1 - ik)|² exactly 1.
+void readConductorIndex(Properties& properties, shared::Lobe& lobe);
+
+} // namespace quasilux

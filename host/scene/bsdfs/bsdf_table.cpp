@@ -1,0 +1,91 @@
+// The table of bsdf plugins, and what is common to reading any of them.
+#include "scene/bsdfs/bsdf_plugin.h"
+#include "scene/quasi_specular.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+struct BsdfPlugin {
+    std::string_view name;
+    BsdfLobes (*read)(Properties&);
+};
+
+constexpr BsdfPlugin plugins[] = {
+    {"diffuse", readDiffuse},       {"phong", readPhong},
+    {"conductor", readConductor},   {"roughconductor", readRoughConductor},
+    {"dielectric", readDielectric}, {"blendbsdf", readBlend},
+    {"twosided", readTwoSided},     {"null", readNull},
+};
+
+const BsdfPlugin& findPlugin(const Element& element) {
+    Names known;
+    for (const BsdfPlugin& plugin : plugins) {
+        if (plugin.name == element.get("type")) return plugin;
+        known.push_back(plugin.name);
+    }
+    throw InputError(element.where, fmt::format("unknown bsdf plugin '{}'.{}", element.get("type"),
+                                                knownNames(element.get("type"), known)));
+}
+
+/// Lobes that scatter nothing cost time and noise.
+void dropBlackLobes(std::vector<LobeDescription>& lobes) {
+    const auto black = [](const LobeDescription& lobe) {
+        return isBlack(lobe.device.reflectance) && isBlack(lobe.device.transmittance);
+    };
+    lobes.erase(std::remove_if(lobes.begin(), lobes.end(), black), lobes.end());
+}
+
+int addBsdf(BsdfLobes lobes, std::string id, std::string plugin, const SourceLocation& where, Scene& scene) {
+    dropBlackLobes(lobes.front);
+    dropBlackLobes(lobes.back);
+    Bsdf bsdf;
+    bsdf.id = std::move(id);
+    bsdf.plugin = std::move(plugin);
+    bsdf.where = where;
+    bsdf.front = std::move(lobes.front);
+    bsdf.back = std::move(lobes.back);
+    bsdf.isNull = lobes.isNull;
+    scene.bsdfs.push_back(std::move(bsdf));
+    return static_cast<int>(scene.bsdfs.size()) - 1;
+}
+
+} // namespace
+
+BsdfLobes readBsdfLobes(const Element& element, LoadContext& context) {
+    std::vector<const Element*>& open = context.openBsdfs;
+    if (std::find(open.begin(), open.end(), &element) != open.end())
+        throw InputError(element.where, fmt::format("bsdf '{}' contains itself; remove one <ref>.", idOf(element)));
+    open.push_back(&element);
+    const BsdfPlugin& plugin = findPlugin(element);
+    Properties properties(element, context);
+    BsdfLobes lobes = plugin.read(properties);
+    properties.finish();
+    applyQuasiSpecular(element, lobes.front, lobes.back);
+    open.pop_back();
+    return lobes;
+}
+
+int useBsdf(const Element& element, LoadContext& context) {
+    const auto known = context.bsdfIndex.find(&element);
+    if (known != context.bsdfIndex.end()) return known->second;
+    const int index =
+        addBsdf(readBsdfLobes(element, context), idOf(element), element.get("type"), element.where, context.scene);
+    context.bsdfIndex.emplace(&element, index);
+    return index;
+}
+
+int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context) {
+    int& index = emits ? context.defaultEmitterBsdf : context.defaultBsdf;
+    if (index >= 0) return index;
+    const float reflectance = emits ? 0.0f : 0.5f;
+    BsdfLobes lobes;
+    lobes.front = {makeLobe(LOBE_LAMBERT, "diffuse", {reflectance, reflectance, reflectance}, lambertHalfWidth)};
+    index = addBsdf(std::move(lobes), emits ? "default (emitters)" : "default", "diffuse", shape.where, context.scene);
+    return index;
+}
+
+} // namespace quasilux

@@ -1,0 +1,34 @@
+// <bsdf type="twosided">: a one-sided bsdf on both sides, or one for each.
+#include "scene/bsdfs/bsdf_plugin.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+std::vector<LobeDescription> readSide(const Element& nested, LoadContext& context) {
+    BsdfLobes lobes = readBsdfLobes(nested, context);
+    if (lobes.isNull || !lobes.back.empty())
+        throw InputError(nested.where,
+                         fmt::format("twosided: the nested bsdf '{}' lets light through or has two sides already; "
+                                     "use it without twosided.",
+                                     nested.get("type")));
+    return lobes.front;
+}
+
+} // namespace
+
+BsdfLobes readTwoSided(Properties& properties) {
+    const std::vector<const Element*> nested = properties.objects("bsdf");
+    if (nested.empty() || nested.size() > 2)
+        throw InputError(
+            properties.element().where,
+            fmt::format("twosided has {} nested bsdfs; it needs one, or two (front, back).", nested.size()));
+    BsdfLobes lobes;
+    lobes.front = readSide(*nested[0], properties.context());
+    lobes.back = nested.size() == 2 ? readSide(*nested[1], properties.context()) : lobes.front;
+    return lobes;
+}
+
+} // namespace quasilux

@@ -1,0 +1,68 @@
+// The tables of emitter plugins: those of shapes, and those that stand alone.
+#include "scene/emitters/emitters.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+struct ShapeEmitterPlugin {
+    std::string_view name;
+    AreaEmitter (*read)(Properties&);
+};
+constexpr ShapeEmitterPlugin shapeEmitters[] = {
+    {"area", readArea},
+};
+
+struct SceneEmitterPlugin {
+    std::string_view name;
+    void (*read)(Properties&);
+};
+constexpr SceneEmitterPlugin sceneEmitters[] = {
+    {"point", readPoint},
+};
+
+[[noreturn]] void throwNotHere(const Element& element) {
+    const std::string& plugin = element.get("type");
+    Names known;
+    for (const ShapeEmitterPlugin& entry : shapeEmitters) {
+        if (entry.name == plugin)
+            throw InputError(element.where,
+                             fmt::format("emitter '{}' stands alone; put it into the <shape> that emits.", plugin));
+        known.push_back(entry.name);
+    }
+    for (const SceneEmitterPlugin& entry : sceneEmitters) {
+        if (entry.name == plugin)
+            throw InputError(element.where,
+                             fmt::format("emitter '{}' is nested in a shape; put it directly into <scene>.", plugin));
+        known.push_back(entry.name);
+    }
+    throw InputError(element.where, fmt::format("unknown emitter plugin '{}'.{}", plugin, knownNames(plugin, known)));
+}
+
+} // namespace
+
+AreaEmitter readShapeEmitter(const Element& element, LoadContext& context) {
+    for (const ShapeEmitterPlugin& plugin : shapeEmitters) {
+        if (plugin.name != element.get("type")) continue;
+        Properties properties(element, context);
+        const AreaEmitter emitter = plugin.read(properties);
+        properties.finish();
+        return emitter;
+    }
+    throwNotHere(element);
+}
+
+void readSceneEmitter(const Element& element, LoadContext& context) {
+    for (const SceneEmitterPlugin& plugin : sceneEmitters) {
+        if (plugin.name != element.get("type")) continue;
+        Properties properties(element, context);
+        plugin.read(properties);
+        properties.finish();
+        return;
+    }
+    throwNotHere(element);
+}
+
+} // namespace quasilux

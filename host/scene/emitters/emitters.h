@@ -1,0 +1,16 @@
+// Reading of emitters. A new plugin is one file here and one line where emitters are told apart (emitters.cpp).
+#pragma once
+
+#include "scene/properties.h"
+
+namespace quasilux {
+
+/// The emitter nested in a shape. Throws InputError unless it is an `area` emitter.
+AreaEmitter readShapeEmitter(const Element& element, LoadContext& context);
+/// An emitter of its own, directly in the scene; it is added to context.scene.
+void readSceneEmitter(const Element& element, LoadContext& context);
+
+AreaEmitter readArea(Properties& properties);
+void readPoint(Properties& properties);
+
+} // namespace quasilux

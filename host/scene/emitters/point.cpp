@@ -1,0 +1,20 @@
+// <emitter type="point">: the same intensity in all directions from one point.
+#include "scene/emitters/emitters.h"
+#include "scene/transform.h"
+
+namespace quasilux {
+
+void readPoint(Properties& properties) {
+    if (properties.has("position") && properties.has("to_world"))
+        throw InputError(properties.where("to_world"), "emitter 'point' has both position and to_world; keep one.");
+    const glm::dvec3 position =
+        transformPoint(properties.transform("to_world"), properties.vector("position", glm::dvec3(0)));
+    PointEmitter emitter;
+    emitter.id = idOf(properties.element());
+    emitter.where = properties.element().where;
+    emitter.position = toSingle(position, emitter.where);
+    emitter.intensity = properties.emission("intensity", {1, 1, 1});
+    properties.context().scene.pointEmitters.push_back(emitter);
+}
+
+} // namespace quasilux

@@ -1,0 +1,11 @@
+// <integrator>: only its limit on the path length has a meaning here.
+#pragma once
+
+#include "scene/load_context.h"
+
+namespace quasilux {
+
+/// `max_depth`, -1 for none. Any integrator of Mitsuba is accepted; those that leave light out are warned of.
+int readMaxDepth(const Element& element, LoadContext& context);
+
+} // namespace quasilux

@@ -1,0 +1,35 @@
+// What the readers of single objects share: the scene being made, the ids, the warnings.
+#pragma once
+
+#include "scene/scene.h"
+#include "scene/xml/element.h"
+
+#include <unordered_map>
+
+namespace quasilux {
+
+class LoadContext {
+public:
+    /// Collects the ids below `root`. Throws InputError for an id given twice.
+    LoadContext(const Element& root, Scene& scene);
+
+    /// The element that `element` stands for: itself, or what a <ref> names. Throws InputError for an unknown id.
+    const Element& resolve(const Element& element) const;
+
+    void warn(const SourceLocation& where, const std::string& message);
+
+    Scene& scene;
+    std::unordered_map<const Element*, int> bsdfIndex; ///< of bsdfs that shapes use, into Scene::bsdfs
+    int defaultBsdf = -1, defaultEmitterBsdf = -1;     ///< of shapes without one; -1 until the first needs it
+    std::vector<const Element*> openBsdfs;             ///< being read now, outermost first: a cycle shows here
+
+private:
+    void collect(const Element& element);
+
+    std::unordered_map<std::string, const Element*> ids_;
+};
+
+/// The id of an object, or "<plugin>@line".
+std::string idOf(const Element& element);
+
+} // namespace quasilux

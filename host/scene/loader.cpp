@@ -1,0 +1,111 @@
+// loadScene: from the tree of elements to a Scene.
+#include "scene/bsdfs/bsdf_plugin.h"
+#include "scene/emitters/emitters.h"
+#include "scene/integrator.h"
+#include "scene/load_context.h"
+#include "scene/sensors/sensors.h"
+#include "scene/settings.h"
+#include "scene/shapes/shape_plugin.h"
+#include "scene/xml/numbers.h"
+#include "scene/xml/xml_document.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+void checkVersion(const Element& root, LoadContext& context) {
+    const std::string& version = root.get("version");
+    int major = -1;
+    const auto [end, error] = std::from_chars(version.data(), version.data() + version.size(), major);
+    if (error != std::errc{} || major < 0 || (end != version.data() + version.size() && *end != '.'))
+        throw InputError(root.where,
+                         fmt::format("version '{}' is not a version; expected one such as 3.0.0.", version));
+    if (major != 3)
+        context.warn(
+            root.where,
+            fmt::format("version {} is read as Mitsuba 3: names and defaults are those of version 3.", version));
+}
+
+void readObject(const Element& object, LoadContext& context, std::vector<const Element*>& sensors,
+                std::vector<const Element*>& integrators) {
+    if (object.tag == "shape")
+        context.scene.shapes.push_back(readShape(object, context));
+    else if (object.tag == "emitter")
+        readSceneEmitter(object, context);
+    else if (object.tag == "sensor")
+        sensors.push_back(&object);
+    else if (object.tag == "integrator")
+        integrators.push_back(&object);
+    else if (object.tag == "bsdf")
+        return; // read where a shape uses it
+    else
+        throw InputError(object.where,
+                         fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, emitter, sensor or "
+                                     "integrator.",
+                                     object.tag));
+}
+
+/// Bsdfs that no shape uses are checked all the same, and reported.
+void checkUnusedBsdfs(const Element& root, LoadContext& context, const std::vector<const Element*>& nested) {
+    for (const Element& element : root.children) {
+        if (element.tag != "bsdf" || context.bsdfIndex.count(&element)) continue;
+        readBsdfLobes(element, context);
+        if (std::find(nested.begin(), nested.end(), &element) == nested.end())
+            context.warn(element.where, fmt::format("bsdf '{}' is used by no shape.", idOf(element)));
+    }
+}
+
+/// What the references within bsdfs name.
+void collectNested(const Element& element, const LoadContext& context, std::vector<const Element*>& nested) {
+    for (const Element& child : element.children) {
+        if (child.tag == "ref" && element.tag == "bsdf") nested.push_back(&context.resolve(child));
+        collectNested(child, context, nested);
+    }
+}
+
+void readSensors(const std::vector<const Element*>& sensors, LoadContext& context) {
+    if (sensors.empty())
+        throw InputError({context.scene.path}, "the scene has no <sensor>; add <sensor type=\"perspective\">.");
+    context.scene.sensor = readSensor(*sensors[0], context);
+    for (size_t i = 1; i < sensors.size(); ++i) {
+        readSensor(*sensors[i], context);
+        context.warn(sensors[i]->where, "a further <sensor>; only the first one is rendered.");
+    }
+}
+
+void checkEmitters(const Scene& scene) {
+    const bool emits = std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                                   [](const auto& shape) { return shape.emitter.has_value(); });
+    if (!emits && scene.pointEmitters.empty())
+        throw InputError(
+            {scene.path},
+            "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
+            "<emitter type=\"point\">.");
+}
+
+} // namespace
+
+Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters) {
+    const Element root = readSceneDocument(path, parameters);
+    Scene scene;
+    scene.path = path;
+    LoadContext context(root, scene);
+    checkVersion(root, context);
+    scene.settings = parseSceneSettings(root.instructions);
+
+    std::vector<const Element*> sensors, integrators, nestedBsdfs;
+    for (const Element& child : root.children) readObject(child, context, sensors, integrators);
+    collectNested(root, context, nestedBsdfs);
+    checkUnusedBsdfs(root, context, nestedBsdfs);
+    readSensors(sensors, context);
+    if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
+    if (!integrators.empty()) scene.maxDepth = readMaxDepth(*integrators[0], context);
+    checkEmitters(scene);
+    return scene;
+}
+
+} // namespace quasilux

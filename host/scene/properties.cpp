@@ -1,0 +1,185 @@
+// Typed queries of a plugin's parameters.
+#include "scene/properties.h"
+
+#include "scene/transform.h"
+#include "scene/xml/numbers.h"
+#include "scene/xml/tags.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+Properties::Properties(const Element& element, LoadContext& context) : element_(element), context_(context) {
+    for (const Element& child : element.children) {
+        const TagKind kind = tagOf(child).kind;
+        if (kind == TagKind::object || kind == TagKind::reference) {
+            objects_.push_back(&child);
+            continue;
+        }
+        const auto [before, isNew] = parameters_.emplace(child.get("name"), &child);
+        if (!isNew)
+            throw InputError(child.where, fmt::format("parameter '{}' is given twice (first at {}); keep one.",
+                                                      child.get("name"), before->second->where.text()));
+    }
+}
+
+std::string Properties::describe() const { return fmt::format("{} '{}'", element_.tag, plugin()); }
+
+SourceLocation Properties::where(const std::string& name) const {
+    const auto found = parameters_.find(name);
+    return found == parameters_.end() ? element_.where : found->second->where;
+}
+
+bool Properties::has(const std::string& name) { return find(name) != nullptr; }
+
+const Element* Properties::find(const std::string& name) {
+    knownNames_.insert(name);
+    const auto found = parameters_.find(name);
+    return found == parameters_.end() ? nullptr : found->second;
+}
+
+const Element* Properties::find(const std::string& name, const Names& tags) {
+    const Element* parameter = find(name);
+    if (parameter && std::find(tags.begin(), tags.end(), parameter->tag) == tags.end())
+        throw InputError(parameter->where, fmt::format("parameter '{}' of {} is a <{}>; expected <{}>.", name,
+                                                       describe(), parameter->tag, fmt::join(tags, "> or <")));
+    return parameter;
+}
+
+double Properties::number(const std::string& name, double missing) {
+    const Element* parameter = find(name, {"float", "integer"});
+    if (!parameter) return missing;
+    return parseNumber(parameter->get("value"), parameter->where, fmt::format("parameter '{}'", name));
+}
+
+double Properties::numberAbove(const std::string& name, double missing, double lowest, bool open) {
+    const double value = number(name, missing);
+    if (value < lowest || (open && value == lowest))
+        throw InputError(where(name), fmt::format("parameter '{}' of {} is {}; it must be {} {}.", name, describe(),
+                                                  value, open ? "greater than" : "at least", lowest));
+    return value;
+}
+
+int64_t Properties::integer(const std::string& name, int64_t missing) {
+    const Element* parameter = find(name, {"integer"});
+    if (!parameter) return missing;
+    return parseInteger(parameter->get("value"), parameter->where, fmt::format("parameter '{}'", name));
+}
+
+bool Properties::boolean(const std::string& name, bool missing) {
+    const Element* parameter = find(name, {"boolean"});
+    if (!parameter) return missing;
+    const std::string& text = parameter->get("value");
+    if (text == "true" || text == "True" || text == "TRUE") return true;
+    if (text == "false" || text == "False" || text == "FALSE") return false;
+    throw InputError(parameter->where,
+                     fmt::format("parameter '{}': '{}' is not a boolean; expected true or false.", name, text));
+}
+
+std::string Properties::string(const std::string& name, const std::string& missing) {
+    const Element* parameter = find(name, {"string"});
+    return parameter ? parameter->get("value") : missing;
+}
+
+std::string Properties::choice(const std::string& name, const std::string& missing, const Names& known) {
+    const std::string value = string(name, missing);
+    if (std::find(known.begin(), known.end(), value) == known.end())
+        throw InputError(where(name), fmt::format("parameter '{}' of {}: unknown value '{}'.{}", name, describe(),
+                                                  value, quasilux::knownNames(value, known)));
+    return value;
+}
+
+glm::dvec3 Properties::vector(const std::string& name, const glm::dvec3& missing) {
+    const Element* parameter = find(name, {"point", "vector"});
+    if (!parameter) return missing;
+    if (!parameter->find("value") && !(parameter->find("x") && parameter->find("y") && parameter->find("z")))
+        throw InputError(parameter->where, fmt::format("parameter '{}': give x, y and z, or value=\"a,b,c\".", name));
+    return parseVector(*parameter, 0, false);
+}
+
+glm::dmat4 Properties::transform(const std::string& name) {
+    const Element* parameter = find(name, {"transform"});
+    return parameter ? parseTransform(*parameter) : glm::dmat4(1.0);
+}
+
+Rgb Properties::reflectance(const std::string& name, float missing) {
+    const Rgb color = positiveColor(name, {missing, missing, missing});
+    if (largest(color) > 1)
+        throw InputError(where(name),
+                         fmt::format("parameter '{}' of {} is ({}, {}, {}); every channel must lie within [0, 1].",
+                                     name, describe(), color.r, color.g, color.b));
+    return color;
+}
+
+Rgb Properties::positiveColor(const std::string& name, Rgb missing) {
+    const Element* parameter = find(name);
+    if (!parameter) return missing;
+    const Rgb color = parseColor(*parameter, ColorUse::scale);
+    if (smallest(color) < 0)
+        throw InputError(where(name), fmt::format("parameter '{}' of {} is ({}, {}, {}); no channel may be negative.",
+                                                  name, describe(), color.r, color.g, color.b));
+    return color;
+}
+
+Rgb Properties::emission(const std::string& name, Rgb missing) {
+    const Element* parameter = find(name);
+    if (!parameter) return missing;
+    const Rgb color = parseColor(*parameter, ColorUse::emission);
+    if (smallest(color) < 0 || isBlack(color))
+        throw InputError(where(name),
+                         fmt::format("parameter '{}' of {} is ({}, {}, {}); an emitter needs a positive channel "
+                                     "and none that is negative. Remove the emitter if it is off.",
+                                     name, describe(), color.r, color.g, color.b));
+    return color;
+}
+
+std::vector<const Element*> Properties::objects(const std::string& tag) {
+    knownTags_.insert(tag);
+    std::vector<const Element*> found;
+    for (const Element* object : objects_) {
+        const Element& target = context_.resolve(*object);
+        if (target.tag == tag) found.push_back(&target);
+    }
+    return found;
+}
+
+const Element* Properties::object(const std::string& tag) {
+    const std::vector<const Element*> found = objects(tag);
+    if (found.size() > 1)
+        throw InputError(found[1]->where,
+                         fmt::format("{} has {} objects <{}>; expected one.", describe(), found.size(), tag));
+    return found.empty() ? nullptr : found[0];
+}
+
+void Properties::accept(const Names& names) { knownNames_.insert(names.begin(), names.end()); }
+
+void Properties::refuse(const std::string& name, const std::string& why) {
+    if (find(name))
+        throw InputError(where(name), fmt::format("parameter '{}' of {} is not supported: {}.", name, describe(), why));
+}
+
+void Properties::acceptAll() {
+    for (const auto& entry : parameters_) knownNames_.insert(entry.first);
+    for (const Element* object : objects_) knownTags_.insert(context_.resolve(*object).tag);
+}
+
+void Properties::finish() const {
+    for (const Element& child : element_.children) {
+        const std::string& name = child.get("name");
+        const TagKind kind = tagOf(child).kind;
+        if (kind == TagKind::object || kind == TagKind::reference) {
+            const Element& target = context_.resolve(child);
+            if (knownTags_.count(target.tag)) continue;
+            const Names tags(knownTags_.begin(), knownTags_.end());
+            throw InputError(child.where, fmt::format("{} takes no <{}>. Objects that it takes: {}.", describe(),
+                                                      target.tag, tags.empty() ? "none" : joinNames(tags)));
+        }
+        if (knownNames_.count(name)) continue;
+        const Names known(knownNames_.begin(), knownNames_.end());
+        throw InputError(child.where, fmt::format("unknown parameter '{}' of {}.{}", name, describe(),
+                                                  quasilux::knownNames(name, known)));
+    }
+}
+
+} // namespace quasilux

@@ -1,0 +1,72 @@
+// The parameters and nested objects of one plugin element. What is not asked for is an error.
+#pragma once
+
+#include "scene/color.h"
+#include "scene/load_context.h"
+#include "scene/xml/names.h"
+
+#include <glm/glm.hpp>
+#include <map>
+#include <set>
+
+namespace quasilux {
+
+/// Every query marks a parameter as known; finish() refuses the ones nobody asked for. All throw InputError at the
+/// parameter's place for a wrong type or a value that cannot be read.
+class Properties {
+public:
+    Properties(const Element& element, LoadContext& context);
+
+    const Element& element() const { return element_; }
+    LoadContext& context() const { return context_; }
+    const std::string& plugin() const { return element_.get("type"); }
+    /// "bsdf 'diffuse'", for messages.
+    std::string describe() const;
+    /// The parameter's place, or the object's where it is not given.
+    SourceLocation where(const std::string& name) const;
+    bool has(const std::string& name);
+
+    double number(const std::string& name, double missing);
+    /// A number of at least `lowest` (greater than it where `open`).
+    double numberAbove(const std::string& name, double missing, double lowest, bool open);
+    int64_t integer(const std::string& name, int64_t missing);
+    bool boolean(const std::string& name, bool missing);
+    std::string string(const std::string& name, const std::string& missing);
+    /// One of `known`, or InputError with the nearest name.
+    std::string choice(const std::string& name, const std::string& missing, const Names& known);
+    glm::dvec3 vector(const std::string& name, const glm::dvec3& missing);
+    glm::dmat4 transform(const std::string& name);
+    /// Channels within [0, 1].
+    Rgb reflectance(const std::string& name, float missing);
+    /// Channels of at least 0.
+    Rgb positiveColor(const std::string& name, Rgb missing);
+    /// Radiance or intensity: no channel negative, at least one positive.
+    Rgb emission(const std::string& name, Rgb missing);
+
+    /// Nested objects (or referenced ones) with this tag, in document order.
+    std::vector<const Element*> objects(const std::string& tag);
+    /// At most one such object, or nullptr.
+    const Element* object(const std::string& tag);
+
+    /// The parameter's element or nullptr; marks it as used.
+    const Element* find(const std::string& name);
+    /// Known to Mitsuba and without effect here.
+    void accept(const Names& names);
+    /// Known to Mitsuba; an error here, that says `why`.
+    void refuse(const std::string& name, const std::string& why);
+    /// Everything else is accepted without a look at its value.
+    void acceptAll();
+    /// Throws InputError for the first parameter or object that nobody asked for.
+    void finish() const;
+
+private:
+    const Element* find(const std::string& name, const Names& tags);
+
+    const Element& element_;
+    LoadContext& context_;
+    std::map<std::string, const Element*> parameters_;
+    std::vector<const Element*> objects_; ///< nested objects and references, as written
+    std::set<std::string> knownNames_, knownTags_;
+};
+
+} // namespace quasilux

@@ -1,0 +1,68 @@
+// `<?quasilux …?>` directly in the scene.
+#include "scene/settings.h"
+
+#include "scene/xml/names.h"
+#include "scene/xml/numbers.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <set>
+
+namespace quasilux {
+
+namespace {
+
+const Names keys = {"bdd", "variant", "quasi-specular", "direct", "photons", "seed"};
+
+std::string oneOf(const Attribute& entry, const Names& known, const SourceLocation& where) {
+    if (std::find(known.begin(), known.end(), entry.value) == known.end())
+        throw InputError(
+            where, fmt::format("{}: unknown value '{}'.{}", entry.name, entry.value, knownNames(entry.value, known)));
+    return entry.value;
+}
+
+std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& where) {
+    if (entry.value == "yes" || entry.value == "no" || splitList(entry.value).empty())
+        throw InputError(
+            where,
+            fmt::format("quasi-specular=\"{}\" of a scene: expected auto, none, all, or ids of bsdfs.", entry.value));
+    return entry.value;
+}
+
+void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& settings) {
+    constexpr uint64_t maximumPhotons = 1u << 30;
+    if (entry.name == "bdd")
+        settings.bdd = static_cast<unsigned>(parseUnsigned(entry.value, 0, 1000, where, "bdd"));
+    else if (entry.name == "variant")
+        settings.variant = oneOf(entry, {"main", "alternative"}, where);
+    else if (entry.name == "quasi-specular")
+        settings.quasiSpecular = parseQuasiSpecular(entry, where);
+    else if (entry.name == "direct")
+        settings.direct = oneOf(entry, {"emitters", "photons"}, where);
+    else if (entry.name == "photons")
+        settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, maximumPhotons, where, "photons"));
+    else if (entry.name == "seed")
+        settings.seed = parseUnsigned(entry.value, 0, std::numeric_limits<uint64_t>::max(), where, "seed");
+    else
+        throw InputError(where, fmt::format("unknown key '{}' of <?quasilux?> in a scene.{}", entry.name,
+                                            knownNames(entry.name, keys)));
+}
+
+} // namespace
+
+SceneSettings parseSceneSettings(const std::vector<Instruction>& instructions) {
+    SceneSettings settings;
+    std::set<std::string> given;
+    for (const Instruction& instruction : instructions) {
+        for (const Attribute& entry : instruction.entries) {
+            if (!given.insert(entry.name).second)
+                throw InputError(instruction.where,
+                                 fmt::format("<?quasilux?> sets '{}' a second time; keep one.", entry.name));
+            apply(entry, instruction.where, settings);
+        }
+    }
+    return settings;
+}
+
+} // namespace quasilux

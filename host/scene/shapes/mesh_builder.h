@@ -1,0 +1,33 @@
+// From the vertices of a file or a built-in shape to a Mesh in world space.
+#pragma once
+
+#include "scene/scene.h"
+#include "scene/transform.h"
+
+#include <array>
+
+namespace quasilux {
+
+/// A mesh in its own space.
+struct MeshSource {
+    struct Corner {
+        unsigned position = 0;
+        unsigned normal = QL_NONE; ///< QL_NONE: the file gives none
+        uint64_t vertex = 0;       ///< corners of the same vertex share a computed normal
+    };
+    std::vector<glm::dvec3> positions, normals;
+    std::vector<std::array<Corner, 3>> triangles;
+};
+
+/// Built-in shapes with flat faces: `triangles` are counter-clockwise seen from the side of the normal, and stay so
+/// under mirroring (normals go by the inverse transpose).
+Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
+              const glm::dmat4& toWorld, bool flipNormals, const SourceLocation& where);
+
+/// Meshes of files, with the corner normals of Mitsuba 3: those of the file; where it has none at all, means over the
+/// faces at a vertex, weighted by angle; flat where `faceNormals`. Flat faces and computed normals follow the winding
+/// after the transform; normals of the file go by the inverse transpose and the winding is made to agree with them.
+Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNormals, bool faceNormals,
+              const SourceLocation& where);
+
+} // namespace quasilux

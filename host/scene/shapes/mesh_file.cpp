@@ -1,0 +1,23 @@
+// Parameters of shapes that come from files.
+#include "scene/shapes/shape_plugin.h"
+#include "scene/xml/xml_document.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+MeshFile readMeshFile(Properties& properties) {
+    const std::string name = properties.string("filename", "");
+    if (name.empty())
+        throw InputError(properties.where("filename"),
+                         fmt::format("{} needs <string name=\"filename\" value=\"…\"/>.", properties.describe()));
+    MeshFile file;
+    file.where = properties.where("filename");
+    file.path = resolvePath(name, file.where);
+    file.faceNormals = properties.boolean("face_normals", false);
+    file.toWorld = properties.transform("to_world");
+    properties.accept({"flip_tex_coords"});
+    return file;
+}
+
+} // namespace quasilux

@@ -1,0 +1,123 @@
+// <shape type="obj">: Wavefront OBJ. Polygons are fanned; groups, materials, lines and curves are passed over.
+#include "scene/shapes/mesh_builder.h"
+#include "scene/shapes/shape_plugin.h"
+#include "scene/xml/numbers.h"
+#include "scene/xml/xml_document.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+const Names ignoredKeywords = {
+    "o",    "g",    "s",      "usemtl", "mtllib",   "usemap",   "maplib", "l",          "p",         "vp",    "deg",
+    "bmat", "step", "cstype", "curv",   "curv2",    "surf",     "parm",   "trim",       "hole",      "scrv",  "sp",
+    "end",  "con",  "mg",     "bevel",  "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj", "ctech", "stech"};
+
+class ObjReader {
+public:
+    ObjReader(std::string path, std::string text) : text_(std::move(text)) { where_.file = std::move(path); }
+
+    MeshSource read() {
+        size_t begin = 0;
+        while (begin < text_.size()) {
+            ++where_.line;
+            const size_t end = std::min(text_.find('\n', begin), text_.size());
+            readLine(std::string_view(text_).substr(begin, end - begin));
+            begin = end + 1;
+        }
+        if (mesh_.triangles.empty())
+            throw InputError(SourceLocation{where_.file}, "the mesh has no faces; expected lines 'f …'.");
+        return std::move(mesh_);
+    }
+
+private:
+    void readLine(std::string_view line) {
+        line = line.substr(0, line.find('#'));
+        const std::vector<std::string_view> words = splitWords(line);
+        if (words.empty()) return;
+        if (words[0] == "v")
+            mesh_.positions.push_back(readVector(words, "vertex"));
+        else if (words[0] == "vn")
+            mesh_.normals.push_back(readVector(words, "normal"));
+        else if (words[0] == "vt")
+            ++textureCoordinates_;
+        else if (words[0] == "f")
+            readFace(words);
+        else if (std::find(ignoredKeywords.begin(), ignoredKeywords.end(), words[0]) == ignoredKeywords.end())
+            throw InputError(where_, fmt::format("unknown line '{}'; expected v, vn, vt, f or another keyword of OBJ.",
+                                                 line.substr(0, 40)));
+    }
+
+    static std::vector<std::string_view> splitWords(std::string_view line) {
+        std::vector<std::string_view> words;
+        size_t begin = 0;
+        while ((begin = line.find_first_not_of(" \t\r", begin)) != std::string_view::npos) {
+            const size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
+            words.push_back(line.substr(begin, end - begin));
+            begin = end;
+        }
+        return words;
+    }
+
+    glm::dvec3 readVector(const std::vector<std::string_view>& words, std::string_view what) const {
+        if (words.size() < 4)
+            throw InputError(where_, fmt::format("a {} with {} numbers; expected three.", what, words.size() - 1));
+        return {parseNumber(words[1], where_, what), parseNumber(words[2], where_, what),
+                parseNumber(words[3], where_, what)};
+    }
+
+    /// An index counted from 1, or from the last one back where negative.
+    unsigned readIndex(std::string_view text, size_t count, std::string_view what) const {
+        const int64_t index = parseInteger(text, where_, fmt::format("face: {} index", what));
+        const int64_t resolved = index < 0 ? static_cast<int64_t>(count) + index : index - 1;
+        if (index == 0 || resolved < 0 || resolved >= static_cast<int64_t>(count))
+            throw InputError(where_, fmt::format("face: {} index {} does not exist; {} are given before this line.",
+                                                 what, index, count));
+        return static_cast<unsigned>(resolved);
+    }
+
+    /// "v", "v/t", "v//n" or "v/t/n"
+    MeshSource::Corner readCorner(std::string_view word) const {
+        const size_t slash = std::min(word.find('/'), word.size());
+        MeshSource::Corner corner;
+        corner.position = readIndex(word.substr(0, slash), mesh_.positions.size(), "vertex");
+        corner.vertex = corner.position;
+        if (slash == word.size()) return corner;
+        word.remove_prefix(slash + 1);
+        const size_t second = std::min(word.find('/'), word.size());
+        if (second > 0) // a seam of texture coordinates splits the vertex, and so its computed normal, as in Mitsuba
+            corner.vertex |= uint64_t(readIndex(word.substr(0, second), textureCoordinates_, "texture") + 1) << 32;
+        if (second < word.size()) corner.normal = readIndex(word.substr(second + 1), mesh_.normals.size(), "normal");
+        return corner;
+    }
+
+    void readFace(const std::vector<std::string_view>& words) {
+        if (words.size() < 4)
+            throw InputError(where_, fmt::format("a face with {} corners; expected at least three.", words.size() - 1));
+        const MeshSource::Corner first = readCorner(words[1]);
+        MeshSource::Corner previous = readCorner(words[2]);
+        for (size_t i = 3; i < words.size(); ++i) {
+            const MeshSource::Corner next = readCorner(words[i]);
+            mesh_.triangles.push_back({first, previous, next});
+            previous = next;
+        }
+    }
+
+    std::string text_;
+    SourceLocation where_;
+    MeshSource mesh_;
+    size_t textureCoordinates_ = 0;
+};
+
+} // namespace
+
+void readObj(Properties& properties, ShapeDescription& shape) {
+    const MeshFile file = readMeshFile(properties);
+    ObjReader reader(file.path, readFile(file.path, file.where, "mesh"));
+    shape.mesh = fileMesh(reader.read(), file.toWorld, shape.flipNormals, file.faceNormals, shape.where);
+}
+
+} // namespace quasilux

@@ -1,0 +1,111 @@
+// <shape type="ply">: Stanford PLY, ascii or binary of either byte order. Polygons are fanned.
+#include "scene/shapes/mesh_builder.h"
+#include "scene/shapes/ply_reader.h"
+#include "scene/shapes/shape_plugin.h"
+#include "scene/xml/xml_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+/// Index of a property with one of `names`, or -1.
+int findProperty(const PlyElement& element, const Names& names) {
+    for (size_t i = 0; i < element.properties.size(); ++i)
+        if (std::find(names.begin(), names.end(), element.properties[i].name) != names.end())
+            return static_cast<int>(i);
+    return -1;
+}
+
+class PlyMeshReader {
+public:
+    explicit PlyMeshReader(PlyReader& reader) : reader_(reader) {}
+
+    MeshSource read() {
+        for (const PlyElement& element : reader_.elements()) {
+            if (element.name == "vertex")
+                readVertices(element);
+            else if (element.name == "face")
+                readFaces(element);
+            else
+                skip(element);
+        }
+        reader_.expectEnd();
+        if (mesh_.triangles.empty())
+            reader_.failFile("the mesh has no faces; expected an element 'face' with vertex_indices.");
+        return std::move(mesh_);
+    }
+
+private:
+    void readVertices(const PlyElement& element) {
+        const int x = findProperty(element, {"x"}), y = findProperty(element, {"y"}), z = findProperty(element, {"z"});
+        const int nx = findProperty(element, {"nx"}), ny = findProperty(element, {"ny"}),
+                  nz = findProperty(element, {"nz"});
+        if (x < 0 || y < 0 || z < 0) reader_.failFile("the vertices have no x, y, z.");
+        const bool hasNormals = nx >= 0 && ny >= 0 && nz >= 0;
+        for (uint64_t i = 0; i < element.count; ++i) {
+            readRow(element, i);
+            const auto vector = [&](int a, int b, int c) { return glm::dvec3(scalar(a), scalar(b), scalar(c)); };
+            mesh_.positions.push_back(vector(x, y, z));
+            if (hasNormals) mesh_.normals.push_back(vector(nx, ny, nz));
+        }
+    }
+
+    void readFaces(const PlyElement& element) {
+        const int indices = findProperty(element, {"vertex_indices", "vertex_index"});
+        if (indices < 0 || !element.properties[static_cast<size_t>(indices)].isList)
+            reader_.failFile("the faces have no list vertex_indices.");
+        for (uint64_t i = 0; i < element.count; ++i) {
+            readRow(element, i);
+            const std::vector<double>& corners = row_[static_cast<size_t>(indices)];
+            if (corners.size() < 3)
+                reader_.failRow(fmt::format("a face with {} corners; expected at least three.", corners.size()));
+            for (size_t c = 2; c < corners.size(); ++c)
+                mesh_.triangles.push_back({makeCorner(corners[0]), makeCorner(corners[c - 1]), makeCorner(corners[c])});
+        }
+    }
+
+    void skip(const PlyElement& element) {
+        for (uint64_t i = 0; i < element.count; ++i) readRow(element, i);
+    }
+
+    MeshSource::Corner makeCorner(double index) const {
+        if (!(index >= 0 && index < static_cast<double>(mesh_.positions.size())) || index != std::floor(index))
+            reader_.failRow(
+                fmt::format("vertex index {} does not exist; there are {} vertices.", index, mesh_.positions.size()));
+        MeshSource::Corner corner;
+        corner.position = static_cast<unsigned>(index);
+        corner.vertex = corner.position;
+        if (!mesh_.normals.empty()) corner.normal = corner.position;
+        return corner;
+    }
+
+    void readRow(const PlyElement& element, uint64_t number) {
+        reader_.beginRow(element, number);
+        row_.resize(element.properties.size());
+        for (size_t i = 0; i < element.properties.size(); ++i) reader_.readProperty(element.properties[i], row_[i]);
+    }
+
+    double scalar(int property) const {
+        const std::vector<double>& values = row_[static_cast<size_t>(property)];
+        if (values.size() != 1 || !std::isfinite(values[0])) reader_.failRow("a vertex is not made of finite numbers.");
+        return values[0];
+    }
+
+    PlyReader& reader_;
+    MeshSource mesh_;
+    std::vector<std::vector<double>> row_; ///< values by property
+};
+
+} // namespace
+
+void readPly(Properties& properties, ShapeDescription& shape) {
+    const MeshFile file = readMeshFile(properties);
+    PlyReader reader(file.path, readFile(file.path, file.where, "mesh"));
+    shape.mesh = fileMesh(PlyMeshReader(reader).read(), file.toWorld, shape.flipNormals, file.faceNormals, shape.where);
+}
+
+} // namespace quasilux

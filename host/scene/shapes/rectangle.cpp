@@ -1,0 +1,26 @@
+// <shape type="rectangle">: [-1, 1]² in the plane z = 0, normal +z.
+#include "scene/shapes/mesh_builder.h"
+#include "scene/shapes/shape_plugin.h"
+
+#include <cmath>
+
+namespace quasilux {
+
+void readRectangle(Properties& properties, ShapeDescription& shape) {
+    const glm::dmat4 toWorld = properties.transform("to_world");
+    const std::vector<glm::dvec3> corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    shape.mesh = flatMesh(corners, {{0, 1, 2}, {0, 2, 3}}, toWorld, shape.flipNormals, shape.where);
+
+    glm::dvec3 edgeU = transformVector(toWorld, {2, 0, 0}), edgeV = transformVector(toWorld, {0, 2, 0});
+    if (std::abs(glm::dot(glm::normalize(edgeU), glm::normalize(edgeV))) >= 1e-5) return;
+    // The sides are ordered so that their cross product points to the normal's side.
+    if ((glm::determinant(glm::dmat3(toWorld)) < 0) != shape.flipNormals) std::swap(edgeU, edgeV);
+    RectangleFrame frame;
+    frame.corner = shape.mesh.positions[0];
+    frame.edgeU = glm::vec3(edgeU);
+    frame.edgeV = glm::vec3(edgeV);
+    frame.normal = glm::vec3(glm::normalize(glm::cross(glm::normalize(edgeU), glm::normalize(edgeV))));
+    shape.rectangle = frame;
+}
+
+} // namespace quasilux

@@ -1,0 +1,27 @@
+// Reading of shapes. A new plugin is one file here and one line in shape_table.cpp.
+#pragma once
+
+#include "scene/properties.h"
+#include "scene/transform.h"
+
+namespace quasilux {
+
+/// Reads <shape> with its bsdf and emitter. Throws InputError for anything that is not right with it.
+ShapeDescription readShape(const Element& element, LoadContext& context);
+
+/// What shapes that come from files have in common.
+struct MeshFile {
+    std::string path; ///< relative to the scene file already resolved
+    SourceLocation where;
+    bool faceNormals = false;
+    glm::dmat4 toWorld{1.0};
+};
+MeshFile readMeshFile(Properties& properties);
+
+void readRectangle(Properties& properties, ShapeDescription& shape);
+void readCube(Properties& properties, ShapeDescription& shape);
+void readSphere(Properties& properties, ShapeDescription& shape);
+void readObj(Properties& properties, ShapeDescription& shape);
+void readPly(Properties& properties, ShapeDescription& shape);
+
+} // namespace quasilux

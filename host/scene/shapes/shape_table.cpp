@@ -1,0 +1,68 @@
+// The table of shape plugins, and what is common to reading any of them.
+#include "scene/shapes/shape_plugin.h"
+
+#include "scene/bsdfs/bsdf_plugin.h"
+#include "scene/emitters/emitters.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+struct ShapePlugin {
+    std::string_view name;
+    void (*read)(Properties&, ShapeDescription&);
+};
+
+constexpr ShapePlugin plugins[] = {
+    {"rectangle", readRectangle}, {"cube", readCube}, {"sphere", readSphere}, {"obj", readObj}, {"ply", readPly},
+};
+
+const ShapePlugin& findPlugin(const Element& element) {
+    Names known;
+    for (const ShapePlugin& plugin : plugins) {
+        if (plugin.name == element.get("type")) return plugin;
+        known.push_back(plugin.name);
+    }
+    throw InputError(element.where, fmt::format("unknown shape plugin '{}'.{}", element.get("type"),
+                                                knownNames(element.get("type"), known)));
+}
+
+double areaOf(const ShapeDescription& shape) {
+    if (shape.sphere) return 4 * 3.14159265358979324 * shape.sphere->radius * shape.sphere->radius;
+    double area = 0;
+    for (const glm::uvec3& triangle : shape.mesh.triangles) {
+        const glm::dvec3 a = shape.mesh.positions[triangle.x];
+        area += 0.5 * glm::length(glm::cross(glm::dvec3(shape.mesh.positions[triangle.y]) - a,
+                                             glm::dvec3(shape.mesh.positions[triangle.z]) - a));
+    }
+    return area;
+}
+
+} // namespace
+
+ShapeDescription readShape(const Element& element, LoadContext& context) {
+    const ShapePlugin& plugin = findPlugin(element);
+    Properties properties(element, context);
+    ShapeDescription shape;
+    shape.id = idOf(element);
+    shape.plugin = plugin.name;
+    shape.where = element.where;
+    shape.flipNormals = properties.boolean("flip_normals", false);
+    plugin.read(properties, shape);
+    const Element* bsdf = properties.object("bsdf");
+    const Element* emitter = properties.object("emitter");
+    properties.finish();
+    shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
+    if (emitter) {
+        shape.emitter = readShapeEmitter(*emitter, context);
+        if (!(static_cast<float>(areaOf(shape)) > 0))
+            throw InputError(
+                shape.where,
+                fmt::format("shape '{}' emits but has no area; enlarge it or remove its emitter.", shape.id));
+    }
+    return shape;
+}
+
+} // namespace quasilux

@@ -1,0 +1,23 @@
+// <transform>: its operations, and what affine matrices do to points and normals.
+#pragma once
+
+#include "scene/xml/element.h"
+
+#include <glm/glm.hpp>
+#include <string>
+
+namespace quasilux {
+
+/// Product of the operations, each multiplied from the left. Finite, affine and not singular, or InputError.
+glm::dmat4 parseTransform(const Element& element);
+
+/// Three numbers from x, y, z (missing ones are `missing`) or from value="a,b,c"; one number where `oneIsAll`.
+glm::dvec3 parseVector(const Element& element, double missing, bool oneIsAll);
+
+/// `point` in single precision. Throws InputError at `where` if it does not fit.
+glm::vec3 toSingle(const glm::dvec3& point, const SourceLocation& where);
+
+inline glm::dvec3 transformPoint(const glm::dmat4& m, const glm::dvec3& p) { return glm::dvec3(m * glm::dvec4(p, 1)); }
+inline glm::dvec3 transformVector(const glm::dmat4& m, const glm::dvec3& v) { return glm::dmat3(m) * v; }
+
+} // namespace quasilux

@@ -1,0 +1,23 @@
+// Every XML tag of the scene language with its attributes: one line each in tags.cpp.
+#pragma once
+
+#include "scene/xml/element.h"
+#include "scene/xml/names.h"
+
+namespace quasilux {
+
+enum class TagKind { scene, object, parameter, transform, operation, reference, directive };
+
+struct Tag {
+    std::string_view name;
+    TagKind kind;
+    Names required, optional;
+};
+
+/// The tag of `element`. Throws InputError for an unknown or unsupported tag.
+const Tag& tagOf(const Element& element);
+
+/// Checks tag and attributes of `element` and whether it may stand in `parent` (nullptr: root of a file).
+void checkElement(const Element& element, const Element* parent);
+
+} // namespace quasilux

@@ -1,0 +1,238 @@
+// Turns files into the tree of elements; pugixml is used here only.
+#include "scene/xml/xml_document.h"
+
+#include "scene/xml/names.h"
+#include "scene/xml/tags.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <pugixml.hpp>
+#include <sstream>
+
+namespace quasilux {
+
+namespace {
+
+constexpr int maximumNesting = 64; // elements within elements; the reader recurses
+
+/// Lines and columns of one file.
+class TextPositions {
+public:
+    TextPositions(std::string file, const std::string& text) : file_(std::move(file)) {
+        lineStarts_.push_back(0);
+        for (size_t i = 0; i < text.size(); ++i)
+            if (text[i] == '\n') lineStarts_.push_back(i + 1);
+    }
+    SourceLocation at(ptrdiff_t offset) const {
+        if (offset < 0) return {file_, 0, 0};
+        const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), static_cast<size_t>(offset));
+        return {file_, static_cast<int>(next - lineStarts_.begin()),
+                static_cast<int>(static_cast<size_t>(offset) - *(next - 1)) + 1};
+    }
+
+private:
+    std::string file_;
+    std::vector<size_t> lineStarts_;
+};
+
+struct Parameter {
+    std::string name, value;
+    bool given = false; ///< by the caller; a `<default>` does not change it
+    bool used = false;
+};
+
+class DocumentReader {
+public:
+    explicit DocumentReader(const SceneParameters& parameters) {
+        for (const auto& [name, value] : parameters) parameters_.push_back({name, value, true, false});
+    }
+
+    /// Root element of a file, as it stands; `mention` is the place that named the file.
+    Element readRoot(const std::string& path, const SourceLocation& mention) {
+        checkLoop(path, mention);
+        std::string text = readFile(path, mention, "scene");
+        if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
+        const TextPositions positions(path, text);
+        pugi::xml_document document;
+        const pugi::xml_parse_result result =
+            document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_pi, pugi::encoding_utf8);
+        if (!result)
+            throw InputError(positions.at(result.offset), fmt::format("malformed XML: {}.", result.description()));
+
+        openFiles_.push_back(std::filesystem::weakly_canonical(path).string());
+        Element root;
+        for (pugi::xml_node node : document.children()) {
+            const SourceLocation where = positions.at(node.offset_debug() - 1);
+            if (node.type() == pugi::node_pi && std::string_view(node.name()) == "quasilux")
+                throw InputError(where, "<?quasilux?> outside of the scene; put it into <scene> or a <bsdf>.");
+            if (node.type() != pugi::node_element) continue;
+            if (!root.tag.empty()) throw InputError(where, "a second outermost element; a file has one.");
+            root = convert(node, nullptr, positions, 0);
+        }
+        openFiles_.pop_back();
+        return root;
+    }
+
+    void checkAllUsed() const {
+        for (const Parameter& parameter : parameters_) {
+            if (parameter.used || !parameter.given) continue;
+            Names known;
+            for (const Parameter& other : parameters_)
+                if (!other.given || other.used) known.push_back(other.name);
+            throw InputError(fmt::format("parameter '{}' is not used by the scene.{}", parameter.name,
+                                         knownNames(parameter.name, known)));
+        }
+    }
+
+private:
+    void checkLoop(const std::string& path, const SourceLocation& mention) const {
+        const std::string canonical = std::filesystem::weakly_canonical(path).string();
+        if (std::find(openFiles_.begin(), openFiles_.end(), canonical) != openFiles_.end())
+            throw InputError(mention, fmt::format("include loop: '{}' includes itself; remove one <include>.", path));
+    }
+
+    Element convert(pugi::xml_node node, const Element* parent, const TextPositions& positions, int depth) {
+        Element element;
+        element.tag = node.name();
+        element.where = positions.at(node.offset_debug() - 1);
+        if (depth > maximumNesting)
+            throw InputError(element.where, fmt::format("elements nested deeper than {}.", maximumNesting));
+        for (pugi::xml_attribute attribute : node.attributes())
+            element.attributes.push_back({attribute.name(), substitute(attribute.value(), element.where)});
+        checkElement(element, parent);
+        for (pugi::xml_node child : node.children()) convertChild(child, element, positions, depth);
+        return element;
+    }
+
+    void convertChild(pugi::xml_node child, Element& parent, const TextPositions& positions, int depth) {
+        if (child.type() == pugi::node_pi) {
+            if (std::string_view(child.name()) != "quasilux") return; // another program's
+            const SourceLocation where = positions.at(child.offset_debug() - 2);
+            if (parent.tag != "scene" && parent.tag != "bsdf")
+                throw InputError(
+                    where,
+                    fmt::format("<?quasilux?> has no meaning in <{}>; put it into <scene> or a <bsdf>.", parent.tag));
+            parent.instructions.push_back(parseInstruction(child.value(), where));
+        } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
+            const std::string text = child.value();
+            throw InputError(
+                positions.at(child.offset_debug()),
+                fmt::format("text '{}' in <{}>; values are written as attributes.", text.substr(0, 40), parent.tag));
+        } else if (child.type() == pugi::node_element) {
+            Element element = convert(child, &parent, positions, depth + 1);
+            if (element.tag == "default")
+                define(element);
+            else if (element.tag == "include")
+                include(element, parent);
+            else
+                parent.children.push_back(std::move(element));
+        }
+    }
+
+    void define(const Element& element) {
+        const std::string& name = element.get("name");
+        if (name.empty()) throw InputError(element.where, "<default> needs a name that is not empty.");
+        const bool known = std::any_of(parameters_.begin(), parameters_.end(),
+                                       [&](const Parameter& parameter) { return parameter.name == name; });
+        if (!known) parameters_.push_back({name, element.get("value"), false, false});
+    }
+
+    void include(const Element& element, Element& parent) {
+        Element root = readRoot(resolvePath(element.get("filename"), element.where), element.where);
+        if (root.tag != "scene") {
+            checkElement(root, &parent);
+            parent.children.push_back(std::move(root));
+            return;
+        }
+        for (Element& child : root.children) {
+            checkElement(child, &parent);
+            parent.children.push_back(std::move(child));
+        }
+        for (Instruction& instruction : root.instructions) parent.instructions.push_back(std::move(instruction));
+    }
+
+    /// Replaces each `$name`, the longest known name first, as Mitsuba does.
+    std::string substitute(std::string text, const SourceLocation& where) {
+        size_t position = 0;
+        while ((position = text.find('$', position)) != std::string::npos) {
+            Parameter* longest = nullptr;
+            for (Parameter& parameter : parameters_)
+                if (text.compare(position + 1, parameter.name.size(), parameter.name) == 0 && !parameter.name.empty() &&
+                    (!longest || parameter.name.size() > longest->name.size()))
+                    longest = &parameter;
+            if (!longest) throwUndefined(text.substr(position + 1), where);
+            longest->used = true;
+            text.replace(position, longest->name.size() + 1, longest->value);
+            position += longest->value.size();
+        }
+        return text;
+    }
+
+    [[noreturn]] void throwUndefined(const std::string& name, const SourceLocation& where) const {
+        Names known;
+        for (const Parameter& parameter : parameters_) known.push_back(parameter.name);
+        throw InputError(where, fmt::format("parameter '${}' has no value; write <default name=\"{}\" value=\"…\"/> "
+                                            "before it, or give it as an option.{}",
+                                            name, name, knownNames(name, known)));
+    }
+
+    std::vector<Parameter> parameters_;
+    std::vector<std::string> openFiles_;
+};
+
+} // namespace
+
+Element readSceneDocument(const std::string& path, const SceneParameters& parameters) {
+    DocumentReader reader(parameters);
+    Element root = reader.readRoot(path, {});
+    if (root.tag != "scene")
+        throw InputError(root.where, fmt::format("the outermost element is <{}>; expected <scene>.", root.tag));
+    reader.checkAllUsed();
+    return root;
+}
+
+Instruction parseInstruction(std::string_view text, const SourceLocation& where) {
+    Instruction instruction{{}, where};
+    const auto malformed = [&]() {
+        return InputError(where, fmt::format("<?quasilux {}?>: expected a list of key=\"value\".", text));
+    };
+    constexpr std::string_view blanks = " \t\r\n";
+    size_t position = 0;
+    while ((position = text.find_first_not_of(blanks, position)) != std::string_view::npos) {
+        const size_t equals = text.find('=', position);
+        if (equals == std::string_view::npos || equals == position || equals + 1 >= text.size()) throw malformed();
+        const std::string_view key = text.substr(position, equals - position);
+        const char quote = text[equals + 1];
+        if ((quote != '"' && quote != '\'') || key.find_first_of(" \t\r\n\"'") != std::string_view::npos)
+            throw malformed();
+        const size_t end = text.find(quote, equals + 2);
+        if (end == std::string_view::npos) throw malformed();
+        for (const Attribute& entry : instruction.entries)
+            if (entry.name == key) throw InputError(where, fmt::format("<?quasilux?> has '{}' twice; keep one.", key));
+        instruction.entries.push_back({std::string(key), std::string(text.substr(equals + 2, end - equals - 2))});
+        position = end + 1;
+        if (position < text.size() && blanks.find(text[position]) == std::string_view::npos) throw malformed();
+    }
+    return instruction;
+}
+
+std::string readFile(const std::string& path, const SourceLocation& where, std::string_view what) {
+    std::error_code error;
+    const bool regular = std::filesystem::is_regular_file(path, error);
+    std::ifstream file(path, std::ios::binary);
+    if (!regular || !file)
+        throw InputError(where, fmt::format("cannot read the {} file '{}': {}. Check the name; it is relative to the "
+                                            "folder of the file that mentions it.",
+                                            what, path, regular ? "no permission" : "there is no such file"));
+    std::ostringstream content;
+    content << file.rdbuf();
+    return std::move(content).str();
+}
+
+std::string resolvePath(const std::string& name, const SourceLocation& where) {
+    return (std::filesystem::path(where.file).parent_path() / name).string();
+}
+
+} // namespace quasilux
