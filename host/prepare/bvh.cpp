@@ -78,7 +78,9 @@ shared::BvhNode emptyNode() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (float* lower : {node.lowerX, node.lowerY, node.lowerZ}) std::fill_n(lower, BVH_WIDTH, infinity);
     for (float* upper : {node.upperX, node.upperY, node.upperZ}) std::fill_n(upper, BVH_WIDTH, -infinity);
-    std::fill_n(node.child, BVH_WIDTH, 0u);
+    // No ray enters an empty slot, except one that is not a number: it then finds a block and no hit, not a way back to
+    // the root.
+    std::fill_n(node.child, BVH_WIDTH, BVH_LEAF_BIT);
     return node;
 }
 
@@ -167,6 +169,7 @@ Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
                         primitives.size(), maximumPrimitives));
     if (primitives.empty()) {
         bvh.nodes.push_back(emptyNode());
+        bvh.blocks.push_back(makeBlock(primitives, nullptr, 0)); // what the empty slots name
         return bvh;
     }
     std::vector<RTCBuildPrimitive> bounded = buildPrimitives(primitives);

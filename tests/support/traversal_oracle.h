@@ -1,0 +1,77 @@
+// What a traversal must answer: Embree on the host, and a slow check in double precision that decides where they
+// differ.
+#pragma once
+
+#include "prepare/bvh.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+/// As tests/kernels/traversal.cl reads it.
+struct TestRay {
+    glm::vec3 origin, direction;
+    float tMin, tMax;
+};
+
+/// As kernels/bvh.clh writes it.
+struct TestHit {
+    float t, u, v;
+    unsigned slot, primitive;
+
+    bool missed() const { return primitive == QL_NONE; }
+    unsigned index() const { return primitive & PRIMITIVE_INDEX_MASK; }
+};
+
+/// rtcIntersect1 and rtcOccluded1 over the same triangles (no spheres, no null primitives).
+class EmbreeOracle {
+public:
+    explicit EmbreeOracle(const std::vector<BvhPrimitive>& triangles);
+    ~EmbreeOracle();
+    TestHit closest(const TestRay& ray) const;
+    bool occluded(const TestRay& ray) const;
+
+private:
+    struct Scene;
+    std::unique_ptr<Scene> scene_;
+};
+
+/// Where a ray meets a primitive, in double precision. `undecided`: no condition of the hit fails by more than what
+/// single precision can err by, and at least one is within that of failing (docs/traversal.md, "When two answers tie").
+struct ExactHit {
+    enum class Verdict { miss, undecided, hit };
+    Verdict verdict = Verdict::miss;
+    double t = 0;
+    double tError = 0; ///< what single precision may make of t; infinite for a ray nearly in the plane
+};
+
+/// A triangle gives at most the first, a sphere both.
+std::array<ExactHit, 2> exactHits(const BvhPrimitive& primitive, const TestRay& ray);
+
+/// Checks an answer against all primitives; empty if it is right within rounding, else what is wrong.
+/// `passNull` leaves null primitives out.
+std::string faultOfClosest(const std::vector<BvhPrimitive>& primitives, const TestRay& ray, const TestHit& answer,
+                           bool passNull = false);
+std::string faultOfOcclusion(const std::vector<BvhPrimitive>& primitives, const TestRay& ray, bool answer);
+
+/// Answers to many rays, sorted by how they compare with Embree's.
+struct Comparison {
+    size_t rays = 0, hits = 0;
+    size_t equalDistance = 0; ///< another primitive at the same distance to 1e-5: duplicates, shared edges
+    size_t undecided = 0;     ///< the answers differ and both are right within rounding
+    size_t embreeFaults = 0;  ///< the answers differ, only ours is right within rounding
+    size_t mismatches = 0;    ///< ours is wrong
+    std::string firstMismatch;
+
+    void addMismatch(const std::string& what);
+};
+Comparison compareClosest(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
+                          const std::vector<TestRay>& rays, const std::vector<TestHit>& answers);
+Comparison compareOcclusion(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
+                            const std::vector<TestRay>& rays, const std::vector<unsigned>& answers);
+std::ostream& operator<<(std::ostream& stream, const Comparison& comparison);
+
+} // namespace quasilux

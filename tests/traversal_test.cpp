@@ -1,0 +1,434 @@
+// Closest hit and occlusion of kernels/bvh.clh against Embree and against double precision, with wrong kernels as
+// control.
+#include "device/kernel_sources.h"
+#include "support/meshes.h"
+#include "support/test_kernels.h"
+#include "support/traversal_oracle.h"
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <thread>
+
+namespace quasilux {
+namespace {
+
+using Primitives = std::vector<BvhPrimitive>;
+using Rays = std::vector<TestRay>;
+using Sources = std::map<std::string, std::string>;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+const std::string allFeatures = " -DHAS_SPHERES -DHAS_NULL_PRIMITIVES";
+
+/// A tree on the device and the test kernels built for it. `replaced` holds kernel files to use instead of the real
+/// ones.
+class DeviceScene {
+public:
+    explicit DeviceScene(const Primitives& primitives, const std::string& options = "", const Sources& replaced = {})
+        : bvh_(buildBvh(primitives)), nodes_(testDevice(), bvh_.nodes, "nodes"),
+          blocks_(testDevice(), bvh_.blocks, "blocks"), program_(build(bvhOptions(bvh_) + " " + options, replaced)) {}
+
+    const Bvh& bvh() const { return bvh_; }
+    std::vector<TestHit> closest(const Rays& rays) { return run<TestHit>("closestHits", rays); }
+    std::vector<TestHit> closestOpaque(const Rays& rays) { return run<TestHit>("closestOpaqueHits", rays); }
+    std::vector<unsigned> occluded(const Rays& rays) { return run<unsigned>("occlusion", rays); }
+
+    /// Seconds of one launch over rays that are on the device already.
+    template <typename Answer>
+    double time(const std::string& kernel, const Buffer<TestRay>& rays, const Buffer<Answer>& answers) {
+        Kernel prepared = program_.kernel(kernel);
+        testDevice().finish();
+        const auto start = std::chrono::steady_clock::now();
+        prepared.launch(rays.size(), nodes_, blocks_, rays, answers, cl_uint(rays.size()));
+        testDevice().finish();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+private:
+    static Program build(const std::string& options, Sources replaced) {
+        if (replaced.empty()) return testProgram("traversal.cl", options);
+        std::ifstream stream(std::string(QUASILUX_SOURCE_DIR) + "/tests/kernels/traversal.cl");
+        std::ostringstream text;
+        text << stream.rdbuf();
+        replaced["traversal.cl"] = text.str();
+        return Program(testDevice(), "traversal.cl", options, replaced);
+    }
+
+    template <typename Answer>
+    std::vector<Answer> run(const std::string& kernel, const Rays& rays) {
+        Buffer<TestRay> in(testDevice(), rays, "rays");
+        Buffer<Answer> out(testDevice(), rays.size(), "answers");
+        time(kernel, in, out);
+        return out.read();
+    }
+
+    Bvh bvh_;
+    Buffer<shared::BvhNode> nodes_;
+    Buffer<shared::PrimitiveBlock> blocks_;
+    Program program_;
+};
+
+glm::vec3 randomDirection(std::mt19937& engine) {
+    std::normal_distribution<float> normal;
+    for (;;) {
+        const float x = normal(engine), y = normal(engine), z = normal(engine);
+        const float length = std::sqrt(x * x + y * y + z * z);
+        if (length > 0.1f) return glm::vec3(x, y, z) / length;
+    }
+}
+
+/// Origins in a cube of half side `extent` about `center`, directions all around of length 0.1 to 10; a half of the
+/// rays ends nowhere, a half begins at 0.
+Rays randomRays(size_t count, unsigned seed, float extent, const glm::vec3& center = {}) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<float> unit(0, 1), sides(-extent, extent), exponent(-1, 1);
+    Rays rays(count);
+    for (TestRay& ray : rays) {
+        const float x = sides(engine), y = sides(engine), z = sides(engine), length = std::pow(10.0f, exponent(engine));
+        ray.origin = center + glm::vec3(x, y, z);
+        ray.direction = length * randomDirection(engine);
+        ray.tMin = unit(engine) < 0.5f ? 0 : unit(engine) * extent / length;
+        ray.tMax = unit(engine) < 0.5f ? infinity : ray.tMin + 2 * unit(engine) * extent / length;
+    }
+    return rays;
+}
+
+/// Along the axes, both ways, with 0 and -0 as the other components, from a lattice that touches planes of the scene.
+Rays axisParallelRays() {
+    Rays rays;
+    for (int x = -5; x <= 5; ++x)
+        for (int y = -5; y <= 5; ++y)
+            for (int z = -5; z <= 5; ++z)
+                for (int way = 0; way < 12; ++way) {
+                    const float zero = way < 6 ? 0.0f : -0.0f;
+                    glm::vec3 direction(zero);
+                    direction[way % 3] = way % 6 < 3 ? 1.0f : -1.0f;
+                    rays.push_back({0.25f * glm::vec3(x, y, z), direction, 0, infinity});
+                }
+    return rays;
+}
+
+/// Rays that begin at hits of other rays, tMin = 0.
+Rays surfaceRays(const Rays& before, const std::vector<TestHit>& hits, unsigned seed) {
+    std::mt19937 engine(seed);
+    Rays rays;
+    for (size_t i = 0; i < hits.size(); ++i)
+        if (!hits[i].missed())
+            rays.push_back({before[i].origin + hits[i].t * before[i].direction, randomDirection(engine), 0, infinity});
+    return rays;
+}
+
+/// The kernel file with `from` replaced; the text must be there.
+Sources mutant(const std::string& file, const std::string& from, const std::string& to) {
+    std::string text = kernelSources().at(file);
+    const size_t place = text.find(from);
+    if (place == std::string::npos) throw std::runtime_error(file + " does not hold '" + from + "'");
+    return {{file, text.replace(place, from.size(), to)}};
+}
+
+void expectAsEmbree(const Primitives& primitives, DeviceScene& scene, const Rays& rays, double undecidedShare) {
+    const EmbreeOracle embree(primitives);
+    const Comparison closest = compareClosest(primitives, embree, rays, scene.closest(rays));
+    const Comparison occlusion = compareOcclusion(primitives, embree, rays, scene.occluded(rays));
+    for (const Comparison& comparison : {closest, occlusion}) {
+        std::cout << "  " << comparison << "\n";
+        EXPECT_EQ(comparison.mismatches, 0u) << comparison.firstMismatch;
+        EXPECT_LE(double(comparison.undecided + comparison.embreeFaults), undecidedShare * double(rays.size()));
+        EXPECT_GT(comparison.hits, rays.size() / 20);
+    }
+}
+
+size_t faults(const Primitives& primitives, const Rays& rays, const std::vector<TestHit>& answers,
+              bool passNull = false) {
+    size_t count = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const std::string fault = faultOfClosest(primitives, rays[i], answers[i], passNull);
+        if (!fault.empty() && count++ == 0) std::cout << "  first fault: " << fault << "\n";
+    }
+    return count;
+}
+
+size_t occlusionFaults(const Primitives& primitives, const Rays& rays, const std::vector<unsigned>& answers) {
+    size_t count = 0;
+    for (size_t i = 0; i < rays.size(); ++i)
+        count += faultOfOcclusion(primitives, rays[i], answers[i] != 0).empty() ? 0 : 1;
+    return count;
+}
+
+TEST(Traversal, CornellBoxAsEmbree) {
+    const Primitives primitives = cornellBoxPrimitives();
+    DeviceScene scene(primitives);
+    expectAsEmbree(primitives, scene, randomRays(1000000, 1, 1.2f), 1e-3);
+}
+
+TEST(Traversal, LargeMeshAsEmbree) {
+    const Primitives primitives = bumpySpherePrimitives(224, 224);
+    ASSERT_GT(primitives.size(), 99000u);
+    DeviceScene scene(primitives);
+    expectAsEmbree(primitives, scene, randomRays(1000000, 2, 1.2f), 1e-3);
+}
+
+TEST(Traversal, DegenerateSliverAndDuplicateTrianglesAsEmbree) {
+    const Primitives primitives = awkwardPrimitives(5000, 3);
+    DeviceScene scene(primitives);
+    expectAsEmbree(primitives, scene, randomRays(1000000, 3, 1.2f), 1e-2);
+}
+
+TEST(Traversal, PortableMaskGivesTheSameAnswers) {
+    const Primitives primitives = bumpySpherePrimitives(60, 60);
+    DeviceScene fast(primitives), portable(primitives, "-DPORTABLE_MASK");
+    const Rays rays = randomRays(100000, 4, 1.2f);
+    EXPECT_EQ(fast.occluded(rays), portable.occluded(rays));
+    const std::vector<TestHit> a = fast.closest(rays), b = portable.closest(rays);
+    for (size_t i = 0; i < rays.size(); ++i) ASSERT_TRUE(a[i].slot == b[i].slot && a[i].t == b[i].t) << i;
+}
+
+TEST(Traversal, AxisParallelRaysAsEmbree) {
+    const Primitives primitives = cornellBoxPrimitives();
+    DeviceScene scene(primitives);
+    // Many of them run in the plane of a wall or along an edge, where both answers are right.
+    expectAsEmbree(primitives, scene, axisParallelRays(), 0.2);
+}
+
+TEST(Traversal, RaysFromSurfacesAsEmbree) {
+    for (const Primitives& primitives : {cornellBoxPrimitives(), bumpySpherePrimitives(60, 60)}) {
+        DeviceScene scene(primitives);
+        const Rays before = randomRays(30000, 5, 0.9f);
+        // The surface that a ray begins on may or may not be met at t = 0 within rounding.
+        expectAsEmbree(primitives, scene, surfaceRays(before, scene.closest(before), 6), 0.8);
+    }
+}
+
+TEST(Traversal, EmptySceneIsNeverMet) {
+    DeviceScene scene({});
+    EXPECT_EQ(scene.bvh().nodes.size(), 1u);
+    const Rays rays = axisParallelRays();
+    for (const TestHit& hit : scene.closest(rays)) ASSERT_TRUE(hit.missed() && hit.slot == QL_NONE);
+    for (unsigned blocked : scene.occluded(rays)) ASSERT_EQ(blocked, 0u);
+}
+
+TEST(Traversal, RaysThatAreNotNumbersEndAsMisses) {
+    DeviceScene scene(bumpySpherePrimitives(60, 60));
+    const Rays good = randomRays(300, 18, 1.2f);
+    Rays rays;
+    for (TestRay ray : good) {
+        const size_t component = rays.size() % 7;
+        for (const float bad : {std::nanf(""), infinity, -infinity}) {
+            rays.push_back(ray);
+            if (component < 3)
+                rays.back().origin[int(component)] = bad;
+            else if (component < 6)
+                rays.back().direction[int(component) - 3] = bad;
+            else
+                rays.back().direction = glm::vec3(bad);
+        }
+    }
+    for (const TestHit& hit : scene.closest(rays)) ASSERT_TRUE(hit.missed());
+    for (unsigned blocked : scene.occluded(rays)) ASSERT_EQ(blocked, 0u);
+}
+
+TEST(Traversal, OneTriangle) {
+    BvhPrimitive triangle;
+    triangle.v0 = {0, 0, -2}, triangle.v1 = {4, 0, -2}, triangle.v2 = {0, 2, -2};
+    DeviceScene scene({triangle});
+    const TestHit hit = scene.closest({{{1, 0.5f, 0}, {0, 0, -0.5f}, 0, infinity}})[0];
+    EXPECT_FLOAT_EQ(hit.t, 4);
+    EXPECT_FLOAT_EQ(hit.u, 0.25f);
+    EXPECT_FLOAT_EQ(hit.v, 0.25f);
+    EXPECT_EQ(hit.primitive, 0u);
+    // The far end belongs to the ray, the near one does not.
+    const Rays ends = {
+        {{1, 0.5f, 0}, {0, 0, -1}, 0, 2}, {{1, 0.5f, 0}, {0, 0, -1}, 2, 9}, {{3, 1, 0}, {0, 0, -1}, 0, 9}};
+    EXPECT_EQ(scene.occluded(ends), (std::vector<unsigned>{1, 0, 0}));
+}
+
+TEST(Traversal, Spheres) {
+    const Primitives primitives = randomSpheres(300, 7);
+    DeviceScene scene(primitives, allFeatures);
+    Rays rays = randomRays(20000, 8, 1.2f);
+    EXPECT_EQ(faults(primitives, rays, scene.closest(rays)), 0u);
+    EXPECT_EQ(occlusionFaults(primitives, rays, scene.occluded(rays)), 0u);
+    rays = surfaceRays(rays, scene.closest(rays), 9);
+    EXPECT_GT(rays.size(), 5000u);
+    EXPECT_EQ(faults(primitives, rays, scene.closest(rays)), 0u);
+}
+
+TEST(Traversal, SmallSphereFarAway) {
+    BvhPrimitive sphere;
+    sphere.isSphere = true;
+    sphere.v0 = {1000, 0, 0}, sphere.v1.x = 0.1f;
+    DeviceScene scene({sphere}, allFeatures);
+    std::mt19937 engine(10);
+    std::uniform_real_distribution<float> across(-0.2f, 0.2f);
+    Rays rays(20000);
+    for (TestRay& ray : rays) {
+        const float y = across(engine), z = across(engine);
+        ray = {{0, 0, 0}, glm::normalize(glm::vec3(1000, y, z)), 0, infinity};
+    }
+    EXPECT_EQ(faults({sphere}, rays, scene.closest(rays)), 0u);
+}
+
+TEST(Traversal, NullPrimitivesArePassed) {
+    Primitives primitives = awkwardPrimitives(300, 11);
+    for (const BvhPrimitive& sphere : randomSpheres(60, 12)) primitives.push_back(sphere);
+    for (size_t i = 0; i < primitives.size(); i += 3) primitives[i].isNull = true;
+    DeviceScene scene(primitives, allFeatures);
+    const Rays rays = randomRays(20000, 13, 1.2f);
+    const std::vector<TestHit> all = scene.closest(rays);
+    EXPECT_EQ(faults(primitives, rays, all), 0u);
+    EXPECT_EQ(faults(primitives, rays, scene.closestOpaque(rays), true), 0u);
+    EXPECT_EQ(occlusionFaults(primitives, rays, scene.occluded(rays)), 0u);
+    size_t nulls = 0;
+    for (const TestHit& hit : all)
+        if (!hit.missed()) {
+            ASSERT_EQ((hit.primitive & PRIMITIVE_NULL_BIT) != 0, primitives[hit.index()].isNull);
+            nulls += primitives[hit.index()].isNull ? 1 : 0;
+        }
+    EXPECT_GT(nulls, rays.size() / 20);
+}
+
+TEST(Traversal, FarFromTheOrigin) {
+    const glm::vec3 offset(1e5f, -1e5f, 5e4f);
+    const Primitives primitives = moved(bumpySpherePrimitives(40, 40), offset);
+    const Rays rays = randomRays(5000, 14, 1.5f, offset);
+    EXPECT_EQ(faults(primitives, rays, DeviceScene(primitives).closest(rays)), 0u);
+    // Control: without room for the rounding of o / d, boxes are missed.
+    DeviceScene wrong(primitives, "",
+                      mutant("bvh_box.clh", "#define BOX_SHIFT_ERROR 2.4e-7f", "#define BOX_SHIFT_ERROR 0"));
+    EXPECT_GT(faults(primitives, rays, wrong.closest(rays)), 0u);
+}
+
+TEST(TraversalControl, WrongKernelsAreFound) {
+    const Primitives primitives = bumpySpherePrimitives(60, 60);
+    const EmbreeOracle embree(primitives);
+    const Rays rays = randomRays(20000, 15, 1.2f);
+    const Sources mutants[] = {
+        mutant("bvh_box.clh", "return laneMask(enter <= leave)", "return 127u & laneMask(enter <= leave)"),
+        mutant("bvh.clh", ">> 32)) <= tMax)", ">> 32)) <= 0.8f * tMax)"),
+        mutant("bvh.clh", "max(firstEntry, secondEntry);\n        return",
+               "min(firstEntry, secondEntry);\n        return"),
+        mutant("bvh_block.clh", "(u + v <= scale)", "(u <= scale) & (v <= scale)"),
+    };
+    for (const Sources& sources : mutants) {
+        DeviceScene scene(primitives, "", sources);
+        EXPECT_GT(compareClosest(primitives, embree, rays, scene.closest(rays)).mismatches, 0u)
+            << sources.begin()->first;
+        EXPECT_GT(compareOcclusion(primitives, embree, rays, scene.occluded(rays)).mismatches, 0u)
+            << sources.begin()->first;
+    }
+}
+
+TEST(TraversalControl, CoarseGuardOfZeroDirectionsIsFound) {
+    const Primitives primitives = cornellBoxPrimitives();
+    const EmbreeOracle embree(primitives);
+    const Rays rays = axisParallelRays();
+    DeviceScene scene(primitives, "",
+                      mutant("bvh_box.clh", "BOX_SMALLEST_DIRECTION 1e-18f", "BOX_SMALLEST_DIRECTION 0.1f"));
+    EXPECT_GT(compareClosest(primitives, embree, rays, scene.closest(rays)).mismatches, 0u);
+}
+
+TEST(Bvh, HoldsEveryPrimitiveOnceWithinItsBoxes) {
+    const Primitives primitives = awkwardPrimitives(3000, 16);
+    const Bvh bvh = buildBvh(primitives);
+    std::vector<unsigned> seen(primitives.size());
+    unsigned deepest = 0;
+    const auto visit = [&](auto&& self, unsigned index, const glm::vec3& lower, const glm::vec3& upper,
+                           unsigned depth) -> void {
+        deepest = std::max(deepest, depth);
+        const shared::BvhNode& node = bvh.nodes[index];
+        for (int i = 0; i < BVH_WIDTH; ++i) {
+            if (node.lowerX[i] > node.upperX[i]) continue;
+            const glm::vec3 low(node.lowerX[i], node.lowerY[i], node.lowerZ[i]),
+                high(node.upperX[i], node.upperY[i], node.upperZ[i]);
+            ASSERT_TRUE(glm::all(glm::lessThanEqual(lower, low)) && glm::all(glm::lessThanEqual(high, upper)));
+            if (!(node.child[i] & BVH_LEAF_BIT)) {
+                self(self, node.child[i], low, high, depth + 1);
+                continue;
+            }
+            for (unsigned primitive : bvh.blocks.at(node.child[i] & BVH_LEAF_FIRST_MASK).primitive) {
+                if (primitive == QL_NONE) continue;
+                ++seen.at(primitive);
+                for (const glm::vec3& v :
+                     {primitives[primitive].v0, primitives[primitive].v1, primitives[primitive].v2})
+                    ASSERT_TRUE(glm::all(glm::lessThanEqual(low, v)) && glm::all(glm::lessThanEqual(v, high)));
+            }
+        }
+    };
+    visit(visit, 0, glm::vec3(-infinity), glm::vec3(infinity), 1);
+    EXPECT_EQ(seen, std::vector<unsigned>(primitives.size(), 1u));
+    EXPECT_EQ(deepest, bvh.depth);
+}
+
+TEST(Bvh, ManyDuplicatesStayShallow) {
+    const Bvh bvh = buildBvh(Primitives(100000, cornellBoxPrimitives()[0]));
+    EXPECT_LE(bvh.depth, 32u);
+    EXPECT_GE(bvh.blocks.size(), 12500u);
+}
+
+TEST(Bvh, UnusableCoordinatesAreRefused) {
+    for (const float bad : {std::nanf(""), infinity, -infinity, 3e12f}) {
+        Primitives primitives = cornellBoxPrimitives();
+        primitives[17].v1.y = bad;
+        EXPECT_THROW(buildBvh(primitives), InputError);
+    }
+}
+
+// Million rays a second of the kernels and of Embree, both on all cores, in turns; best of several rounds.
+TEST(Traversal, DISABLED_Rates) {
+    const auto onTwoThreads = [](size_t count, auto&& work) {
+        const auto start = std::chrono::steady_clock::now();
+        std::thread other([&] {
+            for (size_t i = 0; i < count / 2; ++i) work(i);
+        });
+        for (size_t i = count / 2; i < count; ++i) work(i);
+        other.join();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    const auto measure = [&](const char* name, const Primitives& primitives, const Rays& rays) {
+        const EmbreeOracle embree(primitives);
+        DeviceScene scene(primitives, std::getenv("TRAVERSAL_OPTIONS") ? std::getenv("TRAVERSAL_OPTIONS") : "");
+        Buffer<TestRay> in(testDevice(), rays, "rays");
+        Buffer<TestHit> hits(testDevice(), rays.size(), "hits");
+        Buffer<unsigned> blocked(testDevice(), rays.size(), "blocked");
+        std::vector<TestHit> theirHits(rays.size());
+        std::vector<unsigned> theirBlocked(rays.size());
+        double best[4] = {1e9, 1e9, 1e9, 1e9};
+        for (int round = 0; round < 8; ++round) {
+            best[0] = std::min(best[0], scene.time("closestHits", in, hits));
+            best[1] =
+                std::min(best[1], onTwoThreads(rays.size(), [&](size_t i) { theirHits[i] = embree.closest(rays[i]); }));
+            best[2] = std::min(best[2], scene.time("occlusion", in, blocked));
+            best[3] = std::min(
+                best[3], onTwoThreads(rays.size(), [&](size_t i) { theirBlocked[i] = embree.occluded(rays[i]); }));
+        }
+        const double million = double(rays.size()) * 1e-6;
+        printf("%-24s closest %6.2f, Embree %6.2f, ratio %.2f | occluded %6.2f, Embree %6.2f, ratio %.2f\n", name,
+               million / best[0], million / best[1], best[1] / best[0], million / best[2], million / best[3],
+               best[3] / best[2]);
+    };
+    const auto cameraRays = [](float z) {
+        Rays rays;
+        for (int y = 0; y < 700; ++y)
+            for (int x = 0; x < 700; ++x)
+                rays.push_back(
+                    {{0, 0, z}, glm::normalize(glm::vec3((x - 350) / 600.0f, (y - 350) / 600.0f, -1)), 0, infinity});
+        return rays;
+    };
+    const auto diffuseRays = [](float extent) {
+        Rays rays = randomRays(500000, 17, extent);
+        for (TestRay& ray : rays) ray.direction = glm::normalize(ray.direction), ray.tMin = 1e-4f, ray.tMax = infinity;
+        return rays;
+    };
+    measure("Cornell camera", cornellBoxPrimitives(), cameraRays(3));
+    measure("Cornell random", cornellBoxPrimitives(), diffuseRays(0.99f));
+    measure("sphere (100 k) camera", bumpySpherePrimitives(224, 224), cameraRays(3));
+    measure("sphere (100 k) random", bumpySpherePrimitives(224, 224), diffuseRays(0.99f));
+}
+
+} // namespace
+} // namespace quasilux
