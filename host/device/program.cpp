@@ -53,9 +53,8 @@ void Kernel::check(cl_int status, cl_uint index) {
         throw DeviceError(fmt::format("kernel {}: argument {} was refused (OpenCL error {})", name_, index, status));
 }
 
-void Kernel::enqueue(size_t count) {
+void Kernel::enqueue(size_t count, size_t group) {
     if (count == 0) return;
-    const size_t group = device_->workGroupSize();
     const size_t global = (count + group - 1) / group * group;
     try {
         cl::Event event;

@@ -23,7 +23,15 @@ public:
     void launch(size_t count, const Args&... args) {
         cl_uint index = 0;
         (setArgument(index++, args), ...);
-        enqueue(count);
+        enqueue(count, device_->workGroupSize());
+    }
+
+    /// The same for a few long work-items: each is a group of its own, so that a CPU spreads them over its cores.
+    template <typename... Args>
+    void launchFew(size_t count, const Args&... args) {
+        cl_uint index = 0;
+        (setArgument(index++, args), ...);
+        enqueue(count, 1);
     }
 
 private:
@@ -32,7 +40,7 @@ private:
     template <typename T, typename = std::enable_if_t<std::is_trivially_copyable_v<T>>>
     void setArgument(cl_uint index, const T& value) { check(kernel_.setArg(index, sizeof(T), &value), index); }
     void check(cl_int status, cl_uint index);
-    void enqueue(size_t count);
+    void enqueue(size_t count, size_t group);
 
     Device* device_ = nullptr;
     cl::Kernel kernel_;

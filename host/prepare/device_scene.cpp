@@ -1,0 +1,87 @@
+#include "prepare/device_scene.h"
+
+#include "prepare/scene_tables.h"
+
+namespace quasilux {
+
+namespace {
+
+Features findFeatures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters,
+                      const SurfaceBorders& borders) {
+    Features features;
+    for (const auto& lobe : materials.lobes) {
+        features.lobes.insert(lobe.type);
+        features.genuineDiffuse |= lobe.scattering == SCATTER_GENUINE_DIFFUSE;
+        features.quasiSpecular |= lobe.scattering == SCATTER_QUASI_SPECULAR;
+        features.specular |= lobe.scattering == SCATTER_SPECULAR;
+    }
+    for (const auto& emitter : emitters.emitters) features.emitterTypes.insert(emitter.type);
+    for (const auto& shape : scene.shapes) {
+        features.spheres |= shape.sphere.has_value();
+        features.cornerNormals |= !shape.mesh.cornerNormals.empty();
+        features.nullPrimitives |= scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull;
+    }
+    features.borders = !borders.segments.empty();
+    features.depthLimit = scene.maxDepth >= 0;
+    return features;
+}
+
+// The density radius stays below half the radius of curvature, where a surface is close to its tangent plane.
+std::vector<float> patchRadii(const SurfaceBorders& borders) {
+    std::vector<float> radii;
+    for (unsigned k = 0; k < borders.patchCount; ++k) {
+        const float curvature = borders.patchCurvature[k];
+        radii.push_back(curvature > 0 ? 0.5f / curvature : INFINITY);
+    }
+    return radii;
+}
+
+void appendBorders(const SurfaceBorders& borders, float reach, SceneTableWriter& tables, shared::SceneTables& offsets) {
+    const auto grid = indexBorders(borders, reach);
+    offsets.segments = tables.append(borders.segments);
+    offsets.borderCells = tables.append(grid.cellStart);
+    offsets.borderItems = tables.append(grid.items);
+    offsets.patchRadius = tables.append(patchRadii(borders));
+    offsets.borderLower = {grid.lower.x, grid.lower.y, grid.lower.z};
+    offsets.borderCellSize = grid.cellSize;
+    offsets.borderCellsX = grid.cells.x;
+    offsets.borderCellsY = grid.cells.y;
+    offsets.borderCellsZ = grid.cells.z;
+}
+
+} // namespace
+
+DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
+    DeviceScene out;
+    out.split = decideSplit(scene, settings.quasiSpecular, settings.overridesScene);
+    out.emitters = flattenEmitters(scene);
+    const auto materials = flattenMaterials(scene, out.split);
+    const auto borders = findBorders(scene);
+    out.surfaceArea = scatteringArea(scene);
+    out.features = findFeatures(scene, materials, out.emitters, borders);
+    out.bvh = buildBvh(flattenPrimitives(scene));
+
+    SceneTableWriter tables;
+    out.offsets.primitives = tables.append(flattenPrimitiveInfo(scene, borders));
+    out.offsets.shapes = tables.append(flattenShapes(scene, out.emitters.emitterOfShape));
+    out.offsets.cornerNormals = tables.append(flattenCornerNormals(scene));
+    out.offsets.materials = tables.append(materials.materials);
+    out.offsets.lobes = tables.append(materials.lobes);
+    out.offsets.emitters = tables.append(out.emitters.emitters);
+    out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
+    out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
+    appendBorders(borders, static_cast<float>(settings.largestRadius(out.surfaceArea)), tables, out.offsets);
+    out.tables = tables.words();
+    out.camera = flattenCamera(scene.sensor);
+
+    for (const auto& shape : scene.shapes) {
+        out.triangles += shape.mesh.triangles.size();
+        out.spheres += shape.sphere ? 1 : 0;
+    }
+    out.patches = borders.patchCount;
+    out.borderSegments = borders.segments.size();
+    for (const double power : out.emitters.power) out.emittedFlux += power;
+    return out;
+}
+
+} // namespace quasilux

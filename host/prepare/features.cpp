@@ -1,0 +1,65 @@
+#include "prepare/features.h"
+
+#include <algorithm>
+#include <array>
+
+namespace quasilux {
+
+namespace {
+
+// In the order of LobeType and of EMITTER_*.
+constexpr std::array<const char*, LOBE_TYPES> lobeNames = {"LAMBERT",  "PHONG",     "GGX",
+                                                           "BECKMANN", "CONDUCTOR", "DIELECTRIC"};
+constexpr std::array<const char*, 4> emitterNames = {"RECTANGLE", "TRIANGLES", "SPHERE", "POINT"};
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+struct Flag {
+    bool Features::* member;
+    const char* define;
+    const char* text;
+};
+constexpr std::array flags = {
+    Flag{&Features::spheres, "HAS_SPHERES", "spheres"},
+    Flag{&Features::nullPrimitives, "HAS_NULL_PRIMITIVES", "null surfaces"},
+    Flag{&Features::cornerNormals, "HAS_CORNER_NORMALS", "vertex normals"},
+    Flag{&Features::borders, "HAS_BORDERS", "surface borders"},
+    Flag{&Features::depthLimit, "HAS_DEPTH_LIMIT", "path depth limit"},
+};
+
+} // namespace
+
+std::string lobeName(unsigned type) { return lower(lobeNames.at(type)); }
+std::string emitterTypeName(unsigned type) { return lower(emitterNames.at(type)); }
+
+std::string Features::options() const {
+    std::string text;
+    for (const unsigned type : lobes) text += std::string(" -DHAS_LOBE_") + lobeNames.at(type);
+    for (const unsigned type : emitterTypes) text += std::string(" -DHAS_EMITTER_") + emitterNames.at(type);
+    for (const auto& flag : flags)
+        if (this->*flag.member) text += std::string(" -D") + flag.define;
+    return text;
+}
+
+std::vector<std::string> Features::names() const {
+    std::vector<std::string> list;
+    for (const unsigned type : lobes) list.push_back("lobe " + lobeName(type));
+    for (const unsigned type : emitterTypes) list.push_back("emitter " + emitterTypeName(type));
+    for (const auto& flag : flags)
+        if (this->*flag.member) list.emplace_back(flag.text);
+    return list;
+}
+
+Features Features::generic() {
+    Features all;
+    for (unsigned type = 0; type < LOBE_TYPES; ++type) all.lobes.insert(type);
+    for (unsigned type = 0; type < emitterNames.size(); ++type) all.emitterTypes.insert(type);
+    for (const auto& flag : flags) all.*flag.member = true;
+    all.genuineDiffuse = all.quasiSpecular = all.specular = true;
+    return all;
+}
+
+} // namespace quasilux

@@ -1,0 +1,29 @@
+// What a scene needs of the kernels: only that is compiled, stored and allocated.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+struct Features {
+    std::set<unsigned> lobes;        ///< LOBE_* in use
+    std::set<unsigned> emitterTypes; ///< EMITTER_* in use
+    bool spheres = false, nullPrimitives = false, cornerNormals = false, borders = false, depthLimit = false;
+    bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering present
+
+    /// Compiler options, such as "-DHAS_LOBE_PHONG -DHAS_BORDERS".
+    std::string options() const;
+    /// For people, such as "lobe phong".
+    std::vector<std::string> names() const;
+    /// Everything that the kernels know, used or not.
+    static Features generic();
+};
+
+std::string lobeName(unsigned type);
+std::string emitterTypeName(unsigned type);
+
+} // namespace quasilux

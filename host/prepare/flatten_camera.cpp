@@ -1,0 +1,35 @@
+// Sensor into the kernels' camera. Mitsuba's camera looks along its +z with +y up and +x to the left of the image.
+#include "prepare/device_scene.h"
+
+namespace quasilux {
+
+namespace {
+
+shared::Packed3 pack(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+} // namespace
+
+shared::Camera flattenCamera(const Sensor& sensor) {
+    const glm::dmat3 rotation(sensor.toWorld);
+    const glm::dvec3 left = glm::normalize(rotation[0]), up = glm::normalize(rotation[1]), forward = glm::normalize(rotation[2]);
+    const double halfWidth = std::tan(sensor.fovX / 2);
+    const double step = 2 * halfWidth / sensor.width;
+    shared::Camera camera{};
+    camera.origin = pack(glm::dvec3(sensor.toWorld[3]));
+    camera.stepX = pack(-left * step);
+    camera.stepY = pack(-up * step);
+    camera.corner = pack(forward + left * halfWidth + up * (step * sensor.height / 2));
+    camera.forward = pack(forward);
+    camera.nearClip = static_cast<float>(sensor.nearClip);
+    camera.farClip = static_cast<float>(sensor.farClip);
+    camera.width = sensor.width;
+    camera.height = sensor.height;
+    camera.filter = sensor.filter;
+    camera.filterRadius = static_cast<float>(sensor.filterRadius);
+    camera.filterStddev = static_cast<float>(sensor.filterStddev);
+    return camera;
+}
+
+} // namespace quasilux

@@ -1,0 +1,94 @@
+// Emitting shapes and points into the emitter table, with selection in proportion to power.
+#include "prepare/device_scene.h"
+
+namespace quasilux {
+
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+shared::Packed3 pack(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+double mean(const Rgb& c) { return (double(c.r) + c.g + c.b) / 3; }
+
+void addTriangles(const Mesh& mesh, shared::Emitter& emitter, std::vector<shared::EmitterTriangle>& triangles) {
+    emitter.firstTriangle = static_cast<unsigned>(triangles.size());
+    double area = 0;
+    std::vector<double> sums;
+    for (const auto& t : mesh.triangles) {
+        const glm::vec3 p0 = mesh.positions[t.x], e1 = mesh.positions[t.y] - p0, e2 = mesh.positions[t.z] - p0;
+        const double here = 0.5 * glm::length(glm::cross(glm::dvec3(e1), glm::dvec3(e2)));
+        if (here == 0) continue;
+        area += here;
+        sums.push_back(area);
+        triangles.push_back({pack(p0), pack(e1), pack(e2), 0});
+    }
+    emitter.triangleCount = static_cast<unsigned>(sums.size());
+    emitter.area = static_cast<float>(area);
+    for (size_t k = 0; k < sums.size(); ++k)
+        triangles[emitter.firstTriangle + k].areaCdf = k + 1 == sums.size() ? 1.f : static_cast<float>(sums[k] / area);
+}
+
+shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index, std::vector<shared::EmitterTriangle>& triangles) {
+    shared::Emitter emitter{};
+    emitter.shape = index;
+    emitter.radiance = shape.emitter->radiance;
+    emitter.normalSign = shape.flipNormals ? -1.f : 1.f;
+    if (shape.rectangle) {
+        const auto& frame = *shape.rectangle;
+        emitter.type = EMITTER_RECTANGLE;
+        emitter.origin = pack(frame.corner);
+        emitter.edgeU = pack(frame.edgeU);
+        emitter.edgeV = pack(frame.edgeV);
+        emitter.normal = pack(frame.normal);
+        emitter.area = static_cast<float>(double(glm::length(frame.edgeU)) * glm::length(frame.edgeV));
+    } else if (shape.sphere) {
+        emitter.type = EMITTER_SPHERE;
+        emitter.origin = pack(shape.sphere->center);
+        emitter.radius = shape.sphere->radius;
+        emitter.area = static_cast<float>(4 * pi * shape.sphere->radius * shape.sphere->radius);
+    } else {
+        emitter.type = EMITTER_TRIANGLES;
+        addTriangles(shape.mesh, emitter, triangles);
+    }
+    return emitter;
+}
+
+void setSelection(EmitterTables& tables) {
+    double total = 0;
+    for (const double power : tables.power) total += power;
+    double sum = 0;
+    for (size_t k = 0; k < tables.emitters.size(); ++k) {
+        sum += tables.power[k] / total;
+        tables.emitters[k].selectionProbability = static_cast<float>(tables.power[k] / total);
+        tables.emitters[k].selectionCdf = k + 1 == tables.emitters.size() ? 1.f : static_cast<float>(sum);
+    }
+}
+
+} // namespace
+
+EmitterTables flattenEmitters(const Scene& scene) {
+    EmitterTables tables;
+    tables.emitterOfShape.assign(scene.shapes.size(), QL_NONE);
+    for (unsigned k = 0; k < scene.shapes.size(); ++k) {
+        const auto& shape = scene.shapes[k];
+        if (!shape.emitter) continue;
+        tables.emitterOfShape[k] = static_cast<unsigned>(tables.emitters.size());
+        tables.emitters.push_back(areaEmitter(shape, k, tables.triangles));
+        tables.power.push_back(pi * tables.emitters.back().area * mean(shape.emitter->radiance));
+        tables.ids.push_back(shape.id);
+    }
+    for (const auto& point : scene.pointEmitters) {
+        shared::Emitter emitter{};
+        emitter.type = EMITTER_POINT;
+        emitter.shape = QL_NONE;
+        emitter.radiance = point.intensity;
+        emitter.origin = pack(point.position);
+        tables.emitters.push_back(emitter);
+        tables.power.push_back(4 * pi * mean(point.intensity));
+        tables.ids.push_back(point.id);
+    }
+    setSelection(tables);
+    return tables;
+}
+
+} // namespace quasilux

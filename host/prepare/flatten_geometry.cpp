@@ -1,0 +1,84 @@
+// Shapes into primitives, their records and corner normals.
+#include "prepare/device_scene.h"
+
+namespace quasilux {
+
+namespace {
+
+shared::Packed3 pack(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+
+bool isNull(const Scene& scene, const ShapeDescription& shape) {
+    return shape.bsdf >= 0 && scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull;
+}
+
+unsigned primitiveCount(const ShapeDescription& shape) {
+    return shape.sphere ? 1u : static_cast<unsigned>(shape.mesh.triangles.size());
+}
+
+double meshArea(const Mesh& mesh) {
+    double area = 0;
+    for (const auto& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+    return area;
+}
+
+} // namespace
+
+std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene) {
+    std::vector<BvhPrimitive> primitives;
+    for (const auto& shape : scene.shapes) {
+        const bool null = isNull(scene, shape);
+        if (shape.sphere) primitives.push_back({shape.sphere->center, {shape.sphere->radius, 0, 0}, {}, true, null});
+        const auto& p = shape.mesh.positions;
+        for (const auto& t : shape.mesh.triangles) primitives.push_back({p[t.x], p[t.y], p[t.z], false, null});
+    }
+    return primitives;
+}
+
+std::vector<shared::PrimitiveInfo> flattenPrimitiveInfo(const Scene& scene, const SurfaceBorders& borders) {
+    std::vector<shared::PrimitiveInfo> records;
+    for (unsigned shape = 0; shape < scene.shapes.size(); ++shape)
+        for (unsigned k = 0; k < primitiveCount(scene.shapes[shape]); ++k)
+            records.push_back({shape, borders.patchOfPrimitive[records.size()]});
+    return records;
+}
+
+std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<unsigned>& emitterOfShape) {
+    std::vector<shared::Shape> records;
+    unsigned primitive = 0, normal = 0;
+    for (size_t k = 0; k < scene.shapes.size(); ++k) {
+        const auto& shape = scene.shapes[k];
+        shared::Shape record{};
+        record.material = static_cast<unsigned>(shape.bsdf);
+        record.emitter = emitterOfShape[k];
+        record.firstPrimitive = primitive;
+        record.firstNormal = shape.mesh.cornerNormals.empty() ? QL_NONE : normal;
+        record.normalSign = shape.flipNormals ? -1.f : 1.f;
+        records.push_back(record);
+        primitive += primitiveCount(shape);
+        normal += static_cast<unsigned>(shape.mesh.cornerNormals.size());
+    }
+    return records;
+}
+
+std::vector<shared::Packed3> flattenCornerNormals(const Scene& scene) {
+    std::vector<shared::Packed3> normals;
+    for (const auto& shape : scene.shapes)
+        for (const auto& normal : shape.mesh.cornerNormals) normals.push_back(pack(normal));
+    return normals;
+}
+
+double scatteringArea(const Scene& scene) {
+    constexpr double pi = 3.141592653589793;
+    double area = 0;
+    for (const auto& shape : scene.shapes) {
+        if (isNull(scene, shape)) continue;
+        area += meshArea(shape.mesh);
+        if (shape.sphere) area += 4 * pi * shape.sphere->radius * shape.sphere->radius;
+    }
+    return area;
+}
+
+} // namespace quasilux

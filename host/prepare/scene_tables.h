@@ -1,0 +1,28 @@
+// All small scene tables in one buffer of 32-bit words, since OpenCL kernels take few buffers.
+#pragma once
+
+#include "pass_types.h"
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace quasilux {
+
+class SceneTableWriter {
+public:
+    /// Appends `records` and returns the word offset where they begin.
+    template <typename T> unsigned append(const std::vector<T>& records) {
+        static_assert(sizeof(T) % sizeof(uint32_t) == 0);
+        const auto first = static_cast<unsigned>(words_.size());
+        words_.resize(words_.size() + records.size() * sizeof(T) / sizeof(uint32_t));
+        if (!records.empty()) std::memcpy(words_.data() + first, records.data(), records.size() * sizeof(T));
+        return first;
+    }
+    const std::vector<uint32_t>& words() const { return words_; }
+
+private:
+    std::vector<uint32_t> words_;
+};
+
+} // namespace quasilux

@@ -1,0 +1,98 @@
+#include "prepare/split.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <sstream>
+
+namespace quasilux {
+
+namespace {
+
+constexpr double degrees = 57.29577951308232;
+
+std::vector<std::string> splitList(const std::string& text) {
+    std::vector<std::string> items;
+    std::istringstream stream(text);
+    for (std::string item; std::getline(stream, item, ',');)
+        if (!item.empty()) items.push_back(item);
+    return items;
+}
+
+bool hasSpecialLobe(const Bsdf& bsdf) {
+    const auto special = [](const LobeDescription& lobe) { return lobe.device.type != LOBE_LAMBERT; };
+    return std::any_of(bsdf.front.begin(), bsdf.front.end(), special) ||
+           std::any_of(bsdf.back.begin(), bsdf.back.end(), special);
+}
+
+bool isListed(const std::vector<std::string>& list, const Bsdf& bsdf, const LobeDescription& lobe) {
+    const bool wholeBsdf = std::find(list.begin(), list.end(), bsdf.id) != list.end();
+    const bool thisLobe = std::find(list.begin(), list.end(), bsdf.id + '.' + lobe.name) != list.end();
+    return thisLobe || (wholeBsdf && (lobe.device.type != LOBE_LAMBERT || !hasSpecialLobe(bsdf)));
+}
+
+void checkList(const Scene& scene, const std::vector<std::string>& list) {
+    std::string known;
+    std::vector<std::string> names;
+    for (const auto& bsdf : scene.bsdfs) {
+        known += (known.empty() ? "" : ", ") + bsdf.id;
+        names.push_back(bsdf.id);
+        for (const auto* side : {&bsdf.front, &bsdf.back})
+            for (const auto& lobe : *side) names.push_back(bsdf.id + '.' + lobe.name);
+    }
+    for (const auto& item : list)
+        if (std::find(names.begin(), names.end(), item) == names.end())
+            throw InputError(fmt::format("quasi-specular: the scene has no bsdf or lobe '{}', expected auto, none, all, or ids "
+                                         "among: {} (or ID.LOBE, such as {}.specular)",
+                                         item, known, scene.bsdfs.empty() ? "ID" : scene.bsdfs.front().id));
+}
+
+LobeDecision byWidth(const LobeDescription& lobe) {
+    const bool narrow = lobe.halfWidth < quasiSpecularHalfWidth;
+    return {narrow ? SCATTER_QUASI_SPECULAR : SCATTER_GENUINE_DIFFUSE,
+            fmt::format("auto: half width {:.1f} deg {} {:.0f} deg", lobe.halfWidth * degrees, narrow ? "<" : ">=",
+                        quasiSpecularHalfWidth * degrees)};
+}
+
+LobeDecision byScene(const LobeDescription& lobe) {
+    const auto& choice = lobe.quasiSpecular;
+    switch (choice.kind) {
+    case QuasiSpecularChoice::Kind::yes: return {SCATTER_QUASI_SPECULAR, "the bsdf says yes"};
+    case QuasiSpecularChoice::Kind::no: return {SCATTER_GENUINE_DIFFUSE, "the bsdf says no"};
+    case QuasiSpecularChoice::Kind::automatic: return byWidth(lobe);
+    case QuasiSpecularChoice::Kind::lobes: break;
+    }
+    const bool named = std::find(choice.lobes.begin(), choice.lobes.end(), lobe.name) != choice.lobes.end();
+    return {named ? SCATTER_QUASI_SPECULAR : SCATTER_GENUINE_DIFFUSE,
+            named ? "the bsdf names this lobe" : "the bsdf does not name this lobe"};
+}
+
+LobeDecision decide(const Bsdf& bsdf, const LobeDescription& lobe, const std::string& setting,
+                    const std::vector<std::string>& list, bool overridesScene) {
+    if (lobe.device.scattering == SCATTER_SPECULAR) return {SCATTER_SPECULAR, "delta"};
+    if (lobe.quasiSpecular.stated && (!overridesScene || setting == "auto")) return byScene(lobe);
+    if (setting == "auto") return byWidth(lobe);
+    if (setting == "none") return {SCATTER_GENUINE_DIFFUSE, "none asked for"};
+    if (setting == "all") return {SCATTER_QUASI_SPECULAR, "all asked for"};
+    const bool listed = isListed(list, bsdf, lobe);
+    return {listed ? SCATTER_QUASI_SPECULAR : SCATTER_GENUINE_DIFFUSE, listed ? "listed" : "not listed"};
+}
+
+} // namespace
+
+std::vector<BsdfDecision> decideSplit(const Scene& scene, const std::string& setting, bool overridesScene) {
+    std::vector<std::string> list;
+    if (setting != "auto" && setting != "none" && setting != "all") {
+        list = splitList(setting);
+        checkList(scene, list);
+    }
+    std::vector<BsdfDecision> decisions;
+    for (const auto& bsdf : scene.bsdfs) {
+        BsdfDecision decision;
+        for (const auto& lobe : bsdf.front) decision.front.push_back(decide(bsdf, lobe, setting, list, overridesScene));
+        for (const auto& lobe : bsdf.back) decision.back.push_back(decide(bsdf, lobe, setting, list, overridesScene));
+        decisions.push_back(std::move(decision));
+    }
+    return decisions;
+}
+
+} // namespace quasilux

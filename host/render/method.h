@@ -1,0 +1,20 @@
+// From the scene's features and the settings to what the kernels are compiled for: classes of photons and options.
+#pragma once
+
+#include "prepare/device_scene.h"
+#include "render/settings.h"
+
+#include <string>
+
+namespace quasilux {
+
+/// Bits 1 << LIGHT_* of the photons that some camera path can use; the others are not stored (kernels/law.clh).
+unsigned photonClasses(const Features& features, const RenderSettings& settings);
+
+/// Compiler options shared by all stages.
+std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings);
+
+/// Photons emitted per pass, where the user did not say: a few for every camera path.
+unsigned photonsPerPass(const RenderSettings& settings, const shared::Camera& camera);
+
+} // namespace quasilux

@@ -1,0 +1,53 @@
+// Stages 1 and 2 of a pass: trace photons by kernels/photon_trace.cl, index them by kernels/photon_map.cl.
+#pragma once
+
+#include "device/program.h"
+#include "pass_types.h"
+#include "render/geometry_buffers.h"
+
+#include <array>
+#include <cstdint>
+
+namespace quasilux {
+
+/// What one pass traced and stored.
+struct PhotonPassCount {
+    std::array<uint64_t, LIGHT_CLASSES> stored{}; ///< by class
+    uint64_t cutPaths = 0, nonFinite = 0;
+    double fluxCut = 0;
+};
+
+class PhotonStage {
+public:
+    PhotonStage(Device& device, const std::string& options, const GeometryBuffers& geometry, shared::PhotonParams params,
+                unsigned classes);
+
+    /// Traces the photons of a pass and indexes them with these radii, by class. A photon buffer that proves too small
+    /// is enlarged and the pass traced again, so none is lost.
+    PhotonPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius);
+
+    const Buffer<uint32_t>& cellStart() const { return cellStart_; }
+    const Buffer<uint32_t>& sorted() const { return sorted_; }
+    const shared::MapParams& map() const { return map_; }
+    double buildSeconds() const { return tracing_.buildSeconds() + indexing_.buildSeconds(); }
+
+private:
+    std::vector<shared::RegionCount> trace();
+    void index(uint64_t photons);
+    std::array<uint64_t, LIGHT_CLASSES> storedByClass() const;
+
+    Device& device_;
+    const GeometryBuffers& geometry_;
+    Program tracing_, indexing_;
+    Kernel tracePhotons_, countPhotons_, sumBlocks_, scanCells_, scatterPhotons_;
+    shared::PhotonParams params_;
+    shared::MapParams map_{};
+    unsigned classes_; // bits 1 << LIGHT_*
+    unsigned classSlots_;
+    bool storesDepth_;
+    Buffer<shared::Photon> photons_;
+    Buffer<shared::RegionCount> regions_;
+    Buffer<uint32_t> counts_, blockSums_, cellStart_, sorted_;
+};
+
+} // namespace quasilux

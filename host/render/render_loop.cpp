@@ -1,0 +1,64 @@
+// Passes until the stop rule, with progress.
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace quasilux {
+
+namespace {
+
+constexpr double defaultSeconds = 30;
+constexpr unsigned firstErrorCheck = 4; // passes before the error estimate means anything
+
+using Clock = std::chrono::steady_clock;
+
+// The film is read back for its error at most this share of the time.
+bool isErrorDue(double sinceLastCheck, double lastCheckCost) { return sinceLastCheck > std::max(1.0, 20 * lastCheckCost); }
+
+double secondsLeft(const StopRule& stop, const Progress& now) {
+    double left = -1;
+    const auto earlier = [&](double candidate) { left = left < 0 ? candidate : std::min(left, candidate); };
+    if (stop.seconds) earlier(*stop.seconds - now.seconds);
+    if (stop.passes && now.passes > 0) earlier(now.seconds / now.passes * (*stop.passes - now.passes));
+    // The standard error falls with the square root of the passes.
+    if (stop.relativeError && now.relativeError > 0) {
+        const double factor = now.relativeError / *stop.relativeError;
+        earlier(now.seconds * std::max(0.0, factor * factor - 1));
+    }
+    return left;
+}
+
+} // namespace
+
+FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt, const std::function<void(const Progress&)>& onProgress,
+                      const std::atomic<bool>& interrupted) {
+    StopRule stop = stopAt;
+    if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
+    const auto start = Clock::now();
+    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    Progress progress;
+    progress.phase = "rendering";
+    double lastCheck = 0, checkCost = 0;
+    for (unsigned pass = 0; !interrupted; ++pass) {
+        if (stop.passes && pass >= *stop.passes) break;
+        if (stop.seconds && pass > 0 && elapsed() >= *stop.seconds) break;
+        renderer.renderPass(pass);
+        progress.passes = pass + 1;
+        progress.seconds = elapsed();
+        if (progress.passes >= firstErrorCheck && isErrorDue(progress.seconds - lastCheck, checkCost)) {
+            progress.relativeError = meanRelativeError(renderer.develop());
+            lastCheck = elapsed();
+            checkCost = lastCheck - progress.seconds;
+        }
+        const auto& counters = renderer.counters();
+        progress.photonsPerSecond = static_cast<double>(counters.photonsEmitted) / progress.seconds;
+        progress.pathsPerSecond = static_cast<double>(counters.cameraPaths) / progress.seconds;
+        progress.secondsLeft = secondsLeft(stop, progress);
+        if (onProgress) onProgress(progress);
+        if (stop.relativeError && progress.relativeError >= 0 && progress.relativeError <= *stop.relativeError) break;
+    }
+    return renderer.develop();
+}
+
+} // namespace quasilux

@@ -1,0 +1,156 @@
+#include "render/renderer.h"
+
+#include "render/camera_stage.h"
+#include "render/method.h"
+#include "render/radius.h"
+
+#include <chrono>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double firstRadius(double area, const RenderSettings& settings, unsigned photons) {
+    return settings.radiusScale * initialRadius(area, photons);
+}
+
+DeviceScene flatten(const Scene& scene, const RenderSettings& settings) {
+    const unsigned photons = photonsPerPass(settings, flattenCamera(scene.sensor));
+    FlattenSettings flattening;
+    flattening.quasiSpecular = settings.quasiSpecular;
+    flattening.overridesScene = settings.quasiSpecularFromCommandLine;
+    flattening.largestRadius = [&](double area) { return firstRadius(area, settings, photons); };
+    return flattenScene(scene, flattening);
+}
+
+shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
+    shared::PhotonParams params{};
+    params.seedLow = static_cast<unsigned>(settings.seed);
+    params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
+    params.paths = photonsPerPass(settings, flat.camera);
+    params.maxDepth = scene.maxDepth < 0 ? QL_NONE : static_cast<unsigned>(scene.maxDepth);
+    params.scene = flat.offsets;
+    return params;
+}
+
+shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth) {
+    shared::CameraParams params{};
+    params.seedLow = static_cast<unsigned>(settings.seed);
+    params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
+    params.bdd = settings.bdd;
+    params.maxDepth = maxDepth;
+    params.camera = flat.camera;
+    params.scene = flat.offsets;
+    return params;
+}
+
+std::string scatteringName(unsigned scattering) {
+    if (scattering == SCATTER_SPECULAR) return "specular";
+    return scattering == SCATTER_QUASI_SPECULAR ? "quasi-specular" : "genuine diffuse";
+}
+
+void describeLobes(const Bsdf& bsdf, const char* side, const std::vector<LobeDescription>& lobes,
+                   const std::vector<LobeDecision>& decisions, SceneReport& report) {
+    for (size_t k = 0; k < lobes.size(); ++k)
+        report.lobes.push_back({bsdf.id, lobes[k].name + side, scatteringName(decisions[k].scattering), decisions[k].why});
+}
+
+SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
+    SceneReport report;
+    report.triangles = flat.triangles;
+    report.spheres = flat.spheres;
+    report.patches = flat.patches;
+    report.borderSegments = flat.borderSegments;
+    report.features = (settings.genericKernels ? Features::generic() : flat.features).names();
+    for (size_t k = 0; k < flat.emitters.emitters.size(); ++k)
+        report.emitters.push_back({flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type), flat.emitters.power[k]});
+    for (size_t k = 0; k < scene.bsdfs.size(); ++k) {
+        describeLobes(scene.bsdfs[k], "", scene.bsdfs[k].front, flat.split[k].front, report);
+        describeLobes(scene.bsdfs[k], " (behind)", scene.bsdfs[k].back, flat.split[k].back, report);
+    }
+    report.photonsPerPass = photonsPerPass(settings, flat.camera);
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
+        if (!(photonClasses(flat.features, settings) >> c & 1)) continue;
+        report.photonClasses.push_back(componentName(c));
+        report.initialRadius[componentName(c)] =
+            firstRadius(flat.surfaceArea, settings, report.photonsPerPass) * classRadiusFactor(c);
+    }
+    return report;
+}
+
+} // namespace
+
+struct Renderer::Stages {
+    Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_)
+        : device(device_), settings(settings_), flat(std::move(flat_)), options(kernelOptions(flat, settings)),
+          geometry(device, flat),
+          photons(device, options, geometry, photonParams(scene, flat, settings), photonClasses(flat.features, settings)),
+          camera(device, options, geometry, cameraParams(flat, settings, photonParams(scene, flat, settings).maxDepth)),
+          report(describe(scene, flat, settings)) {}
+
+    std::array<float, LIGHT_CLASSES> radii(unsigned pass) const {
+        std::array<float, LIGHT_CLASSES> radius{};
+        const double first = firstRadius(flat.surfaceArea, settings, report.photonsPerPass);
+        for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+            radius[c] = static_cast<float>(first * classRadiusFactor(c) * radiusShrink(pass));
+        return radius;
+    }
+
+    Device& device;
+    RenderSettings settings;
+    DeviceScene flat;
+    std::string options;
+    GeometryBuffers geometry;
+    PhotonStage photons;
+    CameraStage camera;
+    SceneReport report;
+    RenderCounters counters;
+};
+
+Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings) {
+    const auto start = Clock::now();
+    DeviceScene flat = flatten(scene, settings);
+    const double prepareSeconds = since(start);
+    stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat));
+    stages_->counters.prepareSeconds = prepareSeconds;
+    stages_->counters.compileSeconds = since(start) - prepareSeconds;
+    stages_->report.bufferBytes = device.allocations();
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::renderPass(unsigned pass) {
+    auto& s = *stages_;
+    const auto start = Clock::now();
+    const auto photons = s.photons.run(pass, s.radii(pass));
+    s.camera.run(pass, s.photons);
+    s.device.finish();
+
+    auto& counters = s.counters;
+    counters.photonsEmitted += s.report.photonsPerPass;
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+        if (photons.stored[c] > 0) counters.photonsStored[componentName(c)] += photons.stored[c];
+    counters.cameraPaths += uint64_t(s.flat.camera.width) * s.flat.camera.height;
+    counters.cutPaths += photons.cutPaths;
+    counters.nonFinite += photons.nonFinite;
+    counters.fluxCut += photons.fluxCut;
+    counters.fluxEmitted += s.flat.emittedFlux;
+    const double seconds = since(start);
+    if (counters.passes++ == 0) counters.firstPassSeconds = seconds;
+    counters.renderSeconds += seconds;
+}
+
+FilmImage Renderer::develop() const { return stages_->camera.develop(static_cast<unsigned>(stages_->counters.passes)); }
+
+const SceneReport& Renderer::report() const {
+    stages_->report.bufferBytes = stages_->device.allocations();
+    return stages_->report;
+}
+
+const RenderCounters& Renderer::counters() const { return stages_->counters; }
+
+} // namespace quasilux

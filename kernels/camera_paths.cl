@@ -1,0 +1,204 @@
+/* Stage 3 of a pass: trace one camera path per pixel by the law and take light at its hits.
+ * From: camera rays, photon map. To: film.
+ *
+ * At every hit: emission seen straight, through specular events, or as the share of the lobe that was sampled; then, on
+ * something non-specular, the classes of light that law.clh names, by density estimation and by emitter sampling;
+ * then one lobe is chosen and the path goes on. */
+#include "camera.clh"
+#include "density.clh"
+#include "direct_light.clh"
+#include "film.clh"
+#include "law.clh"
+
+/* Paths whose next contribution is below this share of the first are ended by roulette. */
+#define CAMERA_ROULETTE_THRESHOLD 0.05f
+
+typedef struct {
+    Ray ray;
+    float3 throughput;
+    uint d, q;    /* genuine diffuse and quasi-specular scatterings so far */
+    uint depth;   /* segments so far; passing a null surface does not start a new one */
+    float passed; /* length of the current segment before the last null surface */
+    float3 from;  /* where the current segment began */
+    int specularSoFar;   /* nothing but specular events: emission counts in full */
+    float directPdf;     /* > 0: emission counts by its share against emitter sampling; density of the sampled direction */
+    int onlyEmission;    /* the path goes on just for that share */
+} CameraPath;
+
+/* What the kernels of this stage read. */
+typedef struct {
+    __global const BvhNode* nodes;
+    __global const PrimitiveBlock* blocks;
+    __global const uint* tables;
+    PhotonMap photons;
+    const CameraParams* params;
+} World;
+
+/* Radiance of the emitter that the path has met, to the film's components. */
+inline void takeEmission(const World* world, const CameraPath* path, const Surface* s, float distance,
+                         float3* components) {
+    if (s->emitter == QL_NONE || !s->front || path->depth > world->params->maxDepth) return;
+    __global const Emitter* emitter = SCENE_TABLE(world->tables, &world->params->scene, Emitter, emitters) + s->emitter;
+    const float3 radiance = path->throughput * loadRgb(emitter->radiance);
+    if (path->specularSoFar) {
+        components[FILM_EMISSION] += radiance;
+#ifdef DIRECT_BY_EMITTERS
+    } else if (path->directPdf > 0) {
+        const float lightPdf =
+            emitterPdfSolidAngle(emitter, path->from, path->ray.direction, path->passed + distance, s->geometricNormal);
+        components[LIGHT_DIRECT] += radiance * (path->directPdf / (path->directPdf + lightPdf));
+#endif
+    }
+}
+
+/* Radiance reflected by the lobes of `mask` from the photons of one class. */
+inline float3 takePhotons(const World* world, const CameraPath* path, const Surface* s, const Frame* frame, float3 wo,
+                          __global const Lobe* lobes, uint mask, uint lightClass) {
+    const CameraParams* params = world->params;
+    const DensityRegion region =
+        densityRegionAt(s, params->map.radius[lightClass], world->tables, &params->scene);
+    if (!(region.kernelIntegral > 0)) return 0;
+    DirectionalLobes directional = {lobes, 0, *frame, wo};
+    float3 lambert = 0; /* BRDF of the Lambert lobes together */
+    for (uint k = 0; k < s->lobeCount; ++k) {
+        if (!(mask >> k & 1)) continue;
+        if (lobes[k].type == LOBE_LAMBERT)
+            lambert += loadRgb(lobes[k].reflectance) * M_1_PI_F;
+        else
+            directional.mask |= 1u << k;
+    }
+    const uint depthMax = params->maxDepth == QL_NONE ? QL_NONE : params->maxDepth - path->depth;
+    const PhotonSums sums =
+        gatherPhotons(world->photons, lightClass, &region, s->patch << 1 | s->front, depthMax, &directional);
+    return (lambert * sums.irradiance + sums.radiance) / region.kernelIntegral;
+}
+
+/* Probability of going on with each lobe. A lobe that may not scatter any more still takes its share of the direct
+ * light by sampling, if it shares; such paths then go on for emission only. */
+inline LobeChoice chooseProbabilities(const CameraPath* path, const Surface* s, __global const Lobe* lobes, float3 wo,
+                                      uint bdd, uint directMask) {
+    LobeChoice choice;
+    for (uint k = 0; k < s->lobeCount; ++k) {
+        int goesOn = lawMayScatter(lobes[k].scattering, path->d, bdd);
+#ifdef DIRECT_BY_EMITTERS
+        goesOn = goesOn || (directMask >> k & 1 && lobeSharesDirect(lobes + k));
+#endif
+        choice.probability[k] = goesOn ? maxComponent(path->throughput * lobeAlbedo(lobes + k, wo)) : 0.f;
+    }
+    choiceFromStrengths(&choice, s->lobeCount, CAMERA_ROULETTE_THRESHOLD);
+    return choice;
+}
+
+/* Takes every class of light that the law names here. */
+inline void takeLight(const World* world, const CameraPath* path, const Surface* s, const Frame* frame, float3 wo,
+                      __global const Lobe* lobes, const LobeChoice* choice, Rng* rng, float3* components) {
+    const CameraParams* params = world->params;
+    uint takers[LIGHT_CLASSES] = {0, 0, 0, 0}; /* lobes that take a class, as bits */
+    for (uint k = 0; k < s->lobeCount; ++k) {
+        const uint taken = lawLightTaken(lobes[k].scattering, path->d, path->q, params->bdd);
+        for (uint c = 0; c < LIGHT_CLASSES; ++c) takers[c] |= (taken >> c & 1) << k;
+    }
+#ifdef DIRECT_BY_EMITTERS
+    if (takers[LIGHT_DIRECT] && path->depth < params->maxDepth) {
+        const float uSelect = rngNext(rng);
+        const float2 u = rngNext2(rng);
+        components[LIGHT_DIRECT] +=
+            path->throughput * directLight(s, frame, wo, lobes, takers[LIGHT_DIRECT], choice, (float3)(uSelect, u.x, u.y),
+                                           world->nodes, world->blocks, world->tables, &params->scene);
+    }
+#endif
+    for (uint c = 0; c < LIGHT_CLASSES; ++c)
+        if ((PHOTON_CLASSES >> c & 1) && takers[c] && path->depth < params->maxDepth)
+            components[c] += path->throughput * takePhotons(world, path, s, frame, wo, lobes, takers[c], c);
+}
+
+/* Goes on with one lobe; 0 where the path ends. */
+inline int scatterCameraPath(const World* world, CameraPath* path, const Surface* s, const Frame* frame, float3 wo,
+                             __global const Lobe* lobes, const LobeChoice* choice, Rng* rng) {
+    float rest;
+    const uint k = chooseLobe(choice, s->lobeCount, rngNext(rng), &rest);
+    if (k == s->lobeCount) return 0;
+    __global const Lobe* lobe = lobes + k;
+    const LobeSample sample = lobeSample(lobe, wo, rest, rngNext2(rng), TRANSPORT_RADIANCE);
+    if (!sample.valid) return 0;
+    const float3 wi = toWorld(frame, sample.wi);
+    if (!sameSides(s, wi, sample.wi.z)) return 0;
+    path->throughput *= sample.weight / choice->probability[k];
+    const uint scattering = lobe->scattering;
+    if (scattering == SCATTER_SPECULAR) {
+        path->directPdf = 0;
+    } else {
+        const int takesDirect = lawLightTaken(scattering, path->d, path->q, world->params->bdd) >> LIGHT_DIRECT & 1;
+        path->directPdf =
+            takesDirect && lobeSharesDirect(lobe) ? choice->probability[k] * sample.pdfSolidAngle : 0.f;
+        path->onlyEmission = !lawMayScatter(scattering, path->d, world->params->bdd);
+        path->specularSoFar = 0;
+        path->d += scattering == SCATTER_GENUINE_DIFFUSE;
+        path->q += scattering == SCATTER_QUASI_SPECULAR;
+    }
+    path->ray = leavingRay(s->position, s->geometricNormal, wi);
+    path->from = s->position;
+    path->passed = 0;
+    return 1;
+}
+
+/* One segment of the path and what happens at its end; 0 where the path ends. */
+inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, float3* components) {
+    const CameraParams* params = world->params;
+    const Hit hit = intersectClosest(world->nodes, world->blocks, path->ray);
+    if (hit.primitive == QL_NONE) return 0;
+    const Surface s =
+        surfaceAt(hit, path->ray.origin, path->ray.direction, world->blocks, world->tables, &params->scene);
+    if (path->passed == 0) ++path->depth;
+    takeEmission(world, path, &s, hit.t, components);
+#ifdef HAS_NULL_PRIMITIVES
+    if (s.isNull) {
+        const float tMax = path->ray.tMax;
+        path->ray = leavingRay(s.position, s.geometricNormal, path->ray.direction);
+        path->ray.tMax = tMax - hit.t; /* the far clipping plane stays */
+        path->passed += max(hit.t, FLT_MIN);
+        return 1;
+    }
+#endif
+    if (path->onlyEmission || s.lobeCount == 0) return 0;
+    __global const Lobe* lobes = SCENE_TABLE(world->tables, &params->scene, Lobe, lobes) + s.firstLobe;
+    const Frame frame = frameFromNormal(s.shadingNormal);
+    const float3 wo = toLocal(&frame, -path->ray.direction);
+    uint directMask = 0;
+    for (uint k = 0; k < s.lobeCount; ++k)
+        directMask |= (lawLightTaken(lobes[k].scattering, path->d, path->q, params->bdd) >> LIGHT_DIRECT & 1) << k;
+    const LobeChoice choice = chooseProbabilities(path, &s, lobes, wo, params->bdd, directMask);
+    takeLight(world, path, &s, &frame, wo, lobes, &choice, rng, components);
+    if (path->depth >= params->maxDepth) return 0;
+    return scatterCameraPath(world, path, &s, &frame, wo, lobes, &choice, rng);
+}
+
+__kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                               __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
+                               __global float* film, __global CameraCounters* counters, const CameraParams params) {
+    const uint pixel = get_global_id(0);
+    if (pixel >= params.camera.width * params.camera.height) return;
+    const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
+    const ulong seed = (ulong)params.seedHigh << 32 | params.seedLow;
+    Rng rng = rngMake(seed, params.pass, STREAM_CAMERA, pixel);
+    CameraPath path;
+    path.ray = cameraRay(&params.camera, pixel, params.pass, seed);
+    path.throughput = 1;
+    path.d = path.q = path.depth = 0;
+    path.passed = 0;
+    path.from = path.ray.origin;
+    path.specularSoFar = 1;
+    path.directPdf = 0;
+    path.onlyEmission = 0;
+    float3 components[FILM_COMPONENTS];
+    for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = 0;
+    uint event = 0;
+    while (event < PATH_EVENTS_MAX && followCameraPath(&world, &path, &rng, components)) ++event;
+    if (event == PATH_EVENTS_MAX) atomic_inc(&counters->cutPaths);
+    float3 total = 0;
+    for (uint k = 0; k < FILM_COMPONENTS; ++k) total += components[k];
+    if (all(isfinite(total)))
+        addSample(film, pixel, components);
+    else
+        atomic_inc(&counters->nonFinite);
+}

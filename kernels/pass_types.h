@@ -1,0 +1,87 @@
+/* Parameters of the stages of a pass and the layout of their buffers, shared by host and device like shared_types.h. */
+#ifndef QUASILUX_PASS_TYPES_H
+#define QUASILUX_PASS_TYPES_H
+
+#include "shared_types.h"
+
+#ifdef __cplusplus
+namespace quasilux::shared {
+#endif
+
+/* All small scene tables lie in one buffer of 32-bit words; these are word offsets into it. */
+typedef struct {
+    unsigned int primitives, shapes, cornerNormals;
+    unsigned int materials, lobes;
+    unsigned int emitters, emitterTriangles, emitterCount;
+    unsigned int segments, borderCells, borderItems;
+    unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
+    Packed3 borderLower;      /* corner of the border grid */
+    float borderCellSize;
+    unsigned int borderCellsX, borderCellsY, borderCellsZ;
+} SceneTables;
+
+/* One photon as traced, before indexing. */
+typedef struct {
+    Packed3 position;
+    unsigned int direction; /* towards where it came from, octahedral 16 + 16 bits */
+    Rgb flux;               /* W */
+    unsigned int patchSide; /* patch << 1 | side: 1 where it arrived on the side of the normal */
+    unsigned int classDepth; /* segments since the light << 2 | light class; segments saturate at PHOTON_DEPTH_MAX */
+} Photon;
+#define PHOTON_DEPTH_MAX 254u
+
+/* One work-item traces the paths of one region and stores into its own part of the photon buffer. */
+typedef struct {
+    unsigned int stored;   /* photons kept, at most the capacity of the region */
+    unsigned int wanted;   /* photons that it would have kept with room for all */
+    unsigned int cutPaths; /* paths ended by PATH_EVENTS_MAX */
+    unsigned int nonFinite;
+    float fluxCut; /* W, mean of R, G, B, of those paths */
+} RegionCount;
+
+typedef struct {
+    unsigned int seedLow, seedHigh;
+    unsigned int pass;
+    unsigned int paths;          /* photons emitted in the pass */
+    unsigned int pathsPerRegion;
+    unsigned int regions;
+    unsigned int regionCapacity; /* photons */
+    unsigned int maxDepth;       /* segments of the whole path, QL_NONE = no limit */
+    SceneTables scene;
+} PhotonParams;
+
+/* One indexed map per photon class, all in one cell table and one sorted set of photons (kernels/photon_grid.clh). */
+typedef struct {
+    float radius[LIGHT_CLASSES]; /* density radius of this pass = cell size */
+    unsigned int cellMask;       /* cells of one class - 1, a power of two - 1 */
+    unsigned int chunks;         /* stable counting sort: each chunk counts and scatters in order */
+    unsigned int regions, regionCapacity;
+    unsigned int photonStride;   /* capacity of the sorted arrays, photons */
+    unsigned int scanBlocks;
+} MapParams;
+
+typedef struct {
+    unsigned int seedLow, seedHigh;
+    unsigned int pass;
+    unsigned int bdd;
+    unsigned int maxDepth;
+    Camera camera;
+    MapParams map;
+    SceneTables scene;
+} CameraParams;
+
+/* Counted over a camera pass. */
+typedef struct {
+    unsigned int nonFinite;
+    unsigned int cutPaths;
+} CameraCounters;
+
+#define LOBES_MAX 8u /* lobes on one side of a surface; the host refuses more */
+
+/* Hard limit on the events of a path; roulette ends practically all of them long before. Paths cut are counted. */
+#define PATH_EVENTS_MAX 100000u
+
+#ifdef __cplusplus
+} // namespace quasilux::shared
+#endif
+#endif
