@@ -1,0 +1,44 @@
+/* Emitters of kernels/emitter.clh over arrays of numbers and points. */
+#include "emitter.clh"
+
+/* Result: direction (3), distance, radianceOverPdf (3), pdf; an invalid sample has distance -1. Numbers: uSelect, u. */
+__kernel void sampleDirections(__global const Emitter* emitters, __global const EmitterTriangle* triangles,
+                               uint emitterCount, float x, float y, float z, __global const float* numbers,
+                               __global float* result, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const float3 u = vload3(i, numbers);
+    const EmitterSample s = emitterSampleDirection(emitters, triangles, emitterCount, (float3)(x, y, z), u.x, u.yz);
+    vstore3(s.direction, 0, result + 8 * i);
+    result[8 * i + 3] = s.valid ? s.distance : -1.0f;
+    vstore3(s.radianceOverPdf, 0, result + 8 * i + 4);
+    result[8 * i + 7] = s.pdfSolidAngle;
+}
+
+/* Density for points (3) with normals (3) of emitter `index`. */
+__kernel void directionPdfs(__global const Emitter* emitters, uint index, float x, float y, float z,
+                            __global const float* points, __global const float* normals, __global float* result,
+                            uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const float3 from = (float3)(x, y, z);
+    const float3 offset = vload3(i, points) - from;
+    const float distance = length(offset);
+    result[i] = emitterPdfSolidAngle(emitters + index, from, offset / distance, distance, vload3(i, normals));
+}
+
+/* Result: position (3), direction (3), normal (3), flux (3). Numbers: uSelect, uPosition, uDirection. */
+__kernel void samplePhotons(__global const Emitter* emitters, __global const EmitterTriangle* triangles,
+                            uint emitterCount, __global const float* numbers, __global float* result,
+                            __global uint* chosen, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    __global const float* u = numbers + 5 * i;
+    const EmittedPhoton p =
+        emitterSampleEmission(emitters, triangles, emitterCount, u[0], (float2)(u[1], u[2]), (float2)(u[3], u[4]));
+    vstore3(p.position, 0, result + 12 * i);
+    vstore3(p.direction, 0, result + 12 * i + 3);
+    vstore3(p.normal, 0, result + 12 * i + 6);
+    vstore3(p.flux, 0, result + 12 * i + 9);
+    chosen[i] = p.emitter;
+}

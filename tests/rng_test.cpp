@@ -1,0 +1,122 @@
+// The kernels' random numbers: known values, uniformity in one and two dimensions, and independence of the launch.
+// 23 chi-squared tests; false-alarm rate of the program 1e-4 (support/chi_squared.h).
+#include "support/chi_squared.h"
+#include "support/test_kernels.h"
+
+#include <gtest/gtest.h>
+
+namespace quasilux {
+namespace {
+
+constexpr int tests = 23;
+
+Program& program() {
+    static Program built = testProgram("rng.cl");
+    return built;
+}
+
+std::vector<float> draw(uint64_t seed, unsigned pass, unsigned stream, unsigned firstPath, unsigned paths,
+                        unsigned dimensions) {
+    Buffer<float> result(testDevice(), size_t{paths} * dimensions, "numbers");
+    program().kernel("draw").launch(paths, cl_ulong(seed), cl_uint(pass), cl_uint(stream), cl_uint(firstPath),
+                                    cl_uint(dimensions), result, cl_uint(paths));
+    return result.read();
+}
+
+double uniformPValue1(const std::vector<float>& numbers) {
+    std::vector<uint64_t> counts(256);
+    for (float u : numbers) ++counts.at(static_cast<size_t>(u * 256));
+    return chiSquaredPValue(counts, std::vector<double>(256, 1.0 / 256));
+}
+
+template <typename Pair>
+double uniformPValue2(size_t count, Pair pair) {
+    std::vector<uint64_t> counts(64 * 64);
+    for (size_t i = 0; i < count; ++i) {
+        const auto [u, v] = pair(i);
+        ++counts.at(static_cast<size_t>(v * 64) * 64 + static_cast<size_t>(u * 64));
+    }
+    return chiSquaredPValue(counts, std::vector<double>(64 * 64, 1.0 / (64 * 64)));
+}
+
+TEST(Rng, mixIsSplitmix64) {
+    // First outputs of the reference generator seeded with 0.
+    const std::vector<uint64_t> weyl{0x9e3779b97f4a7c15, 0x3c6ef372fe94f82a};
+    Buffer<uint64_t> in(testDevice(), weyl, "input"), out(testDevice(), weyl.size(), "mixed");
+    program().kernel("mixNumbers").launch(weyl.size(), in, out, cl_uint(weyl.size()));
+    EXPECT_EQ(out.read(), (std::vector<uint64_t>{0xe220a8397b1dcdaf, 0x6e789e6aa1b965f4}));
+}
+
+TEST(Rng, staysBelowOneAndHas24Bits) {
+    const auto numbers = draw(7, 0, 0, 0, 1 << 16, 64);
+    float largest = 0;
+    for (float u : numbers) {
+        ASSERT_TRUE(u >= 0 && u < 1);
+        ASSERT_EQ(u * 0x1p24f, static_cast<float>(static_cast<uint32_t>(u * 0x1p24f)));
+        largest = std::max(largest, u);
+    }
+    EXPECT_GT(largest, 1 - 0x1p-20f);
+}
+
+TEST(Rng, isUniformInEveryArgument) {
+    const unsigned n = 1 << 18;
+    for (uint64_t seed : {uint64_t{0}, uint64_t{1}, ~uint64_t{0}}) {
+        EXPECT_GT(uniformPValue1(draw(seed, 0, 0, 0, n, 1)), significanceLevel(tests)) << "over paths, seed " << seed;
+        EXPECT_GT(uniformPValue1(draw(seed, 3, 1, 0xfffffff0u - n, n, 1)), significanceLevel(tests)) << "late paths";
+        EXPECT_GT(uniformPValue1(draw(seed, 3, 1, 12345, 64, n / 64)), significanceLevel(tests)) << "over dimensions";
+    }
+    std::vector<float> overPasses, overStreams;
+    for (unsigned i = 0; i < 4096; ++i) {
+        for (float u : draw(0, i, 0, 0, 64, 1)) overPasses.push_back(u);
+        for (float u : draw(0, 0, i, 0, 64, 1)) overStreams.push_back(u);
+    }
+    EXPECT_GT(uniformPValue1(overPasses), significanceLevel(tests));
+    EXPECT_GT(uniformPValue1(overStreams), significanceLevel(tests));
+}
+
+TEST(Rng, neighboursAreIndependent) {
+    const unsigned n = 1 << 18;
+    const auto expectIndependent = [&](const std::vector<float>& a, const std::vector<float>& b, size_t offset,
+                                       const char* what) {
+        EXPECT_GT(uniformPValue2(a.size() - offset, [&](size_t i) { return std::pair(a[i], b[i + offset]); }),
+                  significanceLevel(tests))
+            << what;
+    };
+    for (unsigned path : {0u, 1u << 31}) {
+        const auto base = draw(5, 0, 0, path, n, 1);
+        expectIndependent(base, base, 1, "neighbouring paths");
+        expectIndependent(base, base, 1024, "paths a power of two apart");
+        expectIndependent(base, draw(5, 1, 0, path, n, 1), 0, "passes");
+        expectIndependent(base, draw(5, 0, 1, path, n, 1), 0, "streams");
+        expectIndependent(base, draw(6, 0, 0, path, n, 1), 0, "seeds");
+    }
+    const auto dimensions = draw(5, 0, 0, 0, n / 4, 4);
+    expectIndependent(dimensions, dimensions, 1, "dimensions");
+}
+
+TEST(Rng, pairsFromOneHashAreIndependent) {
+    const unsigned n = 1 << 18;
+    Buffer<float> result(testDevice(), 2 * n, "pairs");
+    program().kernel("drawPairs").launch(n, cl_ulong(0), cl_uint(0), cl_uint(0), result, cl_uint(n));
+    const auto u = result.read();
+    EXPECT_GT(uniformPValue2(n, [&](size_t i) { return std::pair(u[2 * i], u[2 * i + 1]); }), significanceLevel(tests));
+}
+
+TEST(Rng, negativeControlCounterWithoutHashFails) {
+    // The Weyl sequence that splitmix64 hashes is uniform, but its neighbours lie on lines.
+    const size_t n = 1 << 18;
+    const auto weyl = [](size_t i) { return static_cast<double>((i * 0x9e3779b97f4a7c15u) >> 11) * 0x1p-53; };
+    EXPECT_LT(uniformPValue2(n, [&](size_t i) { return std::pair(weyl(i), weyl(i + 1)); }), 1e-12);
+}
+
+TEST(Rng, pathHasItsNumbersWhateverTheLaunch) {
+    const auto all = draw(9, 2, 1, 0, 4096, 8);
+    for (unsigned path : {0u, 1u, 63u, 64u, 1000u, 4095u}) {
+        const auto alone = draw(9, 2, 1, path, 1, 8);
+        EXPECT_EQ(alone, std::vector<float>(all.begin() + path * 8, all.begin() + path * 8 + 8));
+    }
+    EXPECT_EQ(all, draw(9, 2, 1, 0, 4096, 8));
+}
+
+} // namespace
+} // namespace quasilux
