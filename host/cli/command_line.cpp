@@ -1,3 +1,4 @@
+// Parses the command line, runs the command, and turns what it throws into messages and exit codes.
 #include "cli/command_line.h"
 
 #include "cli/devices_command.h"
@@ -26,26 +27,30 @@ CLI::App& chosenCommand(CLI::App& app) {
     return chosen.empty() ? app : *chosen.front();
 }
 
-/// "unknown argument '--sed', did you mean '--seed'?"
-std::string unknownArguments(CLI::App& app) {
+/// "unknown argument '--sed', did you mean '--seed'?", for the first argument that no option or command took.
+std::string unknownArgument(CLI::App& app) {
     CLI::App& command = chosenCommand(app);
     std::vector<std::string> known;
     for (const auto* option : command.get_options())
         for (const auto& name : option->get_lnames()) known.push_back("--" + name);
     for (const auto* subcommand : command.get_subcommands([](CLI::App*) { return true; }))
         known.push_back(subcommand->get_name());
-    const auto extras = app.remaining(true);
-    if (extras.empty()) return "unexpected argument";
-    const std::string near = nearestName(extras.front(), known);
-    return fmt::format("unknown argument '{}'{}", extras.front(), near.empty() ? "" : ", did you mean '" + near + "'?");
+    const std::string unknown = app.remaining(true).front();
+    const std::string near = nearestName(unknown, known);
+    return fmt::format("unknown argument '{}'{}", unknown, near.empty() ? "" : ", did you mean '" + near + "'?");
 }
 
 int failParsing(CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error); // --help and --version
-    const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-    fail(exitBadInput, unknown ? unknownArguments(app) : error.what());
     CLI::App& command = chosenCommand(app);
-    fmt::print(stderr, "`quasilux {}--help` lists the options\n", &command == &app ? "" : command.get_name() + " ");
+    const bool noCommand = &command == &app;
+    // A misspelt command counts as an unknown argument, although CLI11 says only that a command is missing.
+    const bool unknown =
+        !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
+    fail(exitBadInput, unknown     ? unknownArgument(app)
+                       : noCommand ? "no command given, expected render, devices or info"
+                                   : error.what());
+    fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
 }
 

@@ -1,3 +1,4 @@
+// Prints the devices as a table or as JSON.
 #include "cli/devices_command.h"
 
 #include "cli/text_table.h"

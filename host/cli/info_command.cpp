@@ -1,3 +1,4 @@
+// Prints the scene report as text or as JSON.
 #include "cli/info_command.h"
 
 #include "cli/interrupt.h"

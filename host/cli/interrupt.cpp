@@ -1,3 +1,4 @@
+// The handlers of Ctrl-C.
 #include "cli/interrupt.h"
 
 #include <csignal>

@@ -1,3 +1,4 @@
+// Validators for CLI11: each returns an empty text, or what is wrong and what was expected.
 #include "cli/option_checks.h"
 
 #include "util/nearest.h"

@@ -1,3 +1,4 @@
+// Declares every option with its unit, default and range, and turns the values into settings.
 #include "cli/options.h"
 
 #include "cli/option_checks.h"

@@ -1,3 +1,4 @@
+// The stages of a render: check the outputs, load, prepare, render, write, summarise.
 #include "cli/render_command.h"
 
 #include "cli/interrupt.h"

@@ -1,3 +1,4 @@
+// Column widths and units of bytes.
 #include "cli/text_table.h"
 
 #include <algorithm>

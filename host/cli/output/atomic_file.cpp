@@ -1,3 +1,4 @@
+// Temporary files in the folder of their final name.
 #include "output/atomic_file.h"
 
 #include "util/error.h"

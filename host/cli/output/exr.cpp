@@ -1,3 +1,4 @@
+// Layers, header and rows of the OpenEXR file, by OpenImageIO.
 #include "output/exr.h"
 
 #include "output/atomic_file.h"

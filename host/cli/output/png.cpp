@@ -1,3 +1,4 @@
+// Automatic exposure, tone curve and sRGB encoding of the PNG.
 #include "output/png.h"
 
 #include "output/atomic_file.h"

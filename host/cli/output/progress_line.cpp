@@ -1,3 +1,4 @@
+// Text of the progress line and when to redraw it.
 #include "output/progress_line.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// What is known of a render, as JSON.
 #include "output/statistics.h"
 
 #include "output/atomic_file.h"

@@ -1,0 +1,273 @@
+// The built program from outside: help, the device list, and that bad input ends with code 2 and writes nothing.
+// Also the names that options take.
+#include "cli/options.h"
+#include "util/nearest.h"
+
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace quasilux {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string readText(const fs::path& file) {
+    std::ifstream stream(file);
+    std::ostringstream content;
+    content << stream.rdbuf();
+    return content.str();
+}
+
+struct Outcome {
+    int exitCode = -1; ///< -1: ended by a signal
+    std::string output, errors;
+};
+
+/// Runs the program in a folder of its own that holds one small scene.
+class CommandLineTest : public testing::Test {
+protected:
+    CommandLineTest() {
+        std::string pattern = (fs::temp_directory_path() / "quasilux-cli-XXXXXX").string();
+        root = mkdtemp(pattern.data());
+        folder = root / "work";
+        fs::create_directory(folder);
+        std::ofstream(folder / "scene.xml") << R"(<scene version="3.0.0">
+  <sensor type="perspective">
+    <float name="fov" value="40"/>
+    <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film>
+  </sensor>
+  <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>
+</scene>
+)";
+    }
+    ~CommandLineTest() override { fs::remove_all(root); }
+
+    Outcome run(std::vector<std::string> arguments) const {
+        const pid_t child = fork();
+        if (child == 0) {
+            if (chdir(folder.c_str()) != 0) _exit(120);
+            redirect(root / "stdout", STDOUT_FILENO);
+            redirect(root / "stderr", STDERR_FILENO);
+            arguments.insert(arguments.begin(), QUASILUX_PROGRAM);
+            std::vector<char*> argv;
+            for (auto& argument : arguments) argv.push_back(argument.data());
+            argv.push_back(nullptr);
+            execv(argv[0], argv.data());
+            _exit(121);
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(root / "stdout"), readText(root / "stderr")};
+    }
+
+    /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file but the scene.
+    void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const {
+        const Outcome outcome = run(arguments);
+        SCOPED_TRACE(testing::PrintToString(arguments));
+        EXPECT_EQ(outcome.exitCode, 2);
+        EXPECT_THAT(outcome.errors, HasSubstr("quasilux: error: "));
+        EXPECT_THAT(outcome.errors, HasSubstr(message));
+        EXPECT_EQ(outcome.output, "");
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+        EXPECT_THAT(names, testing::ElementsAre("scene.xml"));
+    }
+
+    fs::path root, folder;
+
+private:
+    static void redirect(const fs::path& file, int descriptor) {
+        const int target = open(file.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+        if (target < 0 || dup2(target, descriptor) < 0) _exit(122);
+    }
+};
+
+TEST_F(CommandLineTest, HelpStatesEveryOptionWithUnitAndDefault) {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> promised{
+        {"render",
+         {"-o",
+          "--png",
+          "--time",
+          "--passes",
+          "--error",
+          "--bdd",
+          "--variant",
+          "--quasi-specular",
+          "--direct",
+          "--photons",
+          "--seed",
+          "--radius-scale",
+          "--kernels",
+          "--device",
+          "--work-group-size",
+          "-D",
+          "--stats",
+          "--json",
+          "--quiet",
+          "--exposure",
+          "--exposure-scale"}},
+        {"devices", {"--json"}},
+        {"info", {"--json", "--bdd", "--device", "-D"}}};
+    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/command-line.md");
+    Options options;
+    CLI::App app;
+    declareOptions(app, options);
+    for (const auto& [command, names] : promised) {
+        const Outcome outcome = run({command, "--help"});
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_EQ(outcome.errors, "");
+        for (const auto& name : names)
+            EXPECT_NE(app.get_subcommand(command)->get_option_no_throw(name), nullptr) << name;
+        for (const auto* option : app.get_subcommand(command)->get_options()) {
+            if (option->get_positional() || option->check_name("--help")) continue;
+            SCOPED_TRACE(option->get_name());
+            EXPECT_THAT(outcome.output, HasSubstr(option->get_name(false, true)));
+            EXPECT_THAT(outcome.output, HasSubstr(option->get_description()));
+            EXPECT_THAT(option->get_description(), HasSubstr("(default: "));
+            const bool isFlag = option->get_items_expected_max() == 0;
+            EXPECT_TRUE(isFlag || !option->get_type_name().empty()) << "no unit or kind of value";
+            for (const auto& name : option->get_lnames()) EXPECT_THAT(documentation, HasSubstr("`--" + name));
+        }
+    }
+}
+
+TEST_F(CommandLineTest, TopLevelHelpAndVersion) {
+    const Outcome help = run({"--help"});
+    EXPECT_EQ(help.exitCode, 0);
+    for (const char* command : {"render", "devices", "info"}) EXPECT_THAT(help.output, HasSubstr(command));
+    const Outcome version = run({"--version"});
+    EXPECT_EQ(version.exitCode, 0);
+    EXPECT_EQ(version.output, "quasilux " QUASILUX_VERSION "\n");
+}
+
+TEST_F(CommandLineTest, DevicesAreListedAsTableAndJson) {
+    const Outcome json = run({"devices", "--json"});
+    EXPECT_EQ(json.exitCode, 0);
+    const auto rows = nlohmann::json::parse(json.output);
+    ASSERT_GE(rows.size(), 1u);
+    EXPECT_EQ(rows[0]["number"], 0);
+    EXPECT_GT(rows[0]["globalMemory"], 0);
+    EXPECT_GT(rows[0]["computeUnits"], 0);
+
+    const Outcome table = run({"devices"});
+    EXPECT_EQ(table.exitCode, 0);
+    EXPECT_EQ(std::count(table.output.begin(), table.output.end(), '\n'), static_cast<long>(rows.size()) + 1);
+    for (const auto& row : rows) EXPECT_THAT(table.output, HasSubstr(row["name"].get<std::string>()));
+}
+
+TEST_F(CommandLineTest, UnknownCommandsAndArgumentsAreRefused) {
+    expectRefused({}, "no command given, expected render, devices or info");
+    expectRefused({"rendr"}, "unknown argument 'rendr', did you mean 'render'?");
+    expectRefused({"render"}, "SCENE is required");
+    expectRefused({"render", "scene.xml", "--sed", "4"}, "did you mean '--seed'?");
+    expectRefused({"render", "scene.xml", "other.xml"}, "unknown argument 'other.xml'");
+    expectRefused({"render", "scene.xml", "--passes"}, "--passes");
+}
+
+TEST_F(CommandLineTest, ValuesOutOfRangeAreRefused) {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> bad{
+        {"--bdd", {"-1", "1.5", "1001", "x"}},
+        {"--photons", {"0", "-5", "1e6", "99999999999"}},
+        {"--passes", {"0", "-1", "two"}},
+        {"--seed", {"-1", "18446744073709551616"}},
+        {"--time", {"0", "-3", "nan", "inf", "5s"}},
+        {"--error", {"0", "-0.1", "1.5", "nan"}},
+        {"--radius-scale", {"0", "-1", "inf"}},
+        {"--work-group-size", {"0", "5000"}},
+        {"--device", {"-1", "cpu"}}};
+    for (const auto& [option, values] : bad)
+        for (const auto& value : values)
+            expectRefused({"render", "scene.xml", option + "=" + value}, option + ": '" + value + "' given, expected ");
+    expectRefused({"render", "scene.xml", "--variant", "mian"}, "expected main or alternative, did you mean 'main'?");
+    expectRefused({"render", "scene.xml", "--direct", "x"}, "expected emitters or photons");
+    expectRefused({"render", "scene.xml", "--kernels", "x"}, "expected scene or generic");
+    expectRefused({"render", "scene.xml", "--quasi-specular", "a,,b"}, "expected auto, none, all or ids");
+    expectRefused({"render", "scene.xml", "--quasi-specular", "none,a"}, "expected auto, none, all or ids");
+    expectRefused({"render", "scene.xml", "-D", "width"}, "expected name=value");
+    expectRefused({"info", "scene.xml", "--bdd", "-1"}, "expected a whole number from 0");
+}
+
+TEST_F(CommandLineTest, ContradictionsAreRefused) {
+    expectRefused({"render", "scene.xml", "--exposure", "1"}, "--exposure requires --png");
+    expectRefused({"render", "scene.xml", "--png", "a.png", "--exposure", "1", "--exposure-scale", "2"}, "excludes");
+    expectRefused({"render", "scene.xml", "--bdd", "1", "--bdd", "2"}, "--bdd");
+}
+
+TEST_F(CommandLineTest, OutputsAreCheckedBeforeRendering) {
+    // The limit on passes keeps the test short should the check be missing.
+    const std::vector<std::string> render{"render", "scene.xml", "--passes", "1"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), render.begin(), render.end());
+        return more;
+    };
+    expectRefused(with({"-o", "gone/a.exr"}), "--output gone/a.exr: folder gone does not exist");
+    expectRefused(with({"-o", "a.jpg"}), "unknown extension '.jpg'");
+    expectRefused(with({"--png", "gone/a.png"}), "--png gone/a.png: folder gone does not exist");
+    expectRefused(with({"--png", "a.exr"}), "expected a name that ends in .png");
+    expectRefused(with({"--stats", "gone/a.json"}), "--stats gone/a.json: folder gone does not exist");
+    expectRefused(with({"--stats", "/proc/a.json"}), "--stats /proc/a.json: cannot write there");
+    expectRefused(with({"--stats", "a.txt"}), "expected a name that ends in .json");
+}
+
+TEST_F(CommandLineTest, MissingScenesAndDevicesAreRefused) {
+    expectRefused({"render", "missing.xml", "--passes", "1"}, "missing.xml");
+    expectRefused({"info", "missing.xml"}, "missing.xml");
+    expectRefused({"render", "scene.xml", "--passes", "1", "--device", "999"}, "--device 999");
+    expectRefused({"info", "scene.xml", "--device", "999"}, "--device 999");
+}
+
+TEST(Names, OfComponentsAndSettings) {
+    const std::vector<std::string> names{"direct", "caustic", "quasi_caustic", "diffuse", "emission"};
+    for (unsigned i = 0; i < FILM_COMPONENTS; ++i) EXPECT_EQ(componentName(i), names[i]);
+    EXPECT_THROW(componentName(FILM_COMPONENTS), std::out_of_range);
+    for (const auto variant : {Variant::main, Variant::alternative}) EXPECT_EQ(parseVariant(name(variant)), variant);
+    for (const auto direct : {DirectLight::emitters, DirectLight::photons})
+        EXPECT_EQ(parseDirect(name(direct)), direct);
+    try {
+        parseDirect("photon");
+        FAIL() << "an unknown name was taken";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("expected emitters or photons, did you mean 'photons'?"));
+    }
+}
+
+TEST(Names, NearestIsNearOrEmpty) {
+    EXPECT_EQ(nearestName("--sed", {"--seed", "--error"}), "--seed");
+    EXPECT_EQ(nearestName("Mian", {"main", "alternative"}), "main");
+    EXPECT_EQ(nearestName("zzzz", {"main", "alternative"}), "");
+}
+
+TEST(Settings, ComeFromTheSceneOverDefaults) {
+    Scene scene;
+    scene.path = "box.xml";
+    EXPECT_EQ(settingsFromScene(scene).bdd, 0u);
+    EXPECT_EQ(settingsFromScene(scene).seed, 1u);
+    scene.settings.bdd = 2;
+    scene.settings.variant = "alternative";
+    scene.settings.direct = "photons";
+    scene.settings.quasiSpecular = "none";
+    scene.settings.photons = 77;
+    scene.settings.seed = 5;
+    const RenderSettings settings = settingsFromScene(scene);
+    EXPECT_EQ(settings.bdd, 2u);
+    EXPECT_EQ(settings.variant, Variant::alternative);
+    EXPECT_EQ(settings.direct, DirectLight::photons);
+    EXPECT_EQ(settings.quasiSpecular, "none");
+    EXPECT_FALSE(settings.quasiSpecularFromCommandLine);
+    EXPECT_EQ(settings.photonsPerPass, 77u);
+    EXPECT_EQ(settings.seed, 5u);
+    scene.settings.variant = "mane";
+    EXPECT_THROW(settingsFromScene(scene), InputError);
+}
+
+} // namespace
+} // namespace quasilux

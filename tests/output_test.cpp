@@ -1,0 +1,390 @@
+// Files that the program writes: EXR layers and header, PNG tones, statistics, and that none is ever half written.
+#include "output/atomic_file.h"
+#include "output/exr.h"
+#include "output/png.h"
+#include "output/progress_line.h"
+#include "output/statistics.h"
+#include "util/error.h"
+
+#include <OpenImageIO/imageio.h>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <unistd.h>
+
+namespace quasilux {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// An empty folder that is removed after the test.
+class OutputTest : public testing::Test {
+protected:
+    OutputTest() {
+        std::string pattern = (fs::temp_directory_path() / "quasilux-output-XXXXXX").string();
+        folder = mkdtemp(pattern.data());
+    }
+    ~OutputTest() override { fs::remove_all(folder); }
+
+    std::string path(const std::string& name) const { return (folder / name).string(); }
+    std::vector<std::string> files() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+        return names;
+    }
+    static std::string text(const std::string& file) {
+        std::ifstream stream(file);
+        std::ostringstream content;
+        content << stream.rdbuf();
+        return content.str();
+    }
+
+    fs::path folder;
+};
+
+FilmImage uniformImage(unsigned width, unsigned height, float value) {
+    FilmImage image;
+    image.width = width;
+    image.height = height;
+    image.passes = 4;
+    image.radiance.assign(size_t{width} * height * 3, value);
+    image.standardError.assign(image.radiance.size(), 0.1f * value);
+    return image;
+}
+
+/// Every value of every layer differs, so that a swapped channel, row or layer shows. More rows than are written at
+/// once.
+FilmImage distinctImage() {
+    FilmImage image = uniformImage(5, 150, 0);
+    auto fill = [n = 0](std::vector<float>& values, size_t count) mutable {
+        values.resize(count);
+        for (auto& value : values) value = 0.125f + static_cast<float>(n++);
+    };
+    const size_t count = image.radiance.size();
+    fill(image.radiance, count);
+    fill(image.components[LIGHT_DIRECT], count);
+    fill(image.components[LIGHT_QUASI_CAUSTIC], count);
+    fill(image.components[FILM_EMISSION], count);
+    fill(image.standardError, count);
+    return image;
+}
+
+RenderRecord exampleRecord() {
+    RenderRecord record;
+    record.scene = "box.xml";
+    record.settings.bdd = 3;
+    record.settings.variant = Variant::alternative;
+    record.settings.direct = DirectLight::photons;
+    record.settings.quasiSpecular = "glass,metal";
+    record.settings.seed = 18446744073709551615u;
+    record.settings.radiusScale = 0.5;
+    record.settings.genericKernels = true;
+    record.device.name = "Test device";
+    record.device.driver = "driver 1.2";
+    record.report.photonsPerPass = 4096;
+    record.report.emitters = {{"lamp", "rectangle", 2.5}};
+    record.report.lobes = {{"floor", "diffuse", "genuine diffuse", "wide"}};
+    record.report.initialRadius["direct"] = 0.25;
+    record.counters.passes = 7;
+    record.counters.renderSeconds = 12.5;
+    record.counters.nonFinite = 2;
+    record.error = {0.0125, 0.05};
+    record.kernels["tracePhotons"] = {7, 3.5};
+    record.peakBufferBytes = 123456789012;
+    return record;
+}
+
+TEST_F(OutputTest, ExrHoldsEveryLayerUnchanged) {
+    const FilmImage image = distinctImage();
+    writeExr(path("a.exr"), image, exampleRecord());
+    EXPECT_THAT(files(), testing::ElementsAre("a.exr"));
+
+    const auto input = OIIO::ImageInput::open(path("a.exr"));
+    ASSERT_TRUE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    EXPECT_EQ(spec.width, 5);
+    EXPECT_EQ(spec.height, 150);
+    EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+    EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
+    const std::vector<std::pair<std::string, const std::vector<float>*>> layers{
+        {"", &image.radiance},
+        {"direct.", &image.components[LIGHT_DIRECT]},
+        {"quasi_caustic.", &image.components[LIGHT_QUASI_CAUSTIC]},
+        {"emission.", &image.components[FILM_EMISSION]},
+        {"stderr.", &image.standardError}};
+    ASSERT_EQ(spec.nchannels, 15) << "absent components have no channels";
+
+    std::vector<float> pixels(size_t{5} * 150 * 15);
+    ASSERT_TRUE(input->read_image(0, 0, 0, 15, OIIO::TypeDesc::FLOAT, pixels.data()));
+    for (const auto& [prefix, values] : layers)
+        for (size_t c = 0; c < 3; ++c) {
+            const int channel = spec.channelindex(prefix + "RGB"[c]);
+            ASSERT_GE(channel, 0) << prefix << "RGB"[c];
+            for (size_t i = 0; i < size_t{5} * 150; ++i)
+                ASSERT_EQ(pixels[15 * i + static_cast<size_t>(channel)], (*values)[3 * i + c])
+                    << prefix << "RGB"[c] << i;
+        }
+}
+
+TEST_F(OutputTest, ExrHeaderHoldsAllSettings) {
+    writeExr(path("a.exr"), distinctImage(), exampleRecord());
+    const auto input = OIIO::ImageInput::open(path("a.exr"));
+    ASSERT_TRUE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    const std::vector<std::pair<std::string, std::string>> texts{
+        {"version", QUASILUX_VERSION},    {"scene", "box.xml"},
+        {"device", "Test device"},        {"driver", "driver 1.2"},
+        {"variant", "alternative"},       {"direct", "photons"},
+        {"quasiSpecular", "glass,metal"}, {"kernels", "generic"},
+        {"seed", "18446744073709551615"}, {"nonFinite", "2"}};
+    for (const auto& [key, value] : texts) EXPECT_EQ(spec.get_string_attribute("quasilux:" + key), value) << key;
+    const std::vector<std::pair<std::string, float>> numbers{{"bdd", 3},         {"photonsPerPass", 4096},
+                                                             {"passes", 7},      {"radiusScale", 0.5f},
+                                                             {"seconds", 12.5f}, {"relativeError", 0.0125f}};
+    for (const auto& [key, value] : numbers) EXPECT_EQ(spec.get_float_attribute("quasilux:" + key, -1), value) << key;
+    EXPECT_EQ(spec.get_string_attribute("Software"), "quasilux " QUASILUX_VERSION);
+
+    const std::string documentation = text(QUASILUX_SOURCE_DIR "/docs/command-line.md");
+    for (const auto& attribute : spec.extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (name.starts_with("quasilux:")) {
+            EXPECT_THAT(documentation, HasSubstr("`" + name + "`"));
+        }
+    }
+}
+
+TEST_F(OutputTest, ExrLeavesOutAnUnknownError) {
+    RenderRecord record = exampleRecord();
+    record.error.mean = INFINITY;
+    writeExr(path("a.exr"), distinctImage(), record);
+    const auto input = OIIO::ImageInput::open(path("a.exr"));
+    ASSERT_TRUE(input);
+    EXPECT_EQ(input->spec().find_attribute("quasilux:relativeError"), nullptr);
+}
+
+TEST_F(OutputTest, FailedWritesLeaveNothingBehind) {
+    FilmImage image = distinctImage();
+    image.components[LIGHT_DIRECT].pop_back();
+    EXPECT_THROW(writeExr(path("a.exr"), image, exampleRecord()), std::runtime_error);
+    image.radiance.pop_back();
+    EXPECT_THROW(writePng(path("a.png"), image, {}, exampleRecord()), std::runtime_error);
+    const FilmImage good = distinctImage();
+    EXPECT_THROW(writeExr(path("gone/a.exr"), good, exampleRecord()), std::runtime_error);
+    EXPECT_THROW(writePng(path("gone/a.png"), good, {}, exampleRecord()), std::runtime_error);
+    EXPECT_THROW(writeJson(path("gone/a.json"), {}), std::runtime_error);
+    // The final name is a folder, so the rename fails after everything was written.
+    fs::create_directory(path("b.exr"));
+    EXPECT_THROW(writeExr(path("b.exr"), good, exampleRecord()), std::runtime_error);
+    EXPECT_THAT(files(), testing::ElementsAre("b.exr"));
+}
+
+TEST_F(OutputTest, AtomicFileReplacesOnlyOnCommit) {
+    std::ofstream(path("a.txt")) << "old";
+    {
+        AtomicFile file(path("a.txt"));
+        std::ofstream(file.temporary()) << "half";
+        EXPECT_EQ(files().size(), 2u);
+    }
+    EXPECT_EQ(text(path("a.txt")), "old");
+    EXPECT_THAT(files(), testing::ElementsAre("a.txt"));
+    {
+        AtomicFile file(path("a.txt"));
+        std::ofstream(file.temporary()) << "new";
+        EXPECT_EQ(text(path("a.txt")), "old");
+        file.commit();
+    }
+    EXPECT_EQ(text(path("a.txt")), "new");
+    EXPECT_THAT(files(), testing::ElementsAre("a.txt"));
+}
+
+TEST_F(OutputTest, OutputPathsAreCheckedWithoutATrace) {
+    checkOutputPath(path("a.exr"), "--output", ".exr");
+    checkOutputPath(path("A.EXR"), "--output", ".exr");
+    EXPECT_TRUE(files().empty());
+    const auto message = [](const std::string& file) -> std::string {
+        try {
+            checkOutputPath(file, "--output", ".exr");
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(message(path("gone/a.exr")), HasSubstr("does not exist"));
+    EXPECT_THAT(message(path("a.jpg")), HasSubstr("unknown extension '.jpg', expected a name that ends in .exr"));
+    EXPECT_THAT(message(path("a")), HasSubstr("no extension"));
+    fs::create_directory(path("b.exr"));
+    EXPECT_THAT(message(path("b.exr")), HasSubstr("is a folder"));
+    EXPECT_THAT(message("/proc/a.exr"), HasSubstr("cannot write there")); // no user may create files there
+}
+
+/// What the PNG on disk holds in its first pixel for a grey image and a curve.
+TEST_F(OutputTest, PngMapsKnownGreys) {
+    // sRGB (IEC 61966-2-1) of the linear value, rounded: worked out by hand, not by the code under test.
+    const std::vector<std::pair<float, int>> known{{0.f, 0},    {0.001f, 3},  {0.0031308f, 10},
+                                                   {0.01f, 25}, {0.18f, 118}, {0.5f, 188},
+                                                   {1.f, 255},  {7.f, 255},   {-1.f, 0}};
+    for (const auto& [linear, expected] : known) {
+        writePng(path("a.png"), uniformImage(3, 2, linear / 4), chooseToneCurve({}, {.stops = {}, .scale = 4.0}),
+                 exampleRecord());
+        const auto input = OIIO::ImageInput::open(path("a.png"));
+        ASSERT_TRUE(input);
+        EXPECT_EQ(input->spec().nchannels, 3);
+        std::vector<uint8_t> pixels(18);
+        ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
+        EXPECT_EQ(pixels, std::vector<uint8_t>(18, static_cast<uint8_t>(expected))) << linear;
+        EXPECT_EQ(input->spec().get_string_attribute("quasilux:exposureScale"), "4");
+        EXPECT_EQ(input->spec().get_string_attribute("quasilux:exposureWhite"), "1");
+        EXPECT_EQ(input->spec().get_string_attribute("quasilux:passes"), "7");
+    }
+}
+
+TEST(ToneCurve, FollowsTheImageAndIgnoresFewBrightPixels) {
+    FilmImage image = uniformImage(50, 40, 0.02f);
+    const ToneCurve plain = chooseToneCurve(image, {});
+    EXPECT_NEAR(plain.scale * 0.02, 0.8, 1e-6);
+    EXPECT_EQ(plain.white, 1);
+    EXPECT_EQ(toneMap(image, plain)[0], 231); // sRGB of 0.8
+
+    for (size_t i = 0; i < 3; ++i) image.radiance[i] = 1e6f; // one pixel of 2000
+    EXPECT_EQ(chooseToneCurve(image, {}).scale, plain.scale);
+    EXPECT_EQ(toneMap(image, chooseToneCurve(image, {}))[3], 231);
+
+    for (size_t i = 0; i < 60; ++i) image.radiance[i] = 1e6f; // 1 %: highlights are compressed, the rest stays visible
+    const auto pixels = toneMap(image, chooseToneCurve(image, {}));
+    EXPECT_EQ(pixels[0], 255);
+    EXPECT_EQ(pixels[60], 178); // sRGB of 0.8 / 1.8
+}
+
+TEST(ToneCurve, StopsDoubleTheScaleAndBlackIsHandled) {
+    const FilmImage image = uniformImage(4, 4, 0.3f);
+    EXPECT_NEAR(chooseToneCurve(image, {.stops = 2.0, .scale = {}}).scale / chooseToneCurve(image, {}).scale, 4, 1e-9);
+    const FilmImage black = uniformImage(4, 4, 0);
+    EXPECT_EQ(toneMap(black, chooseToneCurve(black, {})), std::vector<uint8_t>(48, 0));
+}
+
+TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
+    writeJson(path("a.json"), statisticsJson(exampleRecord(), distinctImage()));
+    const auto json = nlohmann::json::parse(text(path("a.json")));
+    const std::vector<std::string> pointers{"/version",
+                                            "/scene",
+                                            "/image/width",
+                                            "/image/height",
+                                            "/settings/bdd",
+                                            "/settings/variant",
+                                            "/settings/direct",
+                                            "/settings/quasiSpecular",
+                                            "/settings/quasiSpecularFromCommandLine",
+                                            "/settings/photonsPerPass",
+                                            "/settings/seed",
+                                            "/settings/radiusScale",
+                                            "/settings/kernels",
+                                            "/stop/seconds",
+                                            "/stop/passes",
+                                            "/stop/relativeError",
+                                            "/stop/interrupted",
+                                            "/device/name",
+                                            "/device/platform",
+                                            "/device/version",
+                                            "/device/driver",
+                                            "/device/computeUnits",
+                                            "/device/globalMemory",
+                                            "/device/maximumAllocation",
+                                            "/device/isCpu",
+                                            "/device/workGroupSize",
+                                            "/sceneReport/triangles",
+                                            "/sceneReport/spheres",
+                                            "/sceneReport/patches",
+                                            "/sceneReport/borderSegments",
+                                            "/sceneReport/features",
+                                            "/sceneReport/emitters/0/id",
+                                            "/sceneReport/emitters/0/type",
+                                            "/sceneReport/emitters/0/power",
+                                            "/sceneReport/lobes/0/bsdf",
+                                            "/sceneReport/lobes/0/lobe",
+                                            "/sceneReport/lobes/0/scattering",
+                                            "/sceneReport/lobes/0/why",
+                                            "/sceneReport/photonClasses",
+                                            "/sceneReport/bufferBytes",
+                                            "/sceneReport/photonsPerPass",
+                                            "/sceneReport/initialRadius",
+                                            "/counters/passes",
+                                            "/counters/photonsEmitted",
+                                            "/counters/photonsStored",
+                                            "/counters/cameraPaths",
+                                            "/counters/nonFinite",
+                                            "/counters/cutPaths",
+                                            "/counters/fluxEmitted",
+                                            "/counters/fluxCut",
+                                            "/error/meanRelative",
+                                            "/error/percentile95Relative",
+                                            "/kernels",
+                                            "/phases/load",
+                                            "/phases/prepare",
+                                            "/phases/compile",
+                                            "/phases/firstPass",
+                                            "/phases/render",
+                                            "/phases/write",
+                                            "/peakBufferBytes"};
+    const std::string documentation = text(QUASILUX_SOURCE_DIR "/docs/command-line.md");
+    for (const auto& pointer : pointers) {
+        EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(pointer))) << pointer;
+        EXPECT_THAT(documentation, HasSubstr("`" + pointer.substr(pointer.rfind('/') + 1) + "`"));
+    }
+    EXPECT_EQ(json["settings"]["seed"], 18446744073709551615u);
+    EXPECT_EQ(json["kernels"]["tracePhotons"]["launches"], 7);
+    EXPECT_EQ(json["kernels"]["tracePhotons"]["seconds"], 3.5);
+    EXPECT_EQ(json["peakBufferBytes"], 123456789012);
+    EXPECT_EQ(json["error"]["percentile95Relative"], 0.05);
+    EXPECT_TRUE(json["stop"]["passes"].is_null());
+}
+
+TEST_F(OutputTest, StatisticsSurviveUnknownErrorsAndOddBytes) {
+    RenderRecord record = exampleRecord();
+    record.error = {INFINITY, INFINITY};
+    record.device.name = "bad \xff byte";
+    writeJson(path("a.json"), statisticsJson(record, distinctImage()));
+    const auto json = nlohmann::json::parse(text(path("a.json")));
+    EXPECT_TRUE(json["error"]["meanRelative"].is_null());
+}
+
+TEST(ProgressText, LeavesOutWhatIsUnknown) {
+    EXPECT_EQ(progressText({.phase = "compiling"}), "compiling");
+    Progress progress{.phase = "rendering", .passes = 12, .seconds = 6};
+    EXPECT_EQ(progressText(progress), "rendering: pass 12");
+    progress.secondsLeft = 83.2;
+    progress.photonsPerSecond = 1.254e6;
+    progress.pathsPerSecond = 310e3;
+    progress.relativeError = 0.02314;
+    EXPECT_EQ(progressText(progress), "rendering: pass 12, 1.25 M photons/s, 310 k paths/s, error 2.31 %, 1:24 left");
+    progress.relativeError = INFINITY;
+    EXPECT_THAT(progressText(progress), testing::Not(HasSubstr("error")));
+}
+
+TEST(RelativeErrorOfFilm, IsTheMeanOfLuminanceRatiosWithAFloor) {
+    FilmImage image = uniformImage(10, 2, 2.f);
+    image.standardError.assign(60, 0.5f);
+    EXPECT_NEAR(meanRelativeError(image), 0.25, 1e-6);
+    // One black pixel of 20: the mean luminance is 1.9, so its denominator is 0.019.
+    for (size_t c = 0; c < 3; ++c) image.radiance[c] = 0;
+    EXPECT_NEAR(meanRelativeError(image), (19 * 0.25 + 0.5 / 0.019) / 20, 1e-5);
+    EXPECT_NEAR(relativeError(image).percentile95, 0.25, 1e-6); // rank 19 of 20: the outlier is above it
+    // Green alone carries 0.7152 of the luminance.
+    image = uniformImage(1, 1, 1.f);
+    image.standardError = {0, 0.1f, 0};
+    EXPECT_NEAR(meanRelativeError(image), 0.07152, 1e-6);
+}
+
+TEST(RelativeErrorOfFilm, KnowsWhatItDoesNotKnow) {
+    FilmImage image = uniformImage(2, 2, 1.f);
+    image.passes = 1;
+    EXPECT_EQ(meanRelativeError(image), INFINITY); // so that no error limit counts as reached
+    EXPECT_EQ(meanRelativeError(uniformImage(2, 2, 0.f)), 0);
+}
+
+} // namespace
+} // namespace quasilux
