@@ -1,0 +1,575 @@
+// What a scene file means: numbers, units, transforms, plugins, meshes, references, settings.
+#include "scene/scene.h"
+
+#include "support/scene_files.h"
+
+#include <cmath>
+#include <cstring>
+#include <gmock/gmock.h>
+
+namespace quasilux {
+namespace {
+
+using test::SceneFiles;
+using test::sceneWith;
+
+constexpr double degree = 3.14159265358979324 / 180;
+const std::string dataFolder = std::string(QUASILUX_SOURCE_DIR) + "/tests/data/";
+
+Scene load(const std::string& body) {
+    SceneFiles files;
+    return loadScene(files.write("scene.xml", sceneWith(body)));
+}
+
+Bsdf loadBsdf(const std::string& bsdf) { return load("<shape type=\"rectangle\">" + bsdf + "</shape>").bsdfs.at(0); }
+
+ShapeDescription loadShape(const std::string& shape) { return load(shape).shapes.at(0); }
+
+Sensor loadSensor(const std::string& content) {
+    SceneFiles files;
+    return loadScene(files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\">" + content +
+                                                  "</sensor><emitter type=\"point\"/></scene>"))
+        .sensor;
+}
+
+std::string placed(const std::string& type, const std::string& operations, const std::string& parameters = "") {
+    return "<shape type=\"" + type + "\">" + parameters + "<transform name=\"to_world\">" + operations +
+           "</transform></shape>";
+}
+
+void expectNear(const glm::vec3& value, const glm::vec3& expected, float tolerance = 1e-6f) {
+    EXPECT_NEAR(value.x, expected.x, tolerance);
+    EXPECT_NEAR(value.y, expected.y, tolerance);
+    EXPECT_NEAR(value.z, expected.z, tolerance);
+}
+
+void expectRgb(Rgb value, float r, float g, float b, float tolerance = 1e-6f) {
+    expectNear({value.r, value.g, value.b}, {r, g, b}, tolerance);
+}
+
+glm::vec3 faceNormal(const Mesh& mesh, size_t triangle) {
+    const glm::uvec3 t = mesh.triangles.at(triangle);
+    const glm::vec3 a = mesh.positions.at(t.x);
+    return glm::normalize(glm::cross(mesh.positions.at(t.y) - a, mesh.positions.at(t.z) - a));
+}
+
+// ---- the two scenes that come with the program
+
+TEST(CornellScenes, PhongHasTheGeometryAndLobesOfFigureOne) {
+    const Scene scene = loadScene(std::string(QUASILUX_SOURCE_DIR) + "/scenes/cornell_phong.xml");
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.shapes.size(), 8u);
+    EXPECT_EQ(scene.maxDepth, -1);
+    EXPECT_EQ(scene.settings.bdd, 0u);
+    EXPECT_EQ(scene.settings.variant, "main");
+    EXPECT_EQ(scene.sensor.width, 256u);
+    EXPECT_EQ(scene.sensor.filter, FILTER_BOX);
+    EXPECT_NEAR(scene.sensor.fovX, 39.3077 * degree, 1e-12);
+
+    const ShapeDescription& light = scene.shapes.back();
+    ASSERT_TRUE(light.emitter && light.rectangle);
+    expectNear(light.rectangle->normal, {0, 1, 0});
+    EXPECT_NEAR(light.mesh.positions[0].y, 0.99, 1e-6);
+    EXPECT_TRUE(scene.bsdfs.at(static_cast<size_t>(light.bsdf)).isNull);
+
+    const Bsdf& box = scene.bsdfs.at(static_cast<size_t>(scene.shapes[5].bsdf));
+    ASSERT_EQ(box.front.size(), 2u);
+    EXPECT_EQ(box.id, "box");
+    EXPECT_EQ(box.front[1].device.type, unsigned(LOBE_PHONG));
+    EXPECT_EQ(box.front[1].device.exponent, 1000.0f);
+    EXPECT_THAT(box.front[1].quasiSpecular.lobes, testing::ElementsAre("specular"));
+}
+
+TEST(CornellScenes, GgxHasTheSameAlbedosThroughABlend) {
+    const Scene scene = loadScene(std::string(QUASILUX_SOURCE_DIR) + "/scenes/cornell_ggx.xml");
+    const Bsdf& box = scene.bsdfs.at(static_cast<size_t>(scene.shapes[5].bsdf));
+    ASSERT_EQ(box.front.size(), 2u);
+    expectRgb(box.front[0].device.reflectance, 0.5f, 0, 0);
+    expectRgb(box.front[1].device.reflectance, 0.025f, 0.25f, 0.025f);
+    EXPECT_EQ(box.front[1].device.type, unsigned(LOBE_GGX));
+    EXPECT_FALSE(box.front[0].quasiSpecular.stated);
+    EXPECT_EQ(box.front[1].quasiSpecular.kind, QuasiSpecularChoice::Kind::yes);
+}
+
+// ---- transforms
+
+TEST(Transform, OperationsMultiplyFromTheLeft) {
+    // (1,1,0) → scale 2 → (2,2,0) → rotate 90° about z → (-2,2,0) → translate → (-1,2,3)
+    const ShapeDescription shape =
+        loadShape(placed("rectangle", R"(<scale value="2"/><rotate z="1" angle="90"/><translate x="1" z="3"/>)"));
+    expectNear(shape.mesh.positions[2], {-1, 2, 3});
+}
+
+TEST(Transform, FormsOfValues) {
+    expectNear(loadShape(placed("rectangle", R"(<scale value="2,3,4"/><translate value="1 0 0"/>)")).mesh.positions[2],
+               {3, 3, 0});
+    expectNear(loadShape(placed("rectangle", R"(<scale y="3"/>)")).mesh.positions[2], {1, 3, 0});
+    expectNear(loadShape(placed("rectangle", R"(<rotate value="0,0,2" angle="+90"/>)")).mesh.positions[2], {-1, 1, 0});
+}
+
+TEST(Transform, MatrixIsWrittenByRows) {
+    expectNear(
+        loadShape(placed("rectangle", R"(<matrix value="2 0 0 5  0 3 0 6  0 0 1 7  0 0 0 1"/>)")).mesh.positions[2],
+        {7, 9, 7});
+    expectNear(loadShape(placed("rectangle", R"(<matrix value="0 2 0  3 0 0  0 0 1"/>)")).mesh.positions[1],
+               {-2, 3, 0});
+}
+
+TEST(Transform, LookAtSendsZToTheTargetAndXToTheLeft) {
+    const Sensor sensor =
+        loadSensor(R"(<transform name="to_world"><lookat origin="1,2,3" target="1,2,-3" up="0,1,0"/></transform>)");
+    expectNear(glm::vec3(sensor.toWorld[0]), {-1, 0, 0}); // looking along -z with y up, -x is left
+    expectNear(glm::vec3(sensor.toWorld[1]), {0, 1, 0});
+    expectNear(glm::vec3(sensor.toWorld[2]), {0, 0, -1});
+    expectNear(glm::vec3(sensor.toWorld[3]), {1, 2, 3});
+}
+
+// ---- shapes
+
+TEST(Rectangle, FrameAndWindingFollowTheInverseTransposeNormal) {
+    const struct {
+        const char* operations;
+        bool flip;
+        glm::vec3 normal;
+    } cases[] = {
+        {R"(<scale value="1"/>)", false, {0, 0, 1}}, {R"(<scale value="1"/>)", true, {0, 0, -1}},
+        {R"(<scale z="-1"/>)", false, {0, 0, -1}},   {R"(<scale x="-1"/>)", false, {0, 0, 1}},
+        {R"(<scale x="-1"/>)", true, {0, 0, -1}},    {R"(<rotate x="1" angle="-90"/>)", false, {0, 1, 0}},
+    };
+    for (const auto& c : cases) {
+        SCOPED_TRACE(std::string(c.operations) + (c.flip ? " flipped" : ""));
+        const std::string flip =
+            std::string("<boolean name=\"flip_normals\" value=\"") + (c.flip ? "true" : "false") + "\"/>";
+        const ShapeDescription shape = loadShape(placed("rectangle", c.operations, flip));
+        ASSERT_TRUE(shape.rectangle);
+        expectNear(shape.rectangle->normal, c.normal);
+        expectNear(glm::normalize(glm::cross(shape.rectangle->edgeU, shape.rectangle->edgeV)), c.normal);
+        for (size_t t = 0; t < 2; ++t) expectNear(faceNormal(shape.mesh, t), c.normal);
+        EXPECT_NEAR(glm::length(glm::cross(shape.rectangle->edgeU, shape.rectangle->edgeV)), 4, 1e-5);
+        EXPECT_TRUE(shape.mesh.cornerNormals.empty());
+    }
+}
+
+TEST(Rectangle, ShearedOneHasNoFrame) {
+    EXPECT_FALSE(loadShape(placed("rectangle", R"(<matrix value="1 0.5 0  0 1 0  0 0 1"/>)")).rectangle);
+}
+
+TEST(Cube, FacesLookOutwardsAlsoWhenMirroredAndInwardsWhenFlipped) {
+    for (const bool flip : {false, true}) {
+        for (const char* operations : {"<scale x=\"2\"/>", "<scale x=\"-2\"/>"}) {
+            const std::string parameter =
+                std::string("<boolean name=\"flip_normals\" value=\"") + (flip ? "true" : "false") + "\"/>";
+            const ShapeDescription shape = loadShape(placed("cube", operations, parameter));
+            ASSERT_EQ(shape.mesh.triangles.size(), 12u);
+            double volume = 0; // signed: positive where the faces look outwards
+            for (size_t t = 0; t < 12; ++t) {
+                const glm::uvec3 i = shape.mesh.triangles[t];
+                const auto& p = shape.mesh.positions;
+                const glm::vec3 center = (p[i.x] + p[i.y] + p[i.z]) / 3.0f;
+                EXPECT_GT(glm::dot(faceNormal(shape.mesh, t), center) * (flip ? -1 : 1), 0);
+                volume += glm::dot(p[i.x], glm::cross(p[i.y], p[i.z])) / 6;
+            }
+            EXPECT_NEAR(volume, flip ? -16 : 16, 1e-5);
+        }
+    }
+}
+
+TEST(Sphere, CentreAndRadiusUnderSimilarity) {
+    const ShapeDescription shape =
+        loadShape(placed("sphere", R"(<scale value="2"/><rotate z="1" angle="90"/><translate x="1"/>)",
+                         R"(<point name="center" x="1" y="2" z="3"/><float name="radius" value="0.5"/>)"));
+    ASSERT_TRUE(shape.sphere);
+    expectNear(shape.sphere->center, {-3, 2, 6});
+    EXPECT_FLOAT_EQ(shape.sphere->radius, 1.0f);
+    EXPECT_FALSE(shape.flipNormals);
+    EXPECT_TRUE(loadShape(placed("sphere", R"(<scale value="-1"/>)")).flipNormals); // as Mitsuba 3 does
+}
+
+std::string meshShape(const std::string& type, const std::string& file, const std::string& more = "") {
+    return "<shape type=\"" + type + "\"><string name=\"filename\" value=\"" + file + "\"/>" + more + "</shape>";
+}
+
+TEST(ObjMesh, FansQuadsAndCountsNegativeIndicesFromTheEnd) {
+    const Mesh mesh =
+        loadShape(meshShape("obj", dataFolder + "quads.obj", R"(<boolean name="face_normals" value="true"/>)")).mesh;
+    ASSERT_EQ(mesh.positions.size(), 6u);
+    ASSERT_EQ(mesh.triangles.size(), 4u);
+    EXPECT_EQ(mesh.triangles[1], glm::uvec3(0, 2, 3));
+    EXPECT_EQ(mesh.triangles[2], glm::uvec3(1, 4, 5));
+    EXPECT_EQ(mesh.triangles[3], glm::uvec3(1, 5, 2));
+    EXPECT_TRUE(mesh.cornerNormals.empty());
+    expectNear(faceNormal(mesh, 0), {0, 0, 1});
+}
+
+TEST(ObjMesh, NormalsThatAreMissingAreMeansWeightedByAngle) {
+    // At the fold two triangles of either quad share vertex 1 (angles 45° + 45° left, 90° in two parts right): equal
+    // weights.
+    const Mesh mesh = loadShape(meshShape("obj", dataFolder + "quads.obj")).mesh;
+    ASSERT_EQ(mesh.cornerNormals.size(), 12u);
+    const glm::vec3 left(0, 0, 1), right = glm::normalize(glm::vec3(-1, 0, 1));
+    expectNear(mesh.cornerNormals[0], left);
+    expectNear(mesh.cornerNormals[1], glm::normalize(left + right));
+    expectNear(mesh.cornerNormals[7], right);
+}
+
+TEST(ObjMesh, NormalsOfTheFileGoByTheInverseTranspose) {
+    const Mesh mesh = loadShape(placed("obj", R"(<scale x="2"/>)",
+                                       "<string name=\"filename\" value=\"" + dataFolder + "normals.obj\"/>"))
+                          .mesh;
+    ASSERT_EQ(mesh.cornerNormals.size(), 3u);
+    expectNear(mesh.cornerNormals[1], glm::normalize(glm::vec3(0.3f, 0, 0.8f)));
+    expectNear(mesh.cornerNormals[2], {0, 0.6f, 0.8f});
+}
+
+TEST(ObjMesh, WindingAgreesWithTheNormalsOfTheFile) {
+    const std::string file = "<string name=\"filename\" value=\"" + dataFolder + "normals.obj\"/>";
+    for (const char* parameters : {"", R"(<boolean name="flip_normals" value="true"/>)"}) {
+        for (const char* operations : {"<scale x=\"1\"/>", "<scale x=\"-1\"/>", "<scale z=\"-1\"/>"}) {
+            const Mesh mesh = loadShape(placed("obj", operations, file + parameters)).mesh;
+            ASSERT_EQ(mesh.cornerNormals.size(), 3u);
+            const bool up = (std::string(operations).find('z') == std::string::npos) == std::string(parameters).empty();
+            for (const glm::vec3& normal : mesh.cornerNormals) {
+                EXPECT_GT(glm::dot(normal, faceNormal(mesh, 0)), 0);
+                EXPECT_EQ(normal.z > 0, up) << operations << parameters;
+            }
+        }
+    }
+}
+
+TEST(ObjMesh, FlatFacesFollowTheWindingAfterMirroring) {
+    const std::string file = "<string name=\"filename\" value=\"" + dataFolder +
+                             "quads.obj\"/><boolean name=\"face_normals\" value=\"true\"/>";
+    expectNear(faceNormal(loadShape(placed("obj", R"(<scale x="-1"/>)", file)).mesh, 0), {0, 0, -1});
+    expectNear(
+        faceNormal(
+            loadShape(placed("obj", R"(<scale x="1"/>)", file + R"(<boolean name="flip_normals" value="true"/>)")).mesh,
+            0),
+        {0, 0, -1});
+}
+
+/// A tetrahedron's quad-and-triangle cousin: one quad, in any byte order, with a property to pass over and normals.
+std::string binaryPly(bool bigEndian) {
+    std::string out =
+        std::string("ply\r\nformat binary_") + (bigEndian ? "big" : "little") +
+        "_endian 1.0\r\nelement vertex 4\r\nproperty double x\r\nproperty float y\r\nproperty float z\r\nproperty "
+        "uchar red\r\n"
+        "property float nx\r\nproperty float ny\r\nproperty float nz\r\nelement edge 1\r\nproperty short a\r\n"
+        "element face 1\r\nproperty list uchar ushort vertex_index\r\nproperty int flag\r\nend_header\r\n";
+    const auto put = [&](auto value) {
+        char bytes[sizeof(value)];
+        std::memcpy(bytes, &value, sizeof(value));
+        if (bigEndian) std::reverse(bytes, bytes + sizeof(value));
+        out.append(bytes, sizeof(value));
+    };
+    const float corners[4][2] = {{0, 0}, {2, 0}, {2, 1}, {0, 1}};
+    for (const auto& corner : corners) {
+        put(double(corner[0])), put(corner[1]), put(-3.5f), put(uint8_t(200));
+        put(corner[0] > 0 ? 0.6f : -0.6f), put(0.0f), put(0.8f);
+    }
+    put(int16_t(-7));
+    put(uint8_t(4)), put(uint16_t(0)), put(uint16_t(1)), put(uint16_t(2)), put(uint16_t(3)), put(int32_t(-1));
+    return out;
+}
+
+TEST(PlyMesh, BinaryOfEitherByteOrderWithQuadsNormalsAndPropertiesToPassOver) {
+    for (const bool bigEndian : {false, true}) {
+        SceneFiles files;
+        files.write("mesh.ply", binaryPly(bigEndian));
+        const Mesh mesh =
+            loadScene(files.write("scene.xml", sceneWith(meshShape("ply", "mesh.ply")))).shapes.at(0).mesh;
+        ASSERT_EQ(mesh.triangles.size(), 2u);
+        EXPECT_EQ(mesh.triangles[1], glm::uvec3(0, 2, 3));
+        expectNear(mesh.positions[2], {2, 1, -3.5f});
+        ASSERT_EQ(mesh.cornerNormals.size(), 6u);
+        expectNear(mesh.cornerNormals[1], {0.6f, 0, 0.8f});
+    }
+}
+
+TEST(PlyMesh, AsciiTetrahedronLooksOutwards) {
+    const Mesh mesh =
+        loadShape(meshShape("ply", dataFolder + "tetrahedron.ply", R"(<boolean name="face_normals" value="true"/>)"))
+            .mesh;
+    ASSERT_EQ(mesh.triangles.size(), 4u);
+    expectNear(faceNormal(mesh, 0), {0, 0, -1});
+    expectNear(faceNormal(mesh, 3), glm::normalize(glm::vec3(1)));
+}
+
+// ---- sensor and film
+
+TEST(PerspectiveSensor, FieldOfViewIsHorizontalForEveryAxis) {
+    const std::string film =
+        R"(<film type="hdrfilm"><integer name="width" value="400"/><integer name="height" value="200"/></film>)";
+    const auto fov = [&](const std::string& axis) {
+        return loadSensor(film + R"(<float name="fov" value="40"/><string name="fov_axis" value=")" + axis + "\"/>")
+            .fovX;
+    };
+    const double half = std::tan(20 * degree);
+    EXPECT_NEAR(fov("x"), 40 * degree, 1e-12);
+    EXPECT_NEAR(fov("larger"), 40 * degree, 1e-12);
+    EXPECT_NEAR(fov("y"), 2 * std::atan(2 * half), 1e-12);
+    EXPECT_NEAR(fov("smaller"), 2 * std::atan(2 * half), 1e-12);
+    EXPECT_NEAR(fov("diagonal"), 2 * std::atan(half * 400 / std::sqrt(400.0 * 400 + 200.0 * 200)), 1e-12);
+}
+
+TEST(PerspectiveSensor, DefaultsAreThoseOfMitsuba) {
+    const Sensor sensor = loadSensor("");
+    EXPECT_NEAR(sensor.fovX, 38.18484115600586 * degree, 1e-6); // Mitsuba 3.9: 50 mm lens, 768 × 576 pixels
+    EXPECT_EQ(sensor.fovX, loadSensor(R"(<string name="focal_length" value="50mm"/>)").fovX);
+    EXPECT_EQ(sensor.width, 768u);
+    EXPECT_EQ(sensor.height, 576u);
+    EXPECT_EQ(sensor.filter, FILTER_GAUSSIAN);
+    EXPECT_EQ(sensor.filterStddev, 0.5);
+    EXPECT_EQ(sensor.filterRadius, 2.0);
+    EXPECT_EQ(sensor.nearClip, 1e-2);
+    EXPECT_EQ(sensor.farClip, 1e4);
+}
+
+TEST(Film, Filters) {
+    const auto withFilter = [](const std::string& filter) {
+        return loadSensor("<film type=\"hdrfilm\">" + filter + "</film>");
+    };
+    EXPECT_EQ(withFilter(R"(<rfilter type="box"/>)").filterRadius, 0.5);
+    EXPECT_EQ(withFilter(R"(<rfilter type="tent"><float name="radius" value="1.5"/></rfilter>)").filterRadius, 1.5);
+    const Sensor gaussian = withFilter(R"(<rfilter type="gaussian"><float name="stddev" value="0.7"/></rfilter>)");
+    EXPECT_EQ(gaussian.filterStddev, 0.7);
+    EXPECT_NEAR(gaussian.filterRadius, 2.8, 1e-12);
+}
+
+TEST(Sensors, TheFirstOfSeveralIsTakenWithAWarning) {
+    const Scene scene = load("<sensor type=\"perspective\"><float name=\"fov\" value=\"10\"/></sensor>");
+    EXPECT_NEAR(scene.sensor.fovX, 38.18484 * degree, 1e-6);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], testing::HasSubstr("scene.xml:4:1: a further <sensor>"));
+}
+
+TEST(Integrator, DepthLimit) {
+    EXPECT_EQ(load("").maxDepth, -1);
+    EXPECT_EQ(
+        load(
+            R"(<integrator type="volpath"><integer name="max_depth" value="7"/><boolean name="anything" value="x"/></integrator>)")
+            .maxDepth,
+        7);
+    EXPECT_EQ(
+        load(
+            R"(<integrator type="aov"><integrator type="path"><integer name="max_depth" value="3"/></integrator></integrator>)")
+            .maxDepth,
+        3);
+}
+
+// ---- bsdfs
+
+TEST(DiffuseBsdf, OneSidedLambert) {
+    const Bsdf bsdf = loadBsdf(R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.1, 0.2 0.3"/></bsdf>)");
+    ASSERT_EQ(bsdf.front.size(), 1u);
+    EXPECT_TRUE(bsdf.back.empty());
+    expectRgb(bsdf.front[0].device.reflectance, 0.1f, 0.2f, 0.3f);
+    EXPECT_NEAR(bsdf.front[0].halfWidth, 45 * degree, 1e-12);
+    EXPECT_EQ(bsdf.front[0].device.scattering, 0u);
+    EXPECT_EQ(bsdf.id, "diffuse@4");
+}
+
+TEST(Colors, EveryForm) {
+    const auto reflectance = [](const std::string& element) {
+        return loadBsdf("<bsdf type=\"diffuse\">" + element + "</bsdf>").front.at(0).device.reflectance;
+    };
+    expectRgb(reflectance(R"(<rgb name="reflectance" value="0.3"/>)"), 0.3f, 0.3f, 0.3f);
+    expectRgb(reflectance(R"(<float name="reflectance" value="0.3"/>)"), 0.3f, 0.3f, 0.3f);
+    expectRgb(reflectance(R"(<spectrum name="reflectance" value="0.3"/>)"), 0.3f, 0.3f, 0.3f);
+    expectRgb(reflectance(R"(<rgb name="reflectance" value="#ff8000"/>)"), 1, 0.2158605f, 0);
+    const auto radiance = [](const std::string& element) {
+        return loadShape("<shape type=\"rectangle\"><emitter type=\"area\">" + element + "</emitter></shape>")
+            .emitter.value()
+            .radiance;
+    };
+    expectRgb(radiance(R"(<spectrum name="radiance" value="2"/>)"), 2.4096f, 1.8964f, 1.8174f, 1e-5f);
+    expectRgb(radiance(R"(<rgb name="radiance" value="2"/>)"), 2, 2, 2);
+    expectRgb(radiance(""), 1, 1, 1);
+}
+
+TEST(PhongBsdf, LobesAndWidth) {
+    const Bsdf bsdf = loadBsdf(R"(<bsdf type="phong"><float name="exponent" value="1000"/></bsdf>)");
+    ASSERT_EQ(bsdf.front.size(), 2u);
+    expectRgb(bsdf.front[0].device.reflectance, 0.5f, 0.5f, 0.5f);
+    expectRgb(bsdf.front[1].device.reflectance, 0.2f, 0.2f, 0.2f);
+    EXPECT_NEAR(std::pow(std::cos(bsdf.front[1].halfWidth), 1001), 0.5, 1e-9);
+    const Bsdf pure = loadBsdf(R"(<bsdf type="phong"><rgb name="diffuse_reflectance" value="0"/></bsdf>)");
+    ASSERT_EQ(pure.front.size(), 1u);
+    EXPECT_EQ(pure.front[0].name, "specular");
+}
+
+TEST(RoughConductorBsdf, DistributionsAlphasAndMetals) {
+    const LobeDescription plain = loadBsdf(R"(<bsdf type="roughconductor"/>)").front.at(0);
+    EXPECT_EQ(plain.device.type, unsigned(LOBE_BECKMANN));
+    EXPECT_FLOAT_EQ(plain.device.alphaU, 0.1f);
+    expectRgb(plain.device.eta, 0, 0, 0); // material "none": Fresnel factor 1
+    expectRgb(plain.device.k, 1, 1, 1);
+    EXPECT_NEAR(std::tan(plain.halfWidth / 2), 0.1 * std::sqrt(std::log(2.0)), 1e-8);
+
+    const LobeDescription gold =
+        loadBsdf(
+            R"(<bsdf type="roughconductor"><string name="distribution" value="ggx"/><string name="material" value="Au"/>
+        <float name="alpha_u" value="0.02"/><float name="alpha_v" value="0.3"/><boolean name="sample_visible" value="true"/></bsdf>)")
+            .front.at(0);
+    EXPECT_EQ(gold.device.type, unsigned(LOBE_GGX));
+    EXPECT_FLOAT_EQ(gold.device.alphaU, 0.02f);
+    EXPECT_FLOAT_EQ(gold.device.alphaV, 0.3f);
+    EXPECT_NEAR(std::tan(gold.halfWidth / 2), 0.3, 1e-7);
+    expectRgb(gold.device.eta, 0.143119f, 0.374957f, 1.442479f);
+    expectRgb(gold.device.k, 3.983160f, 2.385721f, 1.603215f);
+
+    const LobeDescription own =
+        loadBsdf(R"(<bsdf type="roughconductor"><rgb name="eta" value="1,2,3"/><float name="k" value="4"/></bsdf>)")
+            .front.at(0);
+    expectRgb(own.device.eta, 1, 2, 3);
+    expectRgb(own.device.k, 4, 4, 4);
+}
+
+TEST(ConductorBsdf, IsADeltaLobe) {
+    const LobeDescription mirror =
+        loadBsdf(R"(<bsdf type="conductor"><rgb name="specular_reflectance" value="0.9"/></bsdf>)").front.at(0);
+    EXPECT_EQ(mirror.device.type, unsigned(LOBE_CONDUCTOR));
+    EXPECT_EQ(mirror.device.scattering, SCATTER_SPECULAR);
+    EXPECT_EQ(mirror.halfWidth, 0);
+    expectRgb(mirror.device.reflectance, 0.9f, 0.9f, 0.9f);
+}
+
+TEST(DielectricBsdf, IndexIsRelativeToTheSideThatIsLookedFrom) {
+    const Bsdf glass = loadBsdf(
+        R"(<bsdf type="dielectric"><float name="int_ior" value="1.5"/><string name="ext_ior" value="water"/></bsdf>)");
+    ASSERT_EQ(glass.front.size(), 1u);
+    ASSERT_EQ(glass.back.size(), 1u);
+    EXPECT_FLOAT_EQ(glass.front[0].device.eta.r, 1.5f / 1.333f);
+    EXPECT_FLOAT_EQ(glass.back[0].device.eta.r, 1.333f / 1.5f);
+    EXPECT_EQ(glass.back[0].device.scattering, SCATTER_SPECULAR);
+    expectRgb(glass.front[0].device.transmittance, 1, 1, 1);
+    EXPECT_FLOAT_EQ(loadBsdf(R"(<bsdf type="dielectric"/>)").front[0].device.eta.r, float(1.5046 / 1.000277));
+}
+
+TEST(DielectricBsdf, EqualIndicesAreAllowedWithAWarning) {
+    const Scene scene = load(
+        R"(<shape type="cube"><bsdf type="dielectric"><float name="int_ior" value="1"/><float name="ext_ior" value="1"/></bsdf></shape>)");
+    EXPECT_FALSE(scene.bsdfs[0].isNull);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], testing::HasSubstr("int_ior and ext_ior are equal"));
+}
+
+TEST(BlendBsdf, WeightsTheSecondAndDropsWhatIsLeftBlack) {
+    const std::string parts =
+        R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.4"/></bsdf><bsdf type="dielectric"/></bsdf>)";
+    const Bsdf quarter = loadBsdf(R"(<bsdf type="blendbsdf"><float name="weight" value="0.25"/>)" + parts);
+    ASSERT_EQ(quarter.front.size(), 2u);
+    ASSERT_EQ(quarter.back.size(), 1u);
+    EXPECT_FLOAT_EQ(quarter.front[0].device.reflectance.g, 0.3f);
+    EXPECT_FLOAT_EQ(quarter.front[1].device.reflectance.g, 0.25f);
+    EXPECT_FLOAT_EQ(quarter.back[0].device.transmittance.g, 0.25f);
+    const Bsdf first = loadBsdf(R"(<bsdf type="blendbsdf"><float name="weight" value="0"/>)" + parts);
+    EXPECT_EQ(first.front.size(), 1u);
+    EXPECT_TRUE(first.back.empty());
+}
+
+TEST(TwoSidedBsdf, SameOrDifferentSides) {
+    const Bsdf same = loadBsdf(R"(<bsdf type="twosided"><bsdf type="phong"/></bsdf>)");
+    EXPECT_EQ(same.front.size(), 2u);
+    EXPECT_EQ(same.back.size(), 2u);
+    const Bsdf two = loadBsdf(R"(<bsdf type="twosided"><bsdf type="diffuse"/><bsdf type="conductor"/></bsdf>)");
+    EXPECT_EQ(two.front.at(0).name, "diffuse");
+    EXPECT_EQ(two.back.at(0).name, "specular");
+}
+
+TEST(DefaultBsdf, IsHalfGreyAndBlackOnEmitters) {
+    const Scene scene =
+        load(R"(<shape type="cube"/><shape type="sphere"/><shape type="rectangle"><emitter type="area"/></shape>)");
+    ASSERT_EQ(scene.bsdfs.size(), 2u);
+    EXPECT_EQ(scene.shapes[0].bsdf, scene.shapes[1].bsdf);
+    expectRgb(scene.bsdfs[0].front.at(0).device.reflectance, 0.5f, 0.5f, 0.5f);
+    EXPECT_TRUE(scene.bsdfs[1].front.empty());
+}
+
+// ---- emitters
+
+TEST(PointEmitter, PositionOrTransform) {
+    const Scene scene = load(
+        R"(<emitter type="point" id="lamp"><point name="position" value="1,2,3"/><rgb name="intensity" value="5,6,7"/></emitter>
+        <emitter type="point"><transform name="to_world"><translate y="4"/></transform></emitter>)");
+    ASSERT_EQ(scene.pointEmitters.size(), 3u);
+    EXPECT_EQ(scene.pointEmitters[1].id, "lamp");
+    expectNear(scene.pointEmitters[1].position, {1, 2, 3});
+    expectRgb(scene.pointEmitters[1].intensity, 5, 6, 7);
+    expectNear(scene.pointEmitters[2].position, {0, 4, 0});
+}
+
+// ---- files, parameters, references, settings
+
+TEST(References, MayPointForwardsAndAreReadOnce) {
+    const Scene scene = load(R"(<shape type="cube"><ref id="paint"/></shape><shape type="cube"><ref id="paint"/></shape>
+        <bsdf type="twosided" id="paint"><ref id="inner"/></bsdf><bsdf type="diffuse" id="inner"/>)");
+    ASSERT_EQ(scene.bsdfs.size(), 1u);
+    EXPECT_EQ(scene.bsdfs[0].id, "paint");
+    EXPECT_EQ(scene.shapes[1].bsdf, 0);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(References, UnusedBsdfsAreReportedAndLeftOut) {
+    const Scene scene = load(R"(<bsdf type="diffuse" id="spare"/>)");
+    EXPECT_TRUE(scene.bsdfs.empty());
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], testing::HasSubstr("scene.xml:4:1: bsdf 'spare' is used by no shape"));
+}
+
+TEST(Documents, IncludesShareParametersAndNamesOfFilesAreRelativeToTheFileThatMentionsThem) {
+    SceneFiles files;
+    std::filesystem::create_directories(files.path("parts"));
+    files.write("parts/mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    files.write("parts/part.xml",
+                R"(<scene version="3.0.0"><?quasilux seed="9"?><default name="size" value="5"/><shape type="obj">
+        <string name="filename" value="mesh.obj"/><transform name="to_world"><scale value="$size"/></transform></shape></scene>)");
+    files.write("parts/paint.xml", R"(<bsdf version="3.0.0" type="diffuse" id="paint"/>)");
+    const std::string path =
+        files.write("scene.xml", sceneWith(R"(<default name="size" value="2"/><default name="sizes" value="3"/>
+        <include filename="parts/part.xml"/><include filename="parts/paint.xml"/><shape type="sphere"><ref id="paint"/><float name="radius" value="$sizes"/></shape>)"));
+    const Scene scene = loadScene(path);
+    ASSERT_EQ(scene.shapes.size(), 2u);
+    expectNear(scene.shapes[0].mesh.positions[1], {2, 0, 0});
+    EXPECT_EQ(scene.shapes[1].sphere->radius, 3);
+    EXPECT_EQ(scene.settings.seed, 9u);
+    EXPECT_THAT(scene.shapes[0].where.text(), testing::EndsWith("parts/part.xml:1:77"));
+    EXPECT_EQ(loadScene(path, {{"size", "7"}}).shapes[0].mesh.positions[1].x, 7);
+}
+
+TEST(Documents, CommentsOtherInstructionsAndByteOrderMarkAreNoMatter) {
+    SceneFiles files;
+    const Scene scene = loadScene(
+        files.write("scene.xml", "\xef\xbb\xbf<?xml version=\"1.0\"?>\n<?editor x?><!-- a --><!DOCTYPE scene>\n" +
+                                     sceneWith("<?editor fold?><!-- b --><shape type=\"cube\"/>")));
+    EXPECT_EQ(scene.shapes.at(0).where.line, 6);
+    EXPECT_EQ(scene.shapes.at(0).where.column, 26);
+}
+
+TEST(Settings, OfTheScene) {
+    const SceneSettings none = load("").settings;
+    EXPECT_FALSE(none.bdd || none.variant || none.quasiSpecular || none.direct || none.photons || none.seed);
+    const SceneSettings all =
+        load("<?quasilux bdd=\"2\" variant='alternative' quasi-specular=\"a,b\"\n direct=\"photons\" photons=\"1000\"?>"
+             "<?quasilux seed=\"18446744073709551615\"?>")
+            .settings;
+    EXPECT_EQ(all.bdd, 2u);
+    EXPECT_EQ(all.variant, "alternative");
+    EXPECT_EQ(all.quasiSpecular, "a,b");
+    EXPECT_EQ(all.direct, "photons");
+    EXPECT_EQ(all.photons, 1000u);
+    EXPECT_EQ(all.seed, UINT64_MAX);
+}
+
+TEST(Settings, TheInnermostBsdfDecides) {
+    using Kind = QuasiSpecularChoice::Kind;
+    const Bsdf bsdf = loadBsdf(R"(<bsdf type="blendbsdf"><?quasilux quasi-specular="no"?><bsdf type="diffuse"/>
+        <bsdf type="roughconductor"><?quasilux quasi-specular="auto"?></bsdf></bsdf>)");
+    EXPECT_EQ(bsdf.front.at(0).quasiSpecular.kind, Kind::no);
+    EXPECT_EQ(bsdf.front.at(1).quasiSpecular.kind, Kind::automatic);
+    EXPECT_TRUE(bsdf.front.at(1).quasiSpecular.stated);
+    const Bsdf listed = loadBsdf(R"(<bsdf type="phong"><?quasilux quasi-specular="specular, diffuse"?></bsdf>)");
+    EXPECT_THAT(listed.front.at(0).quasiSpecular.lobes, testing::ElementsAre("specular", "diffuse"));
+}
+
+} // namespace
+} // namespace quasilux

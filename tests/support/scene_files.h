@@ -1,0 +1,48 @@
+// Scene and mesh files for the loader's tests, in a folder that is removed again.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <string>
+#include <unistd.h>
+
+namespace quasilux::test {
+
+class SceneFiles {
+public:
+    SceneFiles() {
+        const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+        std::string name = std::string(info->test_suite_name()) + "_" + info->name() + "_" + std::to_string(getpid());
+        for (char& letter : name)
+            if (letter == '/') letter = '_';
+        folder_ = std::filesystem::temp_directory_path() / ("quasilux_" + name);
+        std::filesystem::create_directories(folder_);
+    }
+    ~SceneFiles() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    SceneFiles(const SceneFiles&) = delete;
+    SceneFiles& operator=(const SceneFiles&) = delete;
+
+    /// Path of the file written.
+    std::string write(const std::string& name, const std::string& content) const {
+        std::ofstream(folder_ / name, std::ios::binary) << content;
+        return path(name);
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+private:
+    std::filesystem::path folder_;
+};
+
+inline const char* const minimalSensor = "<sensor type=\"perspective\"/>\n";
+inline const char* const minimalLight = "<emitter type=\"point\"/>\n";
+
+/// A complete scene; `body` starts in column 1 of line 4.
+inline std::string sceneWith(const std::string& body) {
+    return std::string("<scene version=\"3.0.0\">\n") + minimalSensor + minimalLight + body + "\n</scene>\n";
+}
+
+} // namespace quasilux::test
