@@ -3,6 +3,8 @@
 #include "cli/options.h"
 #include "util/nearest.h"
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -51,7 +53,8 @@ protected:
     }
     ~CommandLineTest() override { fs::remove_all(root); }
 
-    Outcome run(std::vector<std::string> arguments) const {
+    /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C.
+    Outcome run(std::vector<std::string> arguments, unsigned interruptAfter = 0) const {
         const pid_t child = fork();
         if (child == 0) {
             if (chdir(folder.c_str()) != 0) _exit(120);
@@ -63,6 +66,10 @@ protected:
             argv.push_back(nullptr);
             execv(argv[0], argv.data());
             _exit(121);
+        }
+        if (interruptAfter > 0) {
+            sleep(interruptAfter);
+            kill(child, SIGINT);
         }
         int status = 0;
         waitpid(child, &status, 0);
@@ -210,6 +217,8 @@ TEST_F(CommandLineTest, OutputsAreCheckedBeforeRendering) {
         return more;
     };
     expectRefused(with({"-o", "gone/a.exr"}), "--output gone/a.exr: folder gone does not exist");
+    // Before the scene is even read: of two faults, the folder is the one named.
+    expectRefused({"render", "missing.xml", "-o", "gone/a.exr"}, "folder gone does not exist");
     expectRefused(with({"-o", "a.jpg"}), "unknown extension '.jpg'");
     expectRefused(with({"--png", "gone/a.png"}), "--png gone/a.png: folder gone does not exist");
     expectRefused(with({"--png", "a.exr"}), "expected a name that ends in .png");
@@ -223,6 +232,25 @@ TEST_F(CommandLineTest, MissingScenesAndDevicesAreRefused) {
     expectRefused({"info", "missing.xml"}, "missing.xml");
     expectRefused({"render", "scene.xml", "--passes", "1", "--device", "999"}, "--device 999");
     expectRefused({"info", "scene.xml", "--device", "999"}, "--device 999");
+}
+
+/// How far a render gets in 5 s depends on the machine; that it ends soon, by exit, with a whole file or none, does
+/// not.
+TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run({"render", "scene.xml", "-o", "a.exr", "--time", "500", "--json"}, 5);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(250));
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+    if (outcome.exitCode == 0) {
+        EXPECT_THAT(names, testing::UnorderedElementsAre("scene.xml", "a.exr"));
+        const auto summary = nlohmann::json::parse(outcome.output);
+        EXPECT_EQ(summary["interrupted"], true);
+        EXPECT_GE(summary["passes"], 1);
+    } else {
+        EXPECT_EQ(outcome.exitCode, 130) << outcome.errors;
+        EXPECT_THAT(names, testing::ElementsAre("scene.xml"));
+    }
 }
 
 TEST(Names, OfComponentsAndSettings) {

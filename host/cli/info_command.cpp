@@ -66,6 +66,7 @@ void infoCommand(const SceneOptions& options) {
         for (const auto& warning : scene.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
     const RenderSettings settings = options.settings(scene);
     Device device(options.device, options.workGroupSize);
+    exitOnInterrupt();
     ProgressLine progress(stderr, !options.quiet);
     progress.update({.phase = "preparing"});
     const Renderer renderer(device, scene, settings);

@@ -28,7 +28,8 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->group(group);
     command
         .add_option("--quasi-specular", options.quasiSpecular,
-                    "Lobes followed like mirrors: auto, none, all, or ids of bsdfs with commas between (default: the "
+                    "Lobes followed like mirrors: auto, none, all, or ids of bsdfs (or ID.LOBE) with commas between "
+                    "(default: the "
                     "scene's, else auto)")
         ->type_name("LIST")
         ->check(quasiSpecularList())

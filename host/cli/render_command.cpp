@@ -121,6 +121,7 @@ int renderCommand(const RenderOptions& options) {
     const RenderSettings settings = options.settings(scene);
 
     Device device(options.device, options.workGroupSize);
+    exitOnInterrupt();
     progress.update({.phase = "preparing"});
     Renderer renderer(device, scene, settings);
     catchInterrupt();
