@@ -1,29 +1,25 @@
-// What a scene file means: numbers, units, transforms, plugins, meshes, references, settings.
+// What a scene file means: numbers, units, transforms, bsdfs, emitters, sensor, references, settings.
 #include "scene/scene.h"
 
 #include "support/scene_files.h"
 
 #include <cmath>
-#include <cstring>
 #include <gmock/gmock.h>
 
 namespace quasilux {
 namespace {
 
+using test::expectNear;
+using test::loadShape;
+using test::placed;
 using test::SceneFiles;
 using test::sceneWith;
 
 constexpr double degree = 3.14159265358979324 / 180;
-const std::string dataFolder = std::string(QUASILUX_SOURCE_DIR) + "/tests/data/";
 
-Scene load(const std::string& body) {
-    SceneFiles files;
-    return loadScene(files.write("scene.xml", sceneWith(body)));
-}
+Scene load(const std::string& body) { return test::loadBody(body); }
 
 Bsdf loadBsdf(const std::string& bsdf) { return load("<shape type=\"rectangle\">" + bsdf + "</shape>").bsdfs.at(0); }
-
-ShapeDescription loadShape(const std::string& shape) { return load(shape).shapes.at(0); }
 
 Sensor loadSensor(const std::string& content) {
     SceneFiles files;
@@ -32,25 +28,8 @@ Sensor loadSensor(const std::string& content) {
         .sensor;
 }
 
-std::string placed(const std::string& type, const std::string& operations, const std::string& parameters = "") {
-    return "<shape type=\"" + type + "\">" + parameters + "<transform name=\"to_world\">" + operations +
-           "</transform></shape>";
-}
-
-void expectNear(const glm::vec3& value, const glm::vec3& expected, float tolerance = 1e-6f) {
-    EXPECT_NEAR(value.x, expected.x, tolerance);
-    EXPECT_NEAR(value.y, expected.y, tolerance);
-    EXPECT_NEAR(value.z, expected.z, tolerance);
-}
-
 void expectRgb(Rgb value, float r, float g, float b, float tolerance = 1e-6f) {
     expectNear({value.r, value.g, value.b}, {r, g, b}, tolerance);
-}
-
-glm::vec3 faceNormal(const Mesh& mesh, size_t triangle) {
-    const glm::uvec3 t = mesh.triangles.at(triangle);
-    const glm::vec3 a = mesh.positions.at(t.x);
-    return glm::normalize(glm::cross(mesh.positions.at(t.y) - a, mesh.positions.at(t.z) - a));
 }
 
 // ---- the two scenes that come with the program
@@ -122,176 +101,6 @@ TEST(Transform, LookAtSendsZToTheTargetAndXToTheLeft) {
     expectNear(glm::vec3(sensor.toWorld[1]), {0, 1, 0});
     expectNear(glm::vec3(sensor.toWorld[2]), {0, 0, -1});
     expectNear(glm::vec3(sensor.toWorld[3]), {1, 2, 3});
-}
-
-// ---- shapes
-
-TEST(Rectangle, FrameAndWindingFollowTheInverseTransposeNormal) {
-    const struct {
-        const char* operations;
-        bool flip;
-        glm::vec3 normal;
-    } cases[] = {
-        {R"(<scale value="1"/>)", false, {0, 0, 1}}, {R"(<scale value="1"/>)", true, {0, 0, -1}},
-        {R"(<scale z="-1"/>)", false, {0, 0, -1}},   {R"(<scale x="-1"/>)", false, {0, 0, 1}},
-        {R"(<scale x="-1"/>)", true, {0, 0, -1}},    {R"(<rotate x="1" angle="-90"/>)", false, {0, 1, 0}},
-    };
-    for (const auto& c : cases) {
-        SCOPED_TRACE(std::string(c.operations) + (c.flip ? " flipped" : ""));
-        const std::string flip =
-            std::string("<boolean name=\"flip_normals\" value=\"") + (c.flip ? "true" : "false") + "\"/>";
-        const ShapeDescription shape = loadShape(placed("rectangle", c.operations, flip));
-        ASSERT_TRUE(shape.rectangle);
-        expectNear(shape.rectangle->normal, c.normal);
-        expectNear(glm::normalize(glm::cross(shape.rectangle->edgeU, shape.rectangle->edgeV)), c.normal);
-        for (size_t t = 0; t < 2; ++t) expectNear(faceNormal(shape.mesh, t), c.normal);
-        EXPECT_NEAR(glm::length(glm::cross(shape.rectangle->edgeU, shape.rectangle->edgeV)), 4, 1e-5);
-        EXPECT_TRUE(shape.mesh.cornerNormals.empty());
-    }
-}
-
-TEST(Rectangle, ShearedOneHasNoFrame) {
-    EXPECT_FALSE(loadShape(placed("rectangle", R"(<matrix value="1 0.5 0  0 1 0  0 0 1"/>)")).rectangle);
-}
-
-TEST(Cube, FacesLookOutwardsAlsoWhenMirroredAndInwardsWhenFlipped) {
-    for (const bool flip : {false, true}) {
-        for (const char* operations : {"<scale x=\"2\"/>", "<scale x=\"-2\"/>"}) {
-            const std::string parameter =
-                std::string("<boolean name=\"flip_normals\" value=\"") + (flip ? "true" : "false") + "\"/>";
-            const ShapeDescription shape = loadShape(placed("cube", operations, parameter));
-            ASSERT_EQ(shape.mesh.triangles.size(), 12u);
-            double volume = 0; // signed: positive where the faces look outwards
-            for (size_t t = 0; t < 12; ++t) {
-                const glm::uvec3 i = shape.mesh.triangles[t];
-                const auto& p = shape.mesh.positions;
-                const glm::vec3 center = (p[i.x] + p[i.y] + p[i.z]) / 3.0f;
-                EXPECT_GT(glm::dot(faceNormal(shape.mesh, t), center) * (flip ? -1 : 1), 0);
-                volume += glm::dot(p[i.x], glm::cross(p[i.y], p[i.z])) / 6;
-            }
-            EXPECT_NEAR(volume, flip ? -16 : 16, 1e-5);
-        }
-    }
-}
-
-TEST(Sphere, CentreAndRadiusUnderSimilarity) {
-    const ShapeDescription shape =
-        loadShape(placed("sphere", R"(<scale value="2"/><rotate z="1" angle="90"/><translate x="1"/>)",
-                         R"(<point name="center" x="1" y="2" z="3"/><float name="radius" value="0.5"/>)"));
-    ASSERT_TRUE(shape.sphere);
-    expectNear(shape.sphere->center, {-3, 2, 6});
-    EXPECT_FLOAT_EQ(shape.sphere->radius, 1.0f);
-    EXPECT_FALSE(shape.flipNormals);
-    EXPECT_TRUE(loadShape(placed("sphere", R"(<scale value="-1"/>)")).flipNormals); // as Mitsuba 3 does
-}
-
-std::string meshShape(const std::string& type, const std::string& file, const std::string& more = "") {
-    return "<shape type=\"" + type + "\"><string name=\"filename\" value=\"" + file + "\"/>" + more + "</shape>";
-}
-
-TEST(ObjMesh, FansQuadsAndCountsNegativeIndicesFromTheEnd) {
-    const Mesh mesh =
-        loadShape(meshShape("obj", dataFolder + "quads.obj", R"(<boolean name="face_normals" value="true"/>)")).mesh;
-    ASSERT_EQ(mesh.positions.size(), 6u);
-    ASSERT_EQ(mesh.triangles.size(), 4u);
-    EXPECT_EQ(mesh.triangles[1], glm::uvec3(0, 2, 3));
-    EXPECT_EQ(mesh.triangles[2], glm::uvec3(1, 4, 5));
-    EXPECT_EQ(mesh.triangles[3], glm::uvec3(1, 5, 2));
-    EXPECT_TRUE(mesh.cornerNormals.empty());
-    expectNear(faceNormal(mesh, 0), {0, 0, 1});
-}
-
-TEST(ObjMesh, NormalsThatAreMissingAreMeansWeightedByAngle) {
-    // At the fold two triangles of either quad share vertex 1 (angles 45° + 45° left, 90° in two parts right): equal
-    // weights.
-    const Mesh mesh = loadShape(meshShape("obj", dataFolder + "quads.obj")).mesh;
-    ASSERT_EQ(mesh.cornerNormals.size(), 12u);
-    const glm::vec3 left(0, 0, 1), right = glm::normalize(glm::vec3(-1, 0, 1));
-    expectNear(mesh.cornerNormals[0], left);
-    expectNear(mesh.cornerNormals[1], glm::normalize(left + right));
-    expectNear(mesh.cornerNormals[7], right);
-}
-
-TEST(ObjMesh, NormalsOfTheFileGoByTheInverseTranspose) {
-    const Mesh mesh = loadShape(placed("obj", R"(<scale x="2"/>)",
-                                       "<string name=\"filename\" value=\"" + dataFolder + "normals.obj\"/>"))
-                          .mesh;
-    ASSERT_EQ(mesh.cornerNormals.size(), 3u);
-    expectNear(mesh.cornerNormals[1], glm::normalize(glm::vec3(0.3f, 0, 0.8f)));
-    expectNear(mesh.cornerNormals[2], {0, 0.6f, 0.8f});
-}
-
-TEST(ObjMesh, WindingAgreesWithTheNormalsOfTheFile) {
-    const std::string file = "<string name=\"filename\" value=\"" + dataFolder + "normals.obj\"/>";
-    for (const char* parameters : {"", R"(<boolean name="flip_normals" value="true"/>)"}) {
-        for (const char* operations : {"<scale x=\"1\"/>", "<scale x=\"-1\"/>", "<scale z=\"-1\"/>"}) {
-            const Mesh mesh = loadShape(placed("obj", operations, file + parameters)).mesh;
-            ASSERT_EQ(mesh.cornerNormals.size(), 3u);
-            const bool up = (std::string(operations).find('z') == std::string::npos) == std::string(parameters).empty();
-            for (const glm::vec3& normal : mesh.cornerNormals) {
-                EXPECT_GT(glm::dot(normal, faceNormal(mesh, 0)), 0);
-                EXPECT_EQ(normal.z > 0, up) << operations << parameters;
-            }
-        }
-    }
-}
-
-TEST(ObjMesh, FlatFacesFollowTheWindingAfterMirroring) {
-    const std::string file = "<string name=\"filename\" value=\"" + dataFolder +
-                             "quads.obj\"/><boolean name=\"face_normals\" value=\"true\"/>";
-    expectNear(faceNormal(loadShape(placed("obj", R"(<scale x="-1"/>)", file)).mesh, 0), {0, 0, -1});
-    expectNear(
-        faceNormal(
-            loadShape(placed("obj", R"(<scale x="1"/>)", file + R"(<boolean name="flip_normals" value="true"/>)")).mesh,
-            0),
-        {0, 0, -1});
-}
-
-/// A tetrahedron's quad-and-triangle cousin: one quad, in any byte order, with a property to pass over and normals.
-std::string binaryPly(bool bigEndian) {
-    std::string out =
-        std::string("ply\r\nformat binary_") + (bigEndian ? "big" : "little") +
-        "_endian 1.0\r\nelement vertex 4\r\nproperty double x\r\nproperty float y\r\nproperty float z\r\nproperty "
-        "uchar red\r\n"
-        "property float nx\r\nproperty float ny\r\nproperty float nz\r\nelement edge 1\r\nproperty short a\r\n"
-        "element face 1\r\nproperty list uchar ushort vertex_index\r\nproperty int flag\r\nend_header\r\n";
-    const auto put = [&](auto value) {
-        char bytes[sizeof(value)];
-        std::memcpy(bytes, &value, sizeof(value));
-        if (bigEndian) std::reverse(bytes, bytes + sizeof(value));
-        out.append(bytes, sizeof(value));
-    };
-    const float corners[4][2] = {{0, 0}, {2, 0}, {2, 1}, {0, 1}};
-    for (const auto& corner : corners) {
-        put(double(corner[0])), put(corner[1]), put(-3.5f), put(uint8_t(200));
-        put(corner[0] > 0 ? 0.6f : -0.6f), put(0.0f), put(0.8f);
-    }
-    put(int16_t(-7));
-    put(uint8_t(4)), put(uint16_t(0)), put(uint16_t(1)), put(uint16_t(2)), put(uint16_t(3)), put(int32_t(-1));
-    return out;
-}
-
-TEST(PlyMesh, BinaryOfEitherByteOrderWithQuadsNormalsAndPropertiesToPassOver) {
-    for (const bool bigEndian : {false, true}) {
-        SceneFiles files;
-        files.write("mesh.ply", binaryPly(bigEndian));
-        const Mesh mesh =
-            loadScene(files.write("scene.xml", sceneWith(meshShape("ply", "mesh.ply")))).shapes.at(0).mesh;
-        ASSERT_EQ(mesh.triangles.size(), 2u);
-        EXPECT_EQ(mesh.triangles[1], glm::uvec3(0, 2, 3));
-        expectNear(mesh.positions[2], {2, 1, -3.5f});
-        ASSERT_EQ(mesh.cornerNormals.size(), 6u);
-        expectNear(mesh.cornerNormals[1], {0.6f, 0, 0.8f});
-    }
-}
-
-TEST(PlyMesh, AsciiTetrahedronLooksOutwards) {
-    const Mesh mesh =
-        loadShape(meshShape("ply", dataFolder + "tetrahedron.ply", R"(<boolean name="face_normals" value="true"/>)"))
-            .mesh;
-    ASSERT_EQ(mesh.triangles.size(), 4u);
-    expectNear(faceNormal(mesh, 0), {0, 0, -1});
-    expectNear(faceNormal(mesh, 3), glm::normalize(glm::vec3(1)));
 }
 
 // ---- sensor and film

@@ -1,6 +1,8 @@
 // Scene and mesh files for the loader's tests, in a folder that is removed again.
 #pragma once
 
+#include "scene/scene.h"
+
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -37,12 +39,44 @@ private:
     std::filesystem::path folder_;
 };
 
+/// Loads `file` and returns the message of the InputError, or fails.
+inline std::string errorOf(const std::string& file,
+                           const std::vector<std::pair<std::string, std::string>>& parameters = {}) {
+    try {
+        loadScene(file, parameters);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "loaded without an error";
+    return {};
+}
+
 inline const char* const minimalSensor = "<sensor type=\"perspective\"/>\n";
 inline const char* const minimalLight = "<emitter type=\"point\"/>\n";
 
 /// A complete scene; `body` starts in column 1 of line 4.
 inline std::string sceneWith(const std::string& body) {
     return std::string("<scene version=\"3.0.0\">\n") + minimalSensor + minimalLight + body + "\n</scene>\n";
+}
+
+/// A complete scene, loaded.
+inline Scene loadBody(const std::string& body) {
+    SceneFiles files;
+    return loadScene(files.write("scene.xml", sceneWith(body)));
+}
+
+inline ShapeDescription loadShape(const std::string& shape) { return loadBody(shape).shapes.at(0); }
+
+/// A shape under a transform.
+inline std::string placed(const std::string& type, const std::string& operations, const std::string& parameters = "") {
+    return "<shape type=\"" + type + "\">" + parameters + "<transform name=\"to_world\">" + operations +
+           "</transform></shape>";
+}
+
+inline void expectNear(const glm::vec3& value, const glm::vec3& expected, float tolerance = 1e-6f) {
+    EXPECT_NEAR(value.x, expected.x, tolerance);
+    EXPECT_NEAR(value.y, expected.y, tolerance);
+    EXPECT_NEAR(value.z, expected.z, tolerance);
 }
 
 } // namespace quasilux::test

@@ -64,7 +64,8 @@ public:
         openFiles_.push_back(std::filesystem::weakly_canonical(path).string());
         Element root;
         for (pugi::xml_node node : document.children()) {
-            const SourceLocation where = positions.at(node.offset_debug() - 1);
+            const ptrdiff_t bracket = node.type() == pugi::node_pi ? 2 : 1; // "<?" or "<" before the name
+            const SourceLocation where = positions.at(node.offset_debug() - bracket);
             if (node.type() == pugi::node_pi && std::string_view(node.name()) == "quasilux")
                 throw InputError(where, "<?quasilux?> outside of the scene; put it into <scene> or a <bsdf>.");
             if (node.type() != pugi::node_element) continue;
