@@ -401,5 +401,19 @@ TEST(DeepNesting, IsRefusedInsteadOfACrash) {
                 testing::HasSubstr("elements nested deeper than 64"));
 }
 
+TEST(DoublingDefinitions, AreRefusedInsteadOfFillingTheMemory) {
+    std::string values = "<default name=\"a0\" value=\"xx\"/>", blends = "<bsdf type=\"diffuse\" id=\"b0\"/>";
+    for (int i = 1; i < 60; ++i) {
+        const std::string before = std::to_string(i - 1), now = std::to_string(i),
+                          ref = "<ref id=\"b" + before + "\"/>";
+        values += "<default name=\"a" + now + "\" value=\"$a" + before + "$a" + before + "\"/>";
+        blends += "<bsdf type=\"blendbsdf\" id=\"b" + now + "\">" + ref + ref + "</bsdf>";
+    }
+    SceneFiles files;
+    EXPECT_THAT(errorOf(files.write("values.xml", sceneWith(values))),
+                testing::HasSubstr("a value grows to more than"));
+    EXPECT_THAT(errorOf(files.write("blends.xml", sceneWith(blends))), testing::HasSubstr("more than 32 lobes"));
+}
+
 } // namespace
 } // namespace quasilux

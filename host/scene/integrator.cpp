@@ -33,8 +33,10 @@ int readMaxDepth(const Element& element, LoadContext& context) {
         throw InputError(element.where,
                          fmt::format("unknown integrator plugin '{}'.{}", plugin, knownNames(plugin, known)));
     }
-    const Element* nested = properties.object("integrator"); // that of aov, stokes and moment
-    const int64_t inherited = nested && nested != &element ? readMaxDepth(*nested, context) : -1;
+    int64_t inherited = -1; // from the integrator within aov, stokes or moment
+    const Element* nested = properties.object("integrator");
+    for (const Element& child : element.children)
+        if (&child == nested) inherited = readMaxDepth(child, context);
     const int64_t depth = properties.integer("max_depth", inherited);
     if (depth == 0 || depth < -1 || depth > 1000000)
         throw InputError(

@@ -37,6 +37,11 @@ BsdfLobes readBlend(Properties& properties) {
         addScaled(part.front, factor, lobes.front);
         addScaled(part.back, factor, lobes.back);
     }
+    constexpr size_t maximumLobes = 32; // a blend of blends doubles them at each level
+    if (lobes.front.size() > maximumLobes || lobes.back.size() > maximumLobes)
+        throw InputError(
+            properties.element().where,
+            fmt::format("blendbsdf comes to more than {} lobes on one side; blend fewer bsdfs.", maximumLobes));
     return lobes;
 }
 

@@ -15,7 +15,8 @@ namespace quasilux {
 
 namespace {
 
-constexpr int maximumNesting = 64; // elements within elements; the reader recurses
+constexpr int maximumNesting = 64;       // elements within elements; the reader recurses
+constexpr size_t maximumValue = 1 << 16; // parameters made of parameters can double at each step
 
 /// Lines and columns of one file.
 class TextPositions {
@@ -167,6 +168,9 @@ private:
             longest->used = true;
             text.replace(position, longest->name.size() + 1, longest->value);
             position += longest->value.size();
+            if (text.size() > maximumValue)
+                throw InputError(where,
+                                 fmt::format("a value grows to more than {} letters by its parameters.", maximumValue));
         }
         return text;
     }
