@@ -1,0 +1,352 @@
+// The photon index: a stable counting sort whatever the number of chunks, and searches that find what a search of all
+// photons finds, each photon once, also where rows of cells share the table or wrap around its end.
+//
+// No test here is statistical: photons are random but seeded, and what they are compared with is exact or in double.
+#include "device/kernel_sources.h"
+#include "support/photon_index.h"
+#include "support/test_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <random>
+#include <sstream>
+
+namespace quasilux {
+namespace {
+
+// As kernels/photon_grid.clh numbers them.
+enum Field : unsigned { fieldX, fieldY, fieldZ, fieldR, fieldG, fieldB, fieldPatchSide, fieldDirection, fieldDepth };
+
+using shared::Photon;
+
+Photon photonAt(float x, float y, float z, unsigned lightClass, unsigned id) {
+    Photon photon{};
+    photon.position = {x, y, z};
+    photon.direction = id * 2654435761u;
+    photon.flux = {float(id), float(id % 1000) + 0.5f, 1};
+    photon.patchSide = id % 5;
+    photon.classDepth = (1 + id % 200) << 2 | lightClass;
+    return photon;
+}
+
+/// Clusters, lone photons, photons on the borders of cells of size `cell`, and many at one point; about `center`.
+std::vector<Photon> awkwardPhotons(unsigned count, float center, float cell, const std::vector<unsigned>& classes) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> wide(-40, 40);
+    std::normal_distribution<float> narrow(0, 0.3f);
+    std::vector<Photon> photons;
+    for (unsigned id = 0; id < count; ++id) {
+        float p[3];
+        for (float& x : p) {
+            x = id % 4 == 0 ? wide(random) : narrow(random);
+            if (id % 4 == 1) x = std::round(x * 10) - (id % 8 == 1 ? 0.f : 1e-7f);
+            if (id % 4 == 2 && id % 12 == 2) x = 0.25f;
+            x = center + x * cell;
+        }
+        photons.push_back(photonAt(p[0], p[1], p[2], classes[id % classes.size()], id));
+    }
+    return photons;
+}
+
+/// Cell of the table by the definition in kernels/photon_grid.clh, written down again.
+unsigned expectedCell(const Photon& photon, const PhotonIndexSettings& settings) {
+    const unsigned lightClass = photon.classDepth & 3;
+    const auto coordinate = [&](float x) {
+        return int64_t(std::floor(std::clamp(x / settings.radius[lightClass], -1073741824.f, 1073741824.f)));
+    };
+    const auto y = uint32_t(coordinate(photon.position.y)), z = uint32_t(coordinate(photon.position.z));
+    uint32_t hash = (y * 0x8da6b343u) ^ (z * 0xd8163841u);
+    hash ^= hash >> 15;
+    hash *= 0x2c1b3c6du;
+    hash ^= hash >> 12;
+    const uint32_t cell = (hash + uint32_t(coordinate(photon.position.x))) & (settings.cells - 1);
+    unsigned slot = 0;
+    for (unsigned c = 0; c < lightClass; ++c) slot += settings.classes >> c & 1;
+    return slot * settings.cells + cell;
+}
+
+/// Order of the photons after a stable sort by cell, and where each cell begins.
+struct ExpectedIndex {
+    std::vector<unsigned> order;
+    std::vector<uint32_t> cellStart;
+};
+
+ExpectedIndex expectIndex(const std::vector<Photon>& photons, const PhotonIndexSettings& settings) {
+    ExpectedIndex index;
+    std::vector<unsigned> cells;
+    for (const Photon& photon : photons) cells.push_back(expectedCell(photon, settings));
+    index.order.resize(photons.size());
+    std::iota(index.order.begin(), index.order.end(), 0u);
+    std::stable_sort(index.order.begin(), index.order.end(),
+                     [&](unsigned a, unsigned b) { return cells[a] < cells[b]; });
+    index.cellStart.assign(size_t(std::popcount(settings.classes)) * settings.cells + 1, 0);
+    for (const unsigned cell : cells) ++index.cellStart[cell + 1];
+    std::partial_sum(index.cellStart.begin(), index.cellStart.end(), index.cellStart.begin());
+    return index;
+}
+
+uint32_t bits(float value) { return std::bit_cast<uint32_t>(value); }
+
+void expectSorted(const std::vector<Photon>& photons, const PhotonIndexSettings& settings) {
+    const PhotonIndex index = indexPhotons(photons, settings);
+    const ExpectedIndex expected = expectIndex(photons, settings);
+    EXPECT_EQ(index.cellStart.read(), expected.cellStart);
+    std::vector<std::vector<uint32_t>> fields(settings.storesDepth ? 9 : 8);
+    for (const unsigned k : expected.order) {
+        const Photon& p = photons[k];
+        const uint32_t values[] = {bits(p.position.x), bits(p.position.y), bits(p.position.z),
+                                   bits(p.flux.r),     bits(p.flux.g),     bits(p.flux.b),
+                                   p.patchSide,        p.direction,        p.classDepth >> 2};
+        for (size_t f = 0; f < fields.size(); ++f) fields[f].push_back(values[f]);
+    }
+    for (unsigned f = 0; f < fields.size(); ++f) EXPECT_EQ(index.field(f), fields[f]) << "field " << f;
+}
+
+TEST(PhotonMap, IsAStableSortByCell) {
+    for (const unsigned cells : {4u, 64u, 4096u})
+        for (const float center : {0.f, -3000.f, 2e5f}) {
+            PhotonIndexSettings settings;
+            settings.classes = 1u << LIGHT_CAUSTIC | 1u << LIGHT_DIFFUSE;
+            settings.radius = {9, 0.25f, 9, 0.5f};
+            settings.cells = cells;
+            expectSorted(awkwardPhotons(20011, center, 0.25f, {LIGHT_CAUSTIC, LIGHT_DIFFUSE}), settings);
+        }
+}
+
+TEST(PhotonMap, EveryClassHasItsRun) {
+    PhotonIndexSettings settings;
+    settings.classes = 15;
+    settings.radius = {0.5f, 0.125f, 1, 2};
+    settings.cells = 256;
+    settings.storesDepth = true;
+    expectSorted(awkwardPhotons(5003, 1, 0.5f, {LIGHT_DIRECT, LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}),
+                 settings);
+    // A class without photons is an empty run between the others.
+    expectSorted(awkwardPhotons(5003, 1, 0.5f, {LIGHT_CAUSTIC, LIGHT_DIFFUSE}), settings);
+}
+
+TEST(PhotonMap, ChunksAndBlocksDoNotChangeABit) {
+    const auto photons = awkwardPhotons(10007, -10, 0.25f, {LIGHT_DIFFUSE});
+    PhotonIndexSettings settings;
+    settings.radius[LIGHT_DIFFUSE] = 0.25f;
+    settings.regions = 61;
+    settings.chunks = settings.scanBlocks = 1;
+    const PhotonIndex once = indexPhotons(photons, settings);
+    for (const unsigned parts : {2u, 7u, 61u}) {
+        settings.chunks = parts;
+        settings.scanBlocks = parts;
+        const PhotonIndex again = indexPhotons(photons, settings);
+        EXPECT_EQ(again.cellStart.read(), once.cellStart.read());
+        for (unsigned f = 0; f < 8; ++f) EXPECT_EQ(again.field(f), once.field(f));
+    }
+}
+
+TEST(PhotonMap, NoPhotonsAndOnePhoton) {
+    PhotonIndexSettings settings;
+    settings.cells = 4;
+    expectSorted({}, settings);
+    expectSorted({photonAt(-1, 5, 0.5f, LIGHT_DIFFUSE, 3)}, settings);
+}
+
+// ---- searches -----------------------------------------------------------------------------------------------------
+
+struct Query {
+    float x, y, z, radius;
+};
+struct Sum {
+    float r, g, b, unused;
+};
+
+std::string testKernel(const std::string& file) {
+    std::ifstream stream(std::string(QUASILUX_SOURCE_DIR) + "/tests/kernels/" + file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+struct GatherSettings {
+    unsigned lightClass = LIGHT_DIFFUSE, patchSide = 0, depthMax = QL_NONE;
+    bool checkRows = true; ///< false: the negative control, where rows that share cells are not told apart
+};
+
+std::vector<Sum> gather(const PhotonIndex& index, const std::vector<Query>& queries,
+                        const PhotonIndexSettings& settings, const GatherSettings& what = {}) {
+    std::map<std::string, std::string> files{{"photon_gather.cl", testKernel("photon_gather.cl")}};
+    if (!what.checkRows) {
+        std::string text = kernelSources().at("density.clh");
+        const std::string check = "runsOverlap(runs, count);";
+        EXPECT_NE(text.find(check), std::string::npos) << "the negative control must follow density.clh";
+        if (const size_t place = text.find(check); place != std::string::npos) text.replace(place, check.size(), "0;");
+        files["density.clh"] = text;
+    }
+    Program program(testDevice(), "photon_gather.cl", photonIndexOptions(settings), files);
+    Buffer<Query> queryBuffer(testDevice(), queries, "queries");
+    Buffer<Sum> sums(testDevice(), queries.size(), "sums");
+    program.kernel("gather").launch(queries.size(), index.cellStart, index.sorted, queryBuffer, sums, index.map,
+                                    unsigned(queries.size()), what.lightClass, what.patchSide, what.depthMax);
+    return sums.read();
+}
+
+/// Sums over all photons in double precision, and how many of them are in reach and have flux.
+struct ExactSum {
+    double r = 0, g = 0, b = 0;
+    unsigned lit = 0;
+};
+
+ExactSum searchAll(const std::vector<Photon>& photons, const Query& query, const GatherSettings& what) {
+    ExactSum sum;
+    for (const Photon& p : photons) {
+        if ((p.classDepth & 3) != what.lightClass || p.patchSide != what.patchSide || p.classDepth >> 2 > what.depthMax)
+            continue;
+        const double x = double(p.position.x) - query.x, y = double(p.position.y) - query.y,
+                     z = double(p.position.z) - query.z;
+        const double q = (x * x + y * y + z * z) / (double(query.radius) * query.radius);
+        if (q >= 1) continue;
+        sum.r += (1 - q) * p.flux.r;
+        sum.g += (1 - q) * p.flux.g;
+        sum.b += (1 - q) * p.flux.b;
+        sum.lit += p.flux.b > 0;
+    }
+    return sum;
+}
+
+std::vector<Query> queriesAbout(const std::vector<Photon>& photons, unsigned count, float radius) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> offset(-1.2f, 1.2f);
+    std::vector<Query> queries;
+    for (unsigned k = 0; k < count; ++k) {
+        const auto& p = photons[random() % photons.size()].position;
+        const auto move = [&](float x) { return k % 5 == 0 ? x : x + offset(random) * radius; };
+        queries.push_back({move(p.x), move(p.y), move(p.z), radius});
+    }
+    return queries;
+}
+
+/// Relative to the sum, where sums of n terms in floats may be off; `each` bounds the error of one kernel weight.
+constexpr double each = 4e-7, relative = 3e-6;
+
+TEST(PhotonSearch, SumsAreThoseOfAllPhotons) {
+    for (const unsigned cells : {4u, 16u, 1024u})
+        for (const float center : {0.f, -40.f, 3000.f})
+            for (const float share : {1.f, 0.37f}) { // a region may be smaller than the cells
+                PhotonIndexSettings settings;
+                settings.classes = 1u << LIGHT_CAUSTIC | 1u << LIGHT_DIFFUSE;
+                settings.radius = {9, 0.3f, 9, 0.25f};
+                settings.cells = cells;
+                const auto photons = awkwardPhotons(6007, center, 0.25f, {LIGHT_DIFFUSE, LIGHT_CAUSTIC});
+                const PhotonIndex index = indexPhotons(photons, settings);
+                for (const unsigned lightClass : {LIGHT_CAUSTIC, LIGHT_DIFFUSE}) {
+                    const GatherSettings what{lightClass, 2, QL_NONE, true};
+                    const auto queries = queriesAbout(photons, 200, settings.radius[lightClass] * share);
+                    const auto sums = gather(index, queries, settings, what);
+                    unsigned crowded = 0;
+                    for (size_t k = 0; k < queries.size(); ++k) {
+                        const ExactSum exact = searchAll(photons, queries[k], what);
+                        crowded += exact.lit > 20;
+                        EXPECT_NEAR(sums[k].r, exact.r, relative * exact.r + each * 6007);
+                        EXPECT_NEAR(sums[k].g, exact.g, relative * exact.g + each * 1000);
+                        EXPECT_NEAR(sums[k].b, exact.b, relative * exact.b + each);
+                    }
+                    EXPECT_GT(crowded, 40u);
+                }
+            }
+}
+
+/// Lights a few photons at a time, so that most discs hold one of them or none: a photon missed, or met twice, cannot
+/// hide in the rounding of a sum. Returns the number of wrong answers.
+unsigned faultsOfSingles(const PhotonIndexSettings& settings, unsigned& singles, bool checkRows) {
+    auto photons = awkwardPhotons(4001, 0, 0.25f, {LIGHT_DIFFUSE});
+    for (Photon& photon : photons) photon.patchSide = 0;
+    const auto queries = queriesAbout(photons, 400, settings.radius[LIGHT_DIFFUSE]);
+    const GatherSettings what{LIGHT_DIFFUSE, 0, QL_NONE, checkRows};
+    unsigned faults = 0;
+    for (unsigned lit = 0; lit < 12; ++lit) {
+        for (size_t k = 0; k < photons.size(); ++k) {
+            const float flux = k * 7919 % 397 == lit * 33 ? 1.f : 0.f;
+            photons[k].flux = {flux, flux, flux};
+        }
+        const auto sums = gather(indexPhotons(photons, settings), queries, settings, what);
+        for (size_t k = 0; k < queries.size(); ++k) {
+            const ExactSum exact = searchAll(photons, queries[k], what);
+            singles += exact.lit == 1;
+            if (exact.lit == 0 ? sums[k].b != 0 : std::abs(sums[k].b - exact.b) > each * exact.lit) ++faults;
+        }
+    }
+    return faults;
+}
+
+TEST(PhotonSearch, EachPhotonIsMetOnce) {
+    unsigned singles = 0;
+    for (const unsigned cells : {4u, 8u, 64u, 4096u}) {
+        PhotonIndexSettings settings;
+        settings.radius[LIGHT_DIFFUSE] = 0.25f;
+        settings.cells = cells;
+        EXPECT_EQ(faultsOfSingles(settings, singles, true), 0u) << cells << " cells";
+    }
+    EXPECT_GT(singles, 1000u);
+}
+
+TEST(PhotonSearch, RowsThatShareCellsFailWithoutTheCheck) {
+    unsigned singles = 0;
+    PhotonIndexSettings settings;
+    settings.radius[LIGHT_DIFFUSE] = 0.25f;
+    settings.cells = 8;
+    EXPECT_GT(faultsOfSingles(settings, singles, false), 100u);
+}
+
+TEST(PhotonSearch, EndsExactlyAtTheRadius) {
+    // Radius 1/4 and offsets of whole multiples of 2^-9: squares are exact, so the answer is too. A photon on
+    // the sphere is outside, one 128th of the radius further in is inside.
+    const int onSphere[][3] = {{128, 0, 0}, {0, -128, 0}, {0, 0, 128}};
+    std::vector<Photon> photons;
+    std::vector<Query> queries;
+    std::vector<double> expected;
+    unsigned place = 0;
+    for (const auto& direction : onSphere)
+        for (int phase = 0; phase < 128; phase += 5) // where in its cell the query lies
+            for (const int steps : {127, 128}) {
+                const float x = 8 * float(place % 7) + float(phase) / 512,
+                            y = 8 * float(place / 7) - float(phase) / 512, z = -float(phase) / 512;
+                ++place;
+                queries.push_back({x, y, z, 0.25f});
+                const float s = float(steps) / 128 / 512;
+                photons.push_back(photonAt(x + float(direction[0]) * s, y + float(direction[1]) * s,
+                                           z + float(direction[2]) * s, LIGHT_DIFFUSE, 0));
+                expected.push_back(steps == 128 ? 0 : 1 - (127.0 / 128) * (127.0 / 128));
+            }
+    PhotonIndexSettings settings;
+    settings.radius[LIGHT_DIFFUSE] = 0.25f;
+    settings.cells = 64;
+    const auto sums = gather(indexPhotons(photons, settings), queries, settings);
+    for (size_t k = 0; k < queries.size(); ++k) EXPECT_EQ(double(sums[k].b), expected[k]) << k;
+}
+
+TEST(PhotonSearch, PatchSideAndDepthAreAskedFor) {
+    PhotonIndexSettings settings;
+    settings.radius[LIGHT_DIFFUSE] = 0.25f;
+    settings.storesDepth = true;
+    const auto photons = awkwardPhotons(4001, 0, 0.25f, {LIGHT_DIFFUSE});
+    const PhotonIndex index = indexPhotons(photons, settings);
+    const auto queries = queriesAbout(photons, 100, 0.25f);
+    std::vector<double> found;
+    for (const unsigned depthMax : {0u, 1u, 60u, 200u, QL_NONE}) {
+        const GatherSettings what{LIGHT_DIFFUSE, 3, depthMax, true};
+        const auto sums = gather(index, queries, settings, what);
+        found.push_back(0);
+        for (size_t k = 0; k < queries.size(); ++k) {
+            const ExactSum exact = searchAll(photons, queries[k], what);
+            EXPECT_NEAR(sums[k].b, exact.b, relative * exact.b + each);
+            found.back() += sums[k].b;
+        }
+    }
+    EXPECT_EQ(found[0], 0);
+    EXPECT_LT(found[1], found[2]);
+    EXPECT_LT(found[2], found[3]);
+    EXPECT_EQ(found[3], found[4]);
+}
+
+} // namespace
+} // namespace quasilux
