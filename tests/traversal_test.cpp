@@ -4,6 +4,7 @@
 #include "support/meshes.h"
 #include "support/test_kernels.h"
 #include "support/traversal_oracle.h"
+#include "support/traversal_rays.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -20,7 +21,6 @@ namespace quasilux {
 namespace {
 
 using Primitives = std::vector<BvhPrimitive>;
-using Rays = std::vector<TestRay>;
 using Sources = std::map<std::string, std::string>;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -76,56 +76,6 @@ private:
     Buffer<shared::PrimitiveBlock> blocks_;
     Program program_;
 };
-
-glm::vec3 randomDirection(std::mt19937& engine) {
-    std::normal_distribution<float> normal;
-    for (;;) {
-        const float x = normal(engine), y = normal(engine), z = normal(engine);
-        const float length = std::sqrt(x * x + y * y + z * z);
-        if (length > 0.1f) return glm::vec3(x, y, z) / length;
-    }
-}
-
-/// Origins in a cube of half side `extent` about `center`, directions all around of length 0.1 to 10; a half of the
-/// rays ends nowhere, a half begins at 0.
-Rays randomRays(size_t count, unsigned seed, float extent, const glm::vec3& center = {}) {
-    std::mt19937 engine(seed);
-    std::uniform_real_distribution<float> unit(0, 1), sides(-extent, extent), exponent(-1, 1);
-    Rays rays(count);
-    for (TestRay& ray : rays) {
-        const float x = sides(engine), y = sides(engine), z = sides(engine), length = std::pow(10.0f, exponent(engine));
-        ray.origin = center + glm::vec3(x, y, z);
-        ray.direction = length * randomDirection(engine);
-        ray.tMin = unit(engine) < 0.5f ? 0 : unit(engine) * extent / length;
-        ray.tMax = unit(engine) < 0.5f ? infinity : ray.tMin + 2 * unit(engine) * extent / length;
-    }
-    return rays;
-}
-
-/// Along the axes, both ways, with 0 and -0 as the other components, from a lattice that touches planes of the scene.
-Rays axisParallelRays() {
-    Rays rays;
-    for (int x = -5; x <= 5; ++x)
-        for (int y = -5; y <= 5; ++y)
-            for (int z = -5; z <= 5; ++z)
-                for (int way = 0; way < 12; ++way) {
-                    const float zero = way < 6 ? 0.0f : -0.0f;
-                    glm::vec3 direction(zero);
-                    direction[way % 3] = way % 6 < 3 ? 1.0f : -1.0f;
-                    rays.push_back({0.25f * glm::vec3(x, y, z), direction, 0, infinity});
-                }
-    return rays;
-}
-
-/// Rays that begin at hits of other rays, tMin = 0.
-Rays surfaceRays(const Rays& before, const std::vector<TestHit>& hits, unsigned seed) {
-    std::mt19937 engine(seed);
-    Rays rays;
-    for (size_t i = 0; i < hits.size(); ++i)
-        if (!hits[i].missed())
-            rays.push_back({before[i].origin + hits[i].t * before[i].direction, randomDirection(engine), 0, infinity});
-    return rays;
-}
 
 /// The kernel file with `from` replaced; the text must be there.
 Sources mutant(const std::string& file, const std::string& from, const std::string& to) {
@@ -311,20 +261,36 @@ TEST(TraversalControl, WrongKernelsAreFound) {
     const Primitives primitives = bumpySpherePrimitives(60, 60);
     const EmbreeOracle embree(primitives);
     const Rays rays = randomRays(20000, 15, 1.2f);
-    const Sources mutants[] = {
-        mutant("bvh_box.clh", "return laneMask(enter <= leave)", "return 127u & laneMask(enter <= leave)"),
-        mutant("bvh.clh", ">> 32)) <= tMax)", ">> 32)) <= 0.8f * tMax)"),
-        mutant("bvh.clh", "max(firstEntry, secondEntry);\n        return",
-               "min(firstEntry, secondEntry);\n        return"),
-        mutant("bvh_block.clh", "(u + v <= scale)", "(u <= scale) & (v <= scale)"),
+    struct Control {
+        const char* file;
+        const char* from;
+        const char* to;
+        bool breaksOcclusion; // any order of visits gives the same occlusion
     };
-    for (const Sources& sources : mutants) {
-        DeviceScene scene(primitives, "", sources);
-        EXPECT_GT(compareClosest(primitives, embree, rays, scene.closest(rays)).mismatches, 0u)
-            << sources.begin()->first;
-        EXPECT_GT(compareOcclusion(primitives, embree, rays, scene.occluded(rays)).mismatches, 0u)
-            << sources.begin()->first;
+    const Control controls[] = {
+        {"bvh_box.clh", "return laneMask(enter <= leave)", "return 127u & laneMask(enter <= leave)", true},
+        {"bvh_block.clh", "(u + v <= scale)", "(u <= scale) & (v <= scale)", true},
+        {"bvh.clh", ">> 32)) <= tMax)", ">> 32)) <= 0.8f * tMax)", false},
+        {"bvh.clh", "max(a, b);\n        return", "min(a, b);\n        return", false},
+        {"bvh.clh", "if (distance[lane] <= hit->t)", "if (distance[lane] >= 0)", false},
+    };
+    for (const Control& control : controls) {
+        DeviceScene scene(primitives, "", mutant(control.file, control.from, control.to));
+        EXPECT_GT(compareClosest(primitives, embree, rays, scene.closest(rays)).mismatches, 0u) << control.to;
+        if (!control.breaksOcclusion) continue;
+        EXPECT_GT(compareOcclusion(primitives, embree, rays, scene.occluded(rays)).mismatches, 0u) << control.to;
     }
+}
+
+TEST(TraversalControl, WrongSphereAndNullKernelsAreFound) {
+    Primitives primitives = randomSpheres(300, 7);
+    for (size_t i = 0; i < primitives.size(); i += 3) primitives[i].isNull = true;
+    const Rays rays = randomRays(20000, 8, 1.2f);
+    DeviceScene oneRoot(primitives, allFeatures, mutant("bvh_sphere.clh", "firstCounts ? first : second", "first"));
+    EXPECT_GT(faults(primitives, rays, oneRoot.closest(rays)), 0u);
+    DeviceScene nullsMet(primitives, "-DHAS_SPHERES");
+    EXPECT_GT(faults(primitives, rays, nullsMet.closestOpaque(rays), true), 0u);
+    EXPECT_GT(occlusionFaults(primitives, rays, nullsMet.occluded(rays)), 0u);
 }
 
 TEST(TraversalControl, CoarseGuardOfZeroDirectionsIsFound) {
@@ -334,52 +300,6 @@ TEST(TraversalControl, CoarseGuardOfZeroDirectionsIsFound) {
     DeviceScene scene(primitives, "",
                       mutant("bvh_box.clh", "BOX_SMALLEST_DIRECTION 1e-18f", "BOX_SMALLEST_DIRECTION 0.1f"));
     EXPECT_GT(compareClosest(primitives, embree, rays, scene.closest(rays)).mismatches, 0u);
-}
-
-TEST(Bvh, HoldsEveryPrimitiveOnceWithinItsBoxes) {
-    const Primitives primitives = awkwardPrimitives(3000, 16);
-    const Bvh bvh = buildBvh(primitives);
-    std::vector<unsigned> seen(primitives.size());
-    unsigned deepest = 0;
-    const auto visit = [&](auto&& self, unsigned index, const glm::vec3& lower, const glm::vec3& upper,
-                           unsigned depth) -> void {
-        deepest = std::max(deepest, depth);
-        const shared::BvhNode& node = bvh.nodes[index];
-        for (int i = 0; i < BVH_WIDTH; ++i) {
-            if (node.lowerX[i] > node.upperX[i]) continue;
-            const glm::vec3 low(node.lowerX[i], node.lowerY[i], node.lowerZ[i]),
-                high(node.upperX[i], node.upperY[i], node.upperZ[i]);
-            ASSERT_TRUE(glm::all(glm::lessThanEqual(lower, low)) && glm::all(glm::lessThanEqual(high, upper)));
-            if (!(node.child[i] & BVH_LEAF_BIT)) {
-                self(self, node.child[i], low, high, depth + 1);
-                continue;
-            }
-            for (unsigned primitive : bvh.blocks.at(node.child[i] & BVH_LEAF_FIRST_MASK).primitive) {
-                if (primitive == QL_NONE) continue;
-                ++seen.at(primitive);
-                for (const glm::vec3& v :
-                     {primitives[primitive].v0, primitives[primitive].v1, primitives[primitive].v2})
-                    ASSERT_TRUE(glm::all(glm::lessThanEqual(low, v)) && glm::all(glm::lessThanEqual(v, high)));
-            }
-        }
-    };
-    visit(visit, 0, glm::vec3(-infinity), glm::vec3(infinity), 1);
-    EXPECT_EQ(seen, std::vector<unsigned>(primitives.size(), 1u));
-    EXPECT_EQ(deepest, bvh.depth);
-}
-
-TEST(Bvh, ManyDuplicatesStayShallow) {
-    const Bvh bvh = buildBvh(Primitives(100000, cornellBoxPrimitives()[0]));
-    EXPECT_LE(bvh.depth, 32u);
-    EXPECT_GE(bvh.blocks.size(), 12500u);
-}
-
-TEST(Bvh, UnusableCoordinatesAreRefused) {
-    for (const float bad : {std::nanf(""), infinity, -infinity, 3e12f}) {
-        Primitives primitives = cornellBoxPrimitives();
-        primitives[17].v1.y = bad;
-        EXPECT_THROW(buildBvh(primitives), InputError);
-    }
 }
 
 // Million rays per processor second of the kernels and of Embree, two threads each, in turns; best of several rounds.
