@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Installs what quasilux needs on Debian 12, all of it from Debian's packages. Needs root or sudo; does nothing where
+# everything is there already.
+set -euo pipefail
+
+compiler=(g++ cmake ninja-build pkg-config)
+opencl=(pocl-opencl-icd ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers)
+libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-dev nlohmann-json3-dev libfmt-dev)
+tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools)
+reports=(python3 python3-numpy python3-openimageio python3-matplotlib)
+packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}" "${tests[@]}" "${reports[@]}")
+
+missing=()
+for package in "${packages[@]}"; do
+    status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [[ $status == installed ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+    echo "setup: all ${#packages[@]} packages are installed"
+    exit 0
+fi
+
+asRoot=()
+if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+        echo "setup: missing ${missing[*]}; run this as root, or install sudo" >&2
+        exit 1
+    fi
+    asRoot=(sudo)
+fi
+echo "setup: installing ${missing[*]}"
+"${asRoot[@]}" apt-get update
+"${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Everything that must hold before a change is taken: warnings are errors, layout of the sources, static analysis, tests
+# under sanitizers, all tests. Ends with a line "N passed, N failed"; the exit code is 0 if none failed.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+# Tests that need no OpenCL device: they run under the sanitizers too.
+hostTests=(loader_test scene_errors_test mesh_errors_test shapes_test borders_test border_cuts_test output_test)
+
+logs=build/logs
+passed=0
+failed=0
+
+# check NAME COMMAND...: one check that passes or fails as a whole.
+check() {
+    echo "== $1"
+    if "${@:2}"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "== $1: FAILED"
+    fi
+}
+
+# runTests PRESET [OPTION...]: runs CTest and counts its tests; a run that ends without a summary counts as one failure.
+runTests() {
+    local log=$logs/ctest_$1.log summary
+    ctest --preset "$1" "${@:2}" 2>&1 | tee "$log" || true
+    summary=$(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$log")
+    if [[ -z $summary ]]; then
+        failed=$((failed + 1))
+        return
+    fi
+    failed=$((failed + ${summary% *}))
+    passed=$((passed + ${summary#* } - ${summary% *}))
+}
+
+formatIsRight() {
+    find host tests kernels -name '*.cpp' -o -name '*.h' -o -name '*.clh' -o -name '*.cl' |
+        sort | xargs clang-format --dry-run -Werror
+}
+
+# Each source once; its headers of host/ are checked with it (.clang-tidy). GCC's own flags are unknown to clang.
+analysisIsClean() {
+    find host -name '*.cpp' | sort |
+        xargs --max-procs="$(nproc)" --max-args=4 clang-tidy -p build/ci --quiet --extra-arg=-Wno-unknown-warning-option \
+            2>"$logs/clang-tidy.err" || { grep -E 'error' "$logs/clang-tidy.err"; return 1; }
+}
+
+bash scripts/setup.sh
+mkdir -p "$logs"
+
+echo "== build"
+cmake --preset ci
+cmake --build --preset ci
+check "layout of the sources (clang-format)" formatIsRight
+check "static analysis (clang-tidy)" analysisIsClean
+
+echo "== tests without a device, under the address and undefined-behaviour sanitizers"
+cmake --preset asan
+cmake --build --preset asan --target "${hostTests[@]}"
+# Libraries loaded by OpenImageIO keep memory until the program ends.
+ASAN_OPTIONS=detect_leaks=0 runTests asan --tests-regex "^($(IFS='|'; echo "${hostTests[*]}"))\$"
+
+echo "== all tests"
+runTests ci
+
+echo "$passed passed, $failed failed"
+((failed == 0))
