@@ -1,0 +1,137 @@
+#include "support/emitter_cases.h"
+
+#include "support/test_kernels.h"
+
+#include <numbers>
+
+namespace quasilux {
+
+namespace {
+
+using glm::dvec3;
+
+Program& program() {
+    static Program built =
+        testProgram("emitters.cl", "-DHAS_EMITTER_RECTANGLE -DHAS_EMITTER_TRIANGLES -DHAS_EMITTER_SPHERE "
+                                   "-DHAS_EMITTER_POINT");
+    return built;
+}
+
+shared::Packed3 pack(dvec3 v) { return {float(v.x), float(v.y), float(v.z)}; }
+
+std::vector<float> flat(const std::vector<dvec3>& vectors) {
+    std::vector<float> values;
+    values.reserve(3 * vectors.size());
+    for (const dvec3& v : vectors) values.insert(values.end(), {float(v.x), float(v.y), float(v.z)});
+    return values;
+}
+
+dvec3 tripleAt(const std::vector<float>& values, size_t first) {
+    return {values[first], values[first + 1], values[first + 2]};
+}
+
+shared::Emitter makeEmitter(unsigned type, dvec3 origin) {
+    shared::Emitter emitter{};
+    emitter.type = type;
+    emitter.radiance = {1, 1, 1};
+    emitter.origin = pack(origin);
+    emitter.normalSign = emitter.selectionProbability = emitter.selectionCdf = 1;
+    return emitter;
+}
+
+} // namespace
+
+shared::Emitter makeRectangle(dvec3 corner, dvec3 edgeU, dvec3 edgeV) {
+    shared::Emitter emitter = makeEmitter(EMITTER_RECTANGLE, corner);
+    const dvec3 cross = glm::cross(edgeU, edgeV);
+    emitter.edgeU = pack(edgeU);
+    emitter.edgeV = pack(edgeV);
+    emitter.normal = pack(glm::normalize(cross));
+    emitter.area = float(glm::length(cross));
+    return emitter;
+}
+
+shared::Emitter makeSphere(dvec3 centre, double radius, double normalSign) {
+    shared::Emitter emitter = makeEmitter(EMITTER_SPHERE, centre);
+    emitter.radius = float(radius);
+    emitter.area = float(4 * std::numbers::pi * radius * radius);
+    emitter.normalSign = float(normalSign);
+    return emitter;
+}
+
+shared::Emitter makePoint(dvec3 position) { return makeEmitter(EMITTER_POINT, position); }
+
+std::pair<shared::Emitter, std::vector<shared::EmitterTriangle>> makeTriangles(const std::vector<TriangleSpec>& specs) {
+    shared::Emitter emitter = makeEmitter(EMITTER_TRIANGLES, {});
+    std::vector<shared::EmitterTriangle> triangles;
+    double area = 0;
+    for (const TriangleSpec& t : specs) {
+        area += 0.5 * glm::length(glm::cross(t.e1, t.e2));
+        triangles.push_back({pack(t.p0), pack(t.e1), pack(t.e2), float(area)});
+    }
+    for (shared::EmitterTriangle& t : triangles) t.areaCdf = float(t.areaCdf / area);
+    emitter.area = float(area);
+    emitter.triangleCount = unsigned(triangles.size());
+    return {emitter, triangles};
+}
+
+void setSelection(std::vector<shared::Emitter>& emitters, const std::vector<double>& probabilities) {
+    double sum = 0;
+    for (size_t i = 0; i < emitters.size(); ++i) {
+        emitters[i].selectionProbability = float(probabilities[i]);
+        emitters[i].selectionCdf = float(sum += probabilities[i]);
+    }
+    emitters.back().selectionCdf = 1;
+}
+
+std::vector<SampledEmitter> sampleDirections(const std::vector<shared::Emitter>& emitters,
+                                             const std::vector<shared::EmitterTriangle>& triangles, dvec3 from,
+                                             const std::vector<float>& numbers) {
+    const size_t count = numbers.size() / 3;
+    Buffer<shared::Emitter> es(testDevice(), emitters, "emitters");
+    Buffer<shared::EmitterTriangle> ts(testDevice(), triangles, "triangles");
+    Buffer<float> in(testDevice(), numbers, "numbers"), out(testDevice(), 8 * count, "samples");
+    program()
+        .kernel("sampleDirections")
+        .launch(count, es, ts, cl_uint(emitters.size()), float(from.x), float(from.y), float(from.z), in, out,
+                cl_uint(count));
+    const auto values = out.read();
+    std::vector<SampledEmitter> samples(count);
+    for (size_t i = 0; i < count; ++i)
+        samples[i] = {tripleAt(values, 8 * i), tripleAt(values, 8 * i + 4), values[8 * i + 3], values[8 * i + 7],
+                      values[8 * i + 3] >= 0};
+    return samples;
+}
+
+std::vector<double> directionPdfs(const std::vector<shared::Emitter>& emitters, unsigned index, dvec3 from,
+                                  const std::vector<dvec3>& points, const std::vector<dvec3>& normals) {
+    Buffer<shared::Emitter> es(testDevice(), emitters, "emitters");
+    Buffer<float> ps(testDevice(), flat(points), "points"), ns(testDevice(), flat(normals), "normals");
+    Buffer<float> out(testDevice(), points.size(), "pdfs");
+    program()
+        .kernel("directionPdfs")
+        .launch(points.size(), es, cl_uint(index), float(from.x), float(from.y), float(from.z), ps, ns, out,
+                cl_uint(points.size()));
+    const auto values = out.read();
+    return {values.begin(), values.end()};
+}
+
+std::vector<EmittedParticle> samplePhotons(const std::vector<shared::Emitter>& emitters,
+                                           const std::vector<shared::EmitterTriangle>& triangles,
+                                           const std::vector<float>& numbers) {
+    const size_t count = numbers.size() / 5;
+    Buffer<shared::Emitter> es(testDevice(), emitters, "emitters");
+    Buffer<shared::EmitterTriangle> ts(testDevice(), triangles, "triangles");
+    Buffer<float> in(testDevice(), numbers, "numbers"), out(testDevice(), 12 * count, "photons");
+    Buffer<cl_uint> chosen(testDevice(), count, "emitter of each photon");
+    program().kernel("samplePhotons").launch(count, es, ts, cl_uint(emitters.size()), in, out, chosen, cl_uint(count));
+    const auto values = out.read();
+    const auto indices = chosen.read();
+    std::vector<EmittedParticle> photons(count);
+    for (size_t i = 0; i < count; ++i)
+        photons[i] = {tripleAt(values, 12 * i), tripleAt(values, 12 * i + 3), tripleAt(values, 12 * i + 6),
+                      tripleAt(values, 12 * i + 9), indices[i]};
+    return photons;
+}
+
+} // namespace quasilux

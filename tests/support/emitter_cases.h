@@ -1,0 +1,47 @@
+// Emitters of radiance 1 for tests, and the kernels of tests/kernels/emitters.cl as functions.
+#pragma once
+
+#include "shared_types.h"
+
+#include <glm/glm.hpp>
+#include <utility>
+#include <vector>
+
+namespace quasilux {
+
+shared::Emitter makeRectangle(glm::dvec3 corner, glm::dvec3 edgeU, glm::dvec3 edgeV);
+shared::Emitter makeSphere(glm::dvec3 centre, double radius, double normalSign);
+shared::Emitter makePoint(glm::dvec3 position);
+
+struct TriangleSpec {
+    glm::dvec3 p0, e1, e2;
+};
+std::pair<shared::Emitter, std::vector<shared::EmitterTriangle>> makeTriangles(const std::vector<TriangleSpec>& specs);
+
+/// Sets probabilities of selection and their sums.
+void setSelection(std::vector<shared::Emitter>& emitters, const std::vector<double>& probabilities);
+
+struct SampledEmitter {
+    glm::dvec3 direction, radianceOverPdf;
+    double distance, pdf;
+    bool valid;
+};
+/// `numbers` holds uSelect, u.x, u.y per sample.
+std::vector<SampledEmitter> sampleDirections(const std::vector<shared::Emitter>& emitters,
+                                             const std::vector<shared::EmitterTriangle>& triangles, glm::dvec3 from,
+                                             const std::vector<float>& numbers);
+
+/// emitterPdfSolidAngle of emitter `index` for points on it with their normals.
+std::vector<double> directionPdfs(const std::vector<shared::Emitter>& emitters, unsigned index, glm::dvec3 from,
+                                  const std::vector<glm::dvec3>& points, const std::vector<glm::dvec3>& normals);
+
+struct EmittedParticle {
+    glm::dvec3 position, direction, normal, flux;
+    unsigned emitter;
+};
+/// `numbers` holds uSelect, uPosition and uDirection per photon.
+std::vector<EmittedParticle> samplePhotons(const std::vector<shared::Emitter>& emitters,
+                                           const std::vector<shared::EmitterTriangle>& triangles,
+                                           const std::vector<float>& numbers);
+
+} // namespace quasilux

@@ -1,0 +1,99 @@
+#include "support/lobe_coordinates.h"
+
+#include "bsdf/lobe_list.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace quasilux {
+
+namespace {
+
+using glm::dvec3;
+using std::numbers::pi;
+
+/// Any orthonormal frame with z axis n, by columns.
+glm::dmat3 basis(dvec3 n) {
+    const dvec3 helper = std::abs(n.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    const dvec3 s = glm::normalize(glm::cross(helper, n));
+    return {s, glm::cross(n, s), n};
+}
+
+dvec3 polar(double oneMinusCos, double phi) {
+    const double sine = std::sqrt(std::max(oneMinusCos * (2 - oneMinusCos), 0.0));
+    return {sine * std::cos(phi), sine * std::sin(phi), 1 - oneMinusCos};
+}
+
+double positiveAngle(double y, double x) {
+    const double angle = std::atan2(y, x);
+    return angle < 0 ? angle + 2 * pi : angle;
+}
+
+dvec3 mirror(dvec3 wo) { return {-wo.x, -wo.y, wo.z}; }
+
+LobeDirection microfacetDirection(const shared::Lobe& lobe, dvec3 wo, double s, double phi) {
+    const double slope = std::sqrt(s * (2 - s)) / (1 - s);
+    const dvec3 h = glm::normalize(dvec3(lobe.alphaU * slope * std::cos(phi), lobe.alphaV * slope * std::sin(phi), 1));
+    const double cosH = glm::dot(wo, h);
+    // Slope plane to normals: cos^3; normals to reflected directions: 4 wo.h; slope d(slope) = ds / (1 - s)^3.
+    const double jacobian = 4 * cosH * lobe.alphaU * lobe.alphaV * std::pow(h.z / (1 - s), 3);
+    return {2 * cosH * h - wo, std::max(jacobian, 0.0)};
+}
+
+double smithGgx(double scaledTan) { return 2 / (1 + std::sqrt(1 + scaledTan * scaledTan)); }
+
+double smithBeckmann(double scaledTan) {
+    const double a = 1 / scaledTan;
+    return a >= 1.6 ? 1 : (3.535 * a + 2.181 * a * a) / (1 + 2.276 * a + 2.577 * a * a);
+}
+
+double microfacetFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
+    const dvec3 h = glm::normalize(wo + wi);
+    const double area = pi * lobe.alphaU * lobe.alphaV * std::pow(h.z, 4);
+    const double q = (std::pow(h.x / lobe.alphaU, 2) + std::pow(h.y / lobe.alphaV, 2)) / (h.z * h.z);
+    const auto scaledTan = [&](dvec3 v) { return std::hypot(lobe.alphaU * v.x, lobe.alphaV * v.y) / v.z; };
+    const double cosines = 4 * wo.z * wi.z;
+    if (lobe.type == LOBE_GGX)
+        return smithGgx(scaledTan(wo)) * smithGgx(scaledTan(wi)) / (area * (1 + q) * (1 + q) * cosines);
+    return smithBeckmann(scaledTan(wo)) * smithBeckmann(scaledTan(wi)) * std::exp(-q) / (area * cosines);
+}
+
+} // namespace
+
+LobeDirection lobeDirection(const shared::Lobe& lobe, dvec3 wo, double s, double phi) {
+    if (lobe.type == LOBE_LAMBERT) return {polar(1 - s, phi), 1};
+    if (lobe.type == LOBE_PHONG) {
+        const double m = 1 / (double(lobe.exponent) + 1);
+        const double oneMinusCos = -std::expm1(m * std::log1p(-s));
+        return {basis(mirror(wo)) * polar(oneMinusCos, phi), m * std::pow(1 - s, m - 1)};
+    }
+    return microfacetDirection(lobe, wo, s, phi);
+}
+
+LobeCoordinates lobeCoordinates(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
+    if (lobe.type == LOBE_LAMBERT) return {wi.z, positiveAngle(wi.y, wi.x)};
+    if (lobe.type == LOBE_PHONG) {
+        const dvec3 offset = wi - mirror(wo);
+        const dvec3 v = glm::transpose(basis(mirror(wo))) * wi;
+        const double logCos = std::log1p(-0.5 * glm::dot(offset, offset));
+        return {-std::expm1((double(lobe.exponent) + 1) * logCos), positiveAngle(v.y, v.x)};
+    }
+    const dvec3 h = wo + wi;
+    const double x = h.x / (lobe.alphaU * h.z), y = h.y / (lobe.alphaV * h.z);
+    const double q = x * x + y * y;
+    return {1 - 1 / std::sqrt(1 + q), positiveAngle(y, x)};
+}
+
+double lobeFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
+    if (wi.z <= 0) return 0;
+    if (lobe.type == LOBE_LAMBERT) return 1 / pi;
+    if (lobe.type == LOBE_PHONG) {
+        const dvec3 offset = wi - mirror(wo);
+        const double oneMinusCos = 0.5 * glm::dot(offset, offset);
+        if (oneMinusCos >= 1) return 0;
+        return (lobe.exponent + 2.0) / (2 * pi) * std::exp(lobe.exponent * std::log1p(-oneMinusCos));
+    }
+    return microfacetFormula(lobe, wo, wi);
+}
+
+} // namespace quasilux
