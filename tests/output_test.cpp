@@ -143,9 +143,10 @@ TEST_F(OutputTest, ExrHeaderHoldsAllSettings) {
         {"quasiSpecular", "glass,metal"}, {"kernels", "generic"},
         {"seed", "18446744073709551615"}, {"nonFinite", "2"}};
     for (const auto& [key, value] : texts) EXPECT_EQ(spec.get_string_attribute("quasilux:" + key), value) << key;
-    const std::vector<std::pair<std::string, float>> numbers{{"bdd", 3},         {"photonsPerPass", 4096},
-                                                             {"passes", 7},      {"radiusScale", 0.5f},
-                                                             {"seconds", 12.5f}, {"relativeError", 0.0125f}};
+    const std::vector<std::pair<std::string, int>> counts{{"bdd", 3}, {"photonsPerPass", 4096}, {"passes", 7}};
+    for (const auto& [key, value] : counts) EXPECT_EQ(spec.get_int_attribute("quasilux:" + key, -1), value) << key;
+    const std::vector<std::pair<std::string, float>> numbers{
+        {"radiusScale", 0.5f}, {"seconds", 12.5f}, {"relativeError", 0.0125f}};
     for (const auto& [key, value] : numbers) EXPECT_EQ(spec.get_float_attribute("quasilux:" + key, -1), value) << key;
     EXPECT_EQ(spec.get_string_attribute("Software"), "quasilux " QUASILUX_VERSION);
 
