@@ -6,16 +6,17 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace quasilux {
 
 namespace {
 
-Program& program() {
-    static Program built =
-        testProgram("lobes.cl", "-DHAS_LOBE_LAMBERT -DHAS_LOBE_PHONG -DHAS_LOBE_GGX -DHAS_LOBE_BECKMANN "
-                                "-DHAS_LOBE_CONDUCTOR -DHAS_LOBE_DIELECTRIC");
-    return built;
+Program& program(const std::string& options) {
+    static std::map<std::string, Program> built;
+    const auto found = built.find(options);
+    return found != built.end() ? found->second
+                                : built.emplace(options, testProgram("lobes.cl", options)).first->second;
 }
 
 std::vector<float> flat(const std::vector<glm::dvec3>& vectors) {
@@ -69,7 +70,7 @@ std::vector<SampledDirection> sampleLobe(const shared::Lobe& lobe, glm::dvec3 wo
     const size_t count = numbers.size() / 3;
     Buffer<shared::Lobe> lobes(testDevice(), std::vector{lobe}, "lobe");
     Buffer<float> in(testDevice(), numbers, "numbers"), out(testDevice(), 8 * count, "samples");
-    program()
+    program(allLobes)
         .kernel("sampleLobe")
         .launch(count, lobes, float(wo.x), float(wo.y), float(wo.z), cl_int(transport), in, out, cl_uint(count));
     const auto values = out.read();
@@ -80,11 +81,11 @@ std::vector<SampledDirection> sampleLobe(const shared::Lobe& lobe, glm::dvec3 wo
 }
 
 std::vector<EvaluatedDirection> evaluateLobe(const shared::Lobe& lobe, const std::vector<glm::dvec3>& wo,
-                                             const std::vector<glm::dvec3>& wi) {
+                                             const std::vector<glm::dvec3>& wi, const std::string& options) {
     Buffer<shared::Lobe> lobes(testDevice(), std::vector{lobe}, "lobe");
     Buffer<float> os(testDevice(), flat(wo), "wo"), is(testDevice(), flat(wi), "wi"),
         out(testDevice(), 4 * wi.size(), "f");
-    program().kernel("evaluateLobe").launch(wi.size(), lobes, os, is, out, cl_uint(wi.size()));
+    program(options).kernel("evaluateLobe").launch(wi.size(), lobes, os, is, out, cl_uint(wi.size()));
     const auto values = out.read();
     std::vector<EvaluatedDirection> result(wi.size());
     for (size_t i = 0; i < wi.size(); ++i) result[i] = {tripleAt(values, 4 * i), values[4 * i + 3]};
@@ -94,7 +95,7 @@ std::vector<EvaluatedDirection> evaluateLobe(const shared::Lobe& lobe, const std
 std::vector<glm::dvec3> lobeAlbedos(const shared::Lobe& lobe, const std::vector<glm::dvec3>& wo) {
     Buffer<shared::Lobe> lobes(testDevice(), std::vector{lobe}, "lobe");
     Buffer<float> in(testDevice(), flat(wo), "wo"), out(testDevice(), 3 * wo.size(), "albedo");
-    program().kernel("lobeAlbedos").launch(wo.size(), lobes, in, out, cl_uint(wo.size()));
+    program(allLobes).kernel("lobeAlbedos").launch(wo.size(), lobes, in, out, cl_uint(wo.size()));
     const auto values = out.read();
     std::vector<glm::dvec3> result(wo.size());
     for (size_t i = 0; i < wo.size(); ++i) result[i] = tripleAt(values, 3 * i);

@@ -9,6 +9,10 @@
 
 namespace quasilux {
 
+/// Compiles every lobe.
+inline const std::string allLobes = "-DHAS_LOBE_LAMBERT -DHAS_LOBE_PHONG -DHAS_LOBE_GGX -DHAS_LOBE_BECKMANN "
+                                    "-DHAS_LOBE_CONDUCTOR -DHAS_LOBE_DIELECTRIC";
+
 struct LobeCase {
     std::string name;
     shared::Lobe lobe;
@@ -41,7 +45,7 @@ struct EvaluatedDirection {
     double pdf;
 };
 std::vector<EvaluatedDirection> evaluateLobe(const shared::Lobe& lobe, const std::vector<glm::dvec3>& wo,
-                                             const std::vector<glm::dvec3>& wi);
+                                             const std::vector<glm::dvec3>& wi, const std::string& options = allLobes);
 
 std::vector<glm::dvec3> lobeAlbedos(const shared::Lobe& lobe, const std::vector<glm::dvec3>& wo);
 
