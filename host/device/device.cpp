@@ -49,8 +49,8 @@ cl::Device pick(int index) {
         throw InputError("no OpenCL device found, expected at least one: install a runtime, such as the Debian package "
                          "pocl-opencl-icd for the CPU");
     if (index >= static_cast<int>(devices.size()) || index < -1)
-        throw InputError(fmt::format("--device {}: there are {} devices, expected 0 to {}; `quasilux devices` lists them",
-                                     index, devices.size(), devices.size() - 1));
+        throw InputError(fmt::format("--device {}: no such device, expected 0 to {} (or -1: the first GPU, else the first device); `quasilux devices` lists them",
+                                     index, devices.size() - 1));
     if (index >= 0) return devices[static_cast<size_t>(index)];
     for (const auto& device : devices)
         if ((device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0) return device;

@@ -56,6 +56,40 @@ RelativeError relativeError(const FilmImage& image) {
     return {errorSum / static_cast<double>(pixels), errors[rank]};
 }
 
+namespace {
+
+std::vector<float> weightedMean(const std::vector<float>& a, double weightA, const std::vector<float>& b, double weightB) {
+    std::vector<float> mean(std::max(a.size(), b.size())); // a component without light is empty: zero
+    for (size_t k = 0; k < mean.size(); ++k)
+        mean[k] = static_cast<float>((a.empty() ? 0 : weightA * a[k]) + (b.empty() ? 0 : weightB * b[k]));
+    return mean;
+}
+
+// Sum of squares of the passes from their mean and its standard error: n (n - 1) s^2 + n m^2.
+double sumOfSquares(double mean, double standardError, double n) {
+    return n * (n - 1) * standardError * standardError + n * mean * mean;
+}
+
+} // namespace
+
+FilmImage mergePasses(const FilmImage& a, const FilmImage& b) {
+    if (a.width != b.width || a.height != b.height)
+        throw std::invalid_argument("images of different sizes cannot be merged");
+    FilmImage merged = a;
+    merged.passes = a.passes + b.passes;
+    const double n = merged.passes, weightA = a.passes / n, weightB = b.passes / n;
+    merged.radiance = weightedMean(a.radiance, weightA, b.radiance, weightB);
+    for (size_t k = 0; k < merged.components.size(); ++k)
+        merged.components[k] = weightedMean(a.components[k], weightA, b.components[k], weightB);
+    for (size_t k = 0; k < merged.standardError.size(); ++k) {
+        const double squares = sumOfSquares(a.radiance[k], a.standardError[k], a.passes) +
+                               sumOfSquares(b.radiance[k], b.standardError[k], b.passes);
+        const double mean = weightA * a.radiance[k] + weightB * b.radiance[k];
+        merged.standardError[k] = static_cast<float>(std::sqrt(std::max(0.0, squares - n * mean * mean) / (n * (n - 1))));
+    }
+    return merged;
+}
+
 double meanRelativeError(const FilmImage& image) { return relativeError(image).mean; }
 
 } // namespace quasilux

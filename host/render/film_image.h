@@ -21,6 +21,9 @@ struct FilmImage {
 /// Layer name of a component: "direct", "caustic", "quasi_caustic", "diffuse", "emission".
 std::string componentName(unsigned component);
 
+/// The image of both sets of passes together: independent passes merge as sums. Sizes must agree.
+FilmImage mergePasses(const FilmImage& a, const FilmImage& b);
+
 /// Over pixels, of luminance standard error / luminance, each denominator at least 1 % of the mean luminance.
 /// Infinity where fewer than two passes tell nothing of the error; 0 for a black image.
 struct RelativeError {

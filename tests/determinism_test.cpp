@@ -1,0 +1,93 @@
+// Same device, same seed: the same bits, whatever the scheduling; and passes merge as sums.
+#include "support/render_statistics.h"
+
+#include "device/device.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace quasilux {
+namespace {
+
+Scene smallCornell() { return projectScene("cornell_phong.xml", {{"resolution", "32"}}); }
+
+RenderSettings smallSettings(DirectLight direct = DirectLight::emitters) {
+    RenderSettings settings;
+    settings.photonsPerPass = 20'000;
+    settings.direct = direct;
+    settings.bdd = 1;
+    return settings;
+}
+
+FilmImage renderPasses(unsigned first, unsigned last, const RenderSettings& settings, unsigned workGroupSize = 64) {
+    Device device(0, workGroupSize);
+    Renderer renderer(device, smallCornell(), settings);
+    for (unsigned pass = first; pass < last; ++pass) renderer.renderPass(pass);
+    return renderer.develop();
+}
+
+// Bits, not values: a NaN must show.
+void expectSameBits(const FilmImage& a, const FilmImage& b) {
+    const auto same = [](const std::vector<float>& x, const std::vector<float>& y) {
+        return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0;
+    };
+    EXPECT_TRUE(same(a.radiance, b.radiance));
+    EXPECT_TRUE(same(a.standardError, b.standardError));
+    for (size_t k = 0; k < a.components.size(); ++k) EXPECT_TRUE(same(a.components[k], b.components[k]));
+}
+
+TEST(Determinism, TwoRunsGiveTheSameBits) {
+    expectSameBits(renderPasses(0, 3, smallSettings()), renderPasses(0, 3, smallSettings()));
+    const auto photons = smallSettings(DirectLight::photons);
+    expectSameBits(renderPasses(0, 3, photons), renderPasses(0, 3, photons));
+}
+
+TEST(Determinism, WorkGroupSizeDoesNotMatter) {
+    const auto expected = renderPasses(0, 3, smallSettings(), 64);
+    for (const unsigned size : {1u, 7u, 32u, 256u}) expectSameBits(expected, renderPasses(0, 3, smallSettings(), size));
+}
+
+// Negative control: the comparison sees another seed.
+TEST(Determinism, AnotherSeedGivesAnotherImage) {
+    auto other = smallSettings();
+    other.seed = 2;
+    EXPECT_NE(renderPasses(0, 3, smallSettings()).radiance, renderPasses(0, 3, other).radiance);
+}
+
+TEST(Determinism, PassesInAnyOrderGiveTheSameMean) {
+    Device device(0);
+    Renderer forwards(device, smallCornell(), smallSettings()), backwards(device, smallCornell(), smallSettings());
+    for (unsigned pass = 0; pass < 6; ++pass) {
+        forwards.renderPass(pass);
+        backwards.renderPass(5 - pass);
+    }
+    const auto a = forwards.develop(), b = backwards.develop();
+    for (size_t k = 0; k < a.radiance.size(); ++k)
+        EXPECT_LE(std::abs(a.radiance[k] - b.radiance[k]), std::nextafter(a.radiance[k], INFINITY) - a.radiance[k]);
+}
+
+TEST(Determinism, MergedHalvesAreTheWholeToOneUnitInTheLastPlace) {
+    const auto whole = renderPasses(0, 6, smallSettings());
+    const auto merged = mergePasses(renderPasses(0, 2, smallSettings()), renderPasses(2, 6, smallSettings()));
+    ASSERT_EQ(merged.passes, 6u);
+    ASSERT_EQ(merged.radiance.size(), whole.radiance.size());
+    for (size_t k = 0; k < whole.radiance.size(); ++k) {
+        const float unit = std::nextafter(whole.radiance[k], INFINITY) - whole.radiance[k];
+        EXPECT_LE(std::abs(merged.radiance[k] - whole.radiance[k]), unit) << "value " << k;
+        EXPECT_NEAR(merged.standardError[k], whole.standardError[k], 1e-4f * whole.radiance[k] + 1e-7f) << "value " << k;
+    }
+}
+
+// Nothing is lost or dropped on the way: no sample was not finite, no path was cut.
+TEST(Determinism, NoSampleIsDropped) {
+    Device device(0);
+    Renderer renderer(device, smallCornell(), smallSettings());
+    for (unsigned pass = 0; pass < 3; ++pass) renderer.renderPass(pass);
+    EXPECT_EQ(renderer.counters().nonFinite, 0u);
+    EXPECT_EQ(renderer.counters().cutPaths, 0u);
+    EXPECT_EQ(renderer.counters().photonsEmitted, 60'000u);
+}
+
+} // namespace
+} // namespace quasilux

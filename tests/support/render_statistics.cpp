@@ -1,0 +1,54 @@
+#include "support/render_statistics.h"
+
+#include "support/test_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quasilux {
+
+namespace {
+
+constexpr double luminanceWeights[3] = {0.2126, 0.7152, 0.0722};
+
+// Sum over passes, so that batches come out as differences.
+std::vector<double> groupSums(const FilmImage& image, const std::vector<int>& group, size_t groups) {
+    std::vector<double> sums(groups), pixels(groups);
+    for (size_t k = 0; k < group.size(); ++k) {
+        if (group[k] < 0) continue;
+        const auto g = static_cast<size_t>(group[k]);
+        for (size_t c = 0; c < 3; ++c) sums[g] += luminanceWeights[c] * image.radiance[3 * k + c];
+        pixels[g] += 1;
+    }
+    for (size_t g = 0; g < groups; ++g) sums[g] *= image.passes / pixels[g];
+    return sums;
+}
+
+} // namespace
+
+Scene projectScene(const std::string& name, const std::vector<std::pair<std::string, std::string>>& parameters) {
+    return loadScene(std::string(QUASILUX_SOURCE_DIR) + "/scenes/" + name, parameters);
+}
+
+std::vector<MeanAndError> renderGroups(const Scene& scene, const RenderSettings& settings, const std::vector<int>& group,
+                                       unsigned batches, unsigned passesPerBatch) {
+    const auto groups = static_cast<size_t>(*std::max_element(group.begin(), group.end()) + 1);
+    Renderer renderer(testDevice(), scene, settings);
+    std::vector<MeanAndError> out(groups);
+    std::vector<double> before(groups), squares(groups);
+    for (unsigned batch = 0; batch < batches; ++batch) {
+        for (unsigned k = 0; k < passesPerBatch; ++k) renderer.renderPass(batch * passesPerBatch + k);
+        const auto sums = groupSums(renderer.develop(), group, groups);
+        for (size_t g = 0; g < groups; ++g) {
+            const double mean = (sums[g] - before[g]) / passesPerBatch;
+            out[g].mean += mean / batches;
+            squares[g] += mean * mean / batches;
+        }
+        before = sums;
+    }
+    for (size_t g = 0; g < groups; ++g)
+        out[g].standardError = std::sqrt(std::max(0.0, squares[g] - out[g].mean * out[g].mean) / (batches - 1));
+    return out;
+}
+
+} // namespace quasilux
