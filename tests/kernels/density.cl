@@ -1,0 +1,66 @@
+/* Density regions and estimates of irradiance at given surface points. */
+#include "density.clh"
+
+/* As tests/support/density_scene.h has them. */
+typedef struct {
+    Packed3 position, normal;
+    uint primitive;
+    float radius;
+} RegionQuery;
+
+typedef struct {
+    float kernelIntegral, radiusSquared;
+    uint bordered;
+    Packed3 axisS, axisT;
+    float reachSquared[SECTORS];
+} RegionAnswer;
+
+inline Packed3 pack(float3 v) {
+    Packed3 p = {v.x, v.y, v.z};
+    return p;
+}
+
+inline Surface surfaceOf(__global const RegionQuery* query, __global const uint* tables, const SceneTables* scene) {
+    Surface s;
+    s.position = load3(query->position);
+    s.geometricNormal = s.shadingNormal = load3(query->normal);
+    s.patch = SCENE_TABLE(tables, scene, PrimitiveInfo, primitives)[query->primitive].patch;
+    s.front = 1;
+    return s;
+}
+
+__kernel void findRegions(__global const uint* tables, __global const RegionQuery* queries,
+                          __global RegionAnswer* answers, const SceneTables scene, const uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const Surface s = surfaceOf(queries + i, tables, &scene);
+    const DensityRegion region = densityRegionAt(&s, queries[i].radius, tables, &scene);
+    __global RegionAnswer* answer = answers + i;
+    answer->kernelIntegral = region.kernelIntegral;
+    answer->radiusSquared = region.radiusSquared;
+    answer->bordered = region.bordered;
+    answer->axisS = pack(region.frame.s);
+    answer->axisT = pack(region.frame.t);
+    for (uint k = 0; k < SECTORS; ++k)
+        answer->reachSquared[k] = region.bordered ? region.reachSquared[k] : region.radiusSquared;
+}
+
+/* estimates[2 i]: irradiance by the region; [2 i + 1]: the sum over the whole disc divided by the integral over the
+ * whole disc, as without any care for borders. */
+__kernel void estimate(__global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
+                       __global const RegionQuery* queries, __global float* estimates, const SceneTables scene,
+                       const MapParams map, const uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const Surface s = surfaceOf(queries + i, tables, &scene);
+    const PhotonMap photons = {sorted, cellStart, &map};
+    DirectionalLobes none = {0, 0, frameFromNormal(s.geometricNormal), (float3)(0, 0, 1)};
+    DensityRegion region = densityRegionAt(&s, queries[i].radius, tables, &scene);
+    const float inRegion =
+        gatherPhotons(photons, LIGHT_DIFFUSE, &region, s.patch << 1 | s.front, QL_NONE, &none).irradiance.x;
+    estimates[2 * i] = region.kernelIntegral > 0 ? inRegion / region.kernelIntegral : 0.f;
+    region.bordered = 0;
+    const float inDisc =
+        gatherPhotons(photons, LIGHT_DIFFUSE, &region, s.patch << 1 | s.front, QL_NONE, &none).irradiance.x;
+    estimates[2 * i + 1] = inDisc / regionIntegral(&region);
+}

@@ -1,0 +1,60 @@
+// Hand-made surfaces, prepared by the host as for a render, and density estimates on them by the kernels.
+#pragma once
+
+#include "device/buffer.h"
+#include "prepare/device_scene.h"
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <random>
+
+namespace quasilux {
+
+/// As tests/kernels/density.cl reads them.
+struct RegionQuery {
+    shared::Packed3 position, normal;
+    unsigned primitive; ///< which the point lies on
+    float radius;
+};
+
+inline constexpr unsigned densitySectors = 32;
+struct RegionAnswer {
+    float kernelIntegral, radiusSquared;
+    unsigned bordered;
+    shared::Packed3 axisS, axisT;
+    float reachSquared[densitySectors];
+};
+
+struct Estimate {
+    float byRegion;
+    float byDisc; ///< as if there were no borders
+};
+
+/// Photons of flux 1 per unit of area on what is not hidden.
+struct UniformPhotons {
+    std::vector<shared::Photon> photons;
+    double density = 0; ///< photons per unit of area
+};
+
+class DensityScene {
+public:
+    /// Every shape becomes Lambert; `radius` is the largest of any query.
+    DensityScene(Scene scene, float radius);
+
+    std::vector<RegionAnswer> regions(const std::vector<RegionQuery>& queries);
+    std::vector<Estimate> estimates(const std::vector<RegionQuery>& queries, const UniformPhotons& photons);
+
+    /// `count` points over the area of all shapes, on the front, those where `hidden` (point, primitive) left out.
+    using Hidden = std::function<bool(glm::dvec3, unsigned)>;
+    UniformPhotons lightUp(unsigned count, const Hidden& hidden, std::mt19937& random) const;
+
+    unsigned patchOf(unsigned primitive) const;
+
+private:
+    Scene scene_;
+    float radius_;
+    DeviceScene device_;
+    Buffer<uint32_t> tables_;
+};
+
+} // namespace quasilux
