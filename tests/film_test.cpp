@@ -1,0 +1,184 @@
+// The film's compensated sums, the lattice that spreads the samples of a pixel, and the reconstruction filters.
+//
+// False alarms: the chi-squared tests together raise one with probability 1e-4 (support/chi_squared.h).
+#include "shared_types.h"
+#include "support/chi_squared.h"
+#include "support/test_kernels.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace quasilux {
+namespace {
+
+// Layout of kernels/film.clh.
+constexpr unsigned sumFloats = 6, pixelFloats = (FILM_COMPONENTS + 1) * sumFloats;
+
+constexpr int chiSquaredTests = 12; // upper bound of their number in this program
+
+const std::string options = "-DBVH_STACK_SIZE=32 -DPHOTON_CLASSES=8u";
+
+struct Float2 {
+    float x, y;
+};
+struct Float4 {
+    float x, y, z, w;
+};
+
+std::vector<float> addSamples(const std::vector<Float4>& samples, unsigned pixels) {
+    Program program = testProgram("film.cl", options);
+    Buffer<Float4> input(testDevice(), samples, "samples");
+    Buffer<float> film(testDevice(), size_t(pixels) * pixelFloats, "film");
+    film.fill(0);
+    program.kernel("addSamples").launch(pixels, input, film, pixels, unsigned(samples.size() / pixels));
+    return film.read();
+}
+
+/// Values over seven decades, as a pixel with rare bright samples sees them.
+std::vector<Float4> wildSamples(unsigned count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::lognormal_distribution<float> value(0, 2);
+    std::vector<Float4> samples;
+    for (unsigned k = 0; k < count; ++k) samples.push_back({value(random), 1e-3f * value(random), 0.1f, 0});
+    return samples;
+}
+
+double sumOf(const std::vector<float>& film, unsigned pixel, unsigned component, unsigned channel) {
+    const float* sum = film.data() + size_t(pixel) * pixelFloats + component * sumFloats;
+    return double(sum[channel]) + sum[channel + 3];
+}
+
+TEST(Film, MillionSamplesAreSummedAsInDouble) {
+    const auto samples = wildSamples(1'000'000, 1);
+    const auto film = addSamples(samples, 1);
+    for (unsigned channel = 0; channel < 3; ++channel) {
+        double sum = 0, squares = 0;
+        float plain = 0;
+        for (const Float4& s : samples) {
+            const float value = (&s.x)[channel], total = value + value * 0.5f;
+            sum += value;
+            squares += total * total;
+            plain += value;
+        }
+        EXPECT_NEAR(sumOf(film, 0, LIGHT_DIFFUSE, channel) / sum, 1, 1e-8);
+        EXPECT_NEAR(sumOf(film, 0, FILM_EMISSION, channel) / (sum / 2), 1, 1e-8);
+        EXPECT_NEAR(sumOf(film, 0, FILM_COMPONENTS, channel) / squares, 1, 1e-8);
+        EXPECT_EQ(sumOf(film, 0, LIGHT_CAUSTIC, channel), 0);
+        EXPECT_GT(std::abs(plain / sum - 1), 1e-6) << "control: floats alone would do";
+    }
+}
+
+TEST(Film, HalvesMergeToTheWhole) {
+    const auto samples = wildSamples(200'000, 2);
+    const auto whole = addSamples(samples, 1), halves = addSamples(samples, 2); // two pixels share the samples
+    for (unsigned component : {LIGHT_DIFFUSE, FILM_EMISSION, unsigned(FILM_COMPONENTS)})
+        for (unsigned channel = 0; channel < 3; ++channel) {
+            const auto merged = float(sumOf(halves, 0, component, channel) + sumOf(halves, 1, component, channel));
+            const auto once = float(sumOf(whole, 0, component, channel));
+            EXPECT_LE(std::abs(merged - once), std::nextafter(once, INFINITY) - once);
+        }
+}
+
+std::vector<Float2> latticePoints(unsigned count, unsigned mode, unsigned first, Float2 shift) {
+    Program program = testProgram("film.cl", options);
+    Buffer<Float2> points(testDevice(), count, "points");
+    program.kernel("latticePoints").launch(count, points, count, mode, first, shift);
+    return points.read();
+}
+
+std::vector<uint64_t> histogram(const std::vector<Float2>& points, const SampleGrid& grid) {
+    std::vector<uint64_t> counts(size_t(grid.cells()) + 1);
+    for (const Float2& p : points) ++counts[size_t(grid.cell(p.x, p.y))];
+    return counts;
+}
+
+const SampleGrid unitSquare{0, 1, 0, 1, 16, 16};
+
+TEST(Lattice, AShiftedPointIsUniform) {
+    // One point of the sequence, its shift another in every pass: independent uniform points.
+    const std::vector<double> even(size_t(unitSquare.cells()), 1.0 / unitSquare.cells());
+    for (const unsigned first : {0u, 2u, 4u}) {
+        const auto points = latticePoints(100'000, 2, first, {0, 0});
+        EXPECT_GT(chiSquaredPValue(histogram(points, unitSquare), even), significanceLevel(chiSquaredTests));
+        for (const Float2& p : points) EXPECT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+    }
+}
+
+/// Pearson's statistic per degree of freedom of points against the uniform density: 1 for random ones.
+double unevenness(const std::vector<Float2>& points) {
+    const auto counts = histogram(points, unitSquare);
+    const double expected = double(points.size()) / unitSquare.cells();
+    double sum = 0;
+    for (int k = 0; k < unitSquare.cells(); ++k) sum += std::pow(double(counts[size_t(k)]) - expected, 2) / expected;
+    return sum / (unitSquare.cells() - 1);
+}
+
+TEST(Lattice, PointsAreSpreadBetterThanRandom) {
+    for (const Float2 shift : {Float2{0, 0}, Float2{0.9999999f, 0.3f}})
+        EXPECT_LT(unevenness(latticePoints(4096, 0, 0, shift)), 0.2);
+    for (const unsigned first : {0u, 2u, 4u}) EXPECT_LT(unevenness(latticePoints(4096, 1, first, {0, 0})), 0.5);
+    const auto numbers = uniformNumbers(2 * 4096, 3);
+    std::vector<Float2> random;
+    for (size_t k = 0; k < numbers.size(); k += 2) random.push_back({numbers[k], numbers[k + 1]});
+    EXPECT_GT(unevenness(random), 0.7); // control
+}
+
+std::vector<Float2> filterOffsets(const shared::Camera& camera, const std::vector<float>& numbers) {
+    std::vector<Float2> pairs;
+    for (size_t k = 0; k + 1 < numbers.size(); k += 2) pairs.push_back({numbers[k], numbers[k + 1]});
+    Program program = testProgram("film.cl", options);
+    Buffer<Float2> input(testDevice(), pairs, "numbers"), offsets(testDevice(), pairs.size(), "offsets");
+    program.kernel("filterOffsets").launch(pairs.size(), input, offsets, camera, unsigned(pairs.size()));
+    return offsets.read();
+}
+
+shared::Camera cameraWith(unsigned filter, float radius, float stddev) {
+    shared::Camera camera{};
+    camera.filter = filter;
+    camera.filterRadius = radius;
+    camera.filterStddev = stddev;
+    return camera;
+}
+
+/// The filter as a function, not normalised.
+double filterValue(const shared::Camera& camera, double x, double y) {
+    const double r = camera.filterRadius, s = camera.filterStddev;
+    if (camera.filter == FILTER_BOX) return 1;
+    if (camera.filter == FILTER_TENT) return (1 - std::abs(x) / r) * (1 - std::abs(y) / r);
+    return x * x + y * y < r * r ? std::exp(-(x * x + y * y) / (2 * s * s)) : 0;
+}
+
+double filterPValue(const shared::Camera& sampled, const shared::Camera& expected) {
+    const double r = sampled.filterRadius;
+    const SampleGrid grid{-r, r, -r, r, 20, 20};
+    std::vector<double> probabilities(size_t(grid.cells()), 0);
+    double total = 0;
+    for (const QuadraturePoint& q : gridQuadrature(grid, 32)) {
+        const double value = filterValue(expected, q.u, q.v) * q.weight;
+        probabilities[size_t(q.cell)] += value;
+        total += value;
+    }
+    for (double& p : probabilities) p /= total;
+    return chiSquaredPValue(histogram(filterOffsets(sampled, uniformNumbers(400'000, 4)), grid), probabilities);
+}
+
+TEST(Filter, OffsetsFollowTheFilter) {
+    const std::vector<shared::Camera> cameras{cameraWith(FILTER_BOX, 0.5f, 0), cameraWith(FILTER_BOX, 1.5f, 0),
+                                              cameraWith(FILTER_TENT, 1, 0), cameraWith(FILTER_GAUSSIAN, 2, 0.5f),
+                                              cameraWith(FILTER_GAUSSIAN, 1, 0.8f)};
+    for (const auto& camera : cameras) EXPECT_GT(filterPValue(camera, camera), significanceLevel(chiSquaredTests));
+    // Control: a Gaussian 2 % broader than the one sampled.
+    EXPECT_LT(filterPValue(cameras[3], cameraWith(FILTER_GAUSSIAN, 2, 0.51f)), significanceLevel(chiSquaredTests));
+}
+
+TEST(Filter, EndsOfTheUnitInterval) {
+    for (const unsigned filter : {FILTER_BOX, FILTER_TENT, FILTER_GAUSSIAN})
+        for (const Float2& offset : filterOffsets(cameraWith(filter, 2, 0.5f), extremeNumbers(2))) {
+            EXPECT_LE(std::abs(offset.x), 2.00001f);
+            EXPECT_LE(std::abs(offset.y), 2.00001f);
+        }
+}
+
+} // namespace
+} // namespace quasilux
