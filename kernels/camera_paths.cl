@@ -55,6 +55,7 @@ inline void takeEmission(const World* world, const CameraPath* path, const Surfa
 inline float3 takePhotons(const World* world, const CameraPath* path, const Surface* s, const Frame* frame, float3 wo,
                           __global const Lobe* lobes, uint mask, uint lightClass) {
     const CameraParams* params = world->params;
+    if (classIsEmpty(world->photons, lightClass)) return 0;
     const DensityRegion region =
         densityRegionAt(s, params->map.radius[lightClass], world->tables, &params->scene);
     if (!(region.kernelIntegral > 0)) return 0;

@@ -73,14 +73,14 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     return 1;
 }
 
-inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* params, uint index, Rng* rng) {
+inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* params, const Lattice* lattice, uint index,
+                             Rng* rng) {
     const SceneTables* scene = &params->scene;
-    const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     /* Emitters are chosen by stratified numbers, so each gets its share of every pass. */
     const float uSelect = min((index + rngNext(rng)) / params->paths, 0x1.fffffep-1f);
     const EmittedPhoton emitted = emitterSampleEmission(
         SCENE_TABLE(tables, scene, Emitter, emitters), SCENE_TABLE(tables, scene, EmitterTriangle, emitterTriangles),
-        scene->emitterCount, uSelect, latticePoint2(seed, params->pass, index, 0), latticePoint2(seed, params->pass, index, 2));
+        scene->emitterCount, uSelect, latticePoint2(lattice, index, 0), latticePoint2(lattice, index, 2));
     PhotonPath path;
     path.origin = offsetRayOrigin(emitted.position, emitted.normal);
     path.direction = emitted.direction;
@@ -91,13 +91,13 @@ inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* pa
     return path;
 }
 
-inline void tracePhotonPath(uint index, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+inline void tracePhotonPath(uint index, const Lattice* lattice, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                             __global const uint* tables, __global Photon* photons, const PhotonParams* params,
                             RegionCount* count) {
     const SceneTables* scene = &params->scene;
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, params->pass, STREAM_PHOTON, index);
-    PhotonPath path = emitPhoton(tables, params, index, &rng);
+    PhotonPath path = emitPhoton(tables, params, lattice, index, &rng);
     for (uint event = 0; event < PATH_EVENTS_MAX; ++event) {
         if (!all(isfinite(path.flux)) || !all(isfinite(path.direction))) {
             ++count->nonFinite;
@@ -117,7 +117,7 @@ inline void tracePhotonPath(uint index, __global const BvhNode* nodes, __global 
         const uint lightClass = lawPhotonClass(path.events);
         if (storableClasses(lobes, s.lobeCount) & (1u << lightClass))
             storePhoton(photons, count, params->regionCapacity, &path, &s, lightClass);
-        const float2 uDirection = event == 0 ? latticePoint2(seed, params->pass, index, 4) : rngNext2(&rng);
+        const float2 uDirection = event == 0 ? latticePoint2(lattice, index, 4) : rngNext2(&rng);
         const float3 u = (float3)(rngNext(&rng), uDirection.x, uDirection.y);
         if (!scatterPhoton(&path, &s, lobes, &rng, u)) return;
     }
@@ -132,9 +132,10 @@ __kernel void tracePhotons(__global const BvhNode* nodes, __global const Primiti
     const uint region = get_global_id(0);
     if (region >= params.regions) return;
     RegionCount count = {0, 0, 0, 0, 0};
+    const Lattice lattice = latticeOfPass((ulong)params.seedHigh << 32 | params.seedLow, params.pass);
     const uint first = region * params.pathsPerRegion;
     const uint last = min(first + params.pathsPerRegion, params.paths);
     for (uint index = first; index < last; ++index)
-        tracePhotonPath(index, nodes, blocks, tables, photons + (size_t)region * params.regionCapacity, &params, &count);
+        tracePhotonPath(index, &lattice, nodes, blocks, tables, photons + (size_t)region * params.regionCapacity, &params, &count);
     counts[region] = count;
 }

@@ -24,8 +24,11 @@ struct Method {
     LawRule rule = LawRule::right;
 };
 
-MeanAndError renderFurnace(const Method& method) {
-    const auto scene = projectScene("furnace_split.xml", {{"resolution", std::to_string(resolution)}});
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+MeanAndError renderFurnace(const Method& method, const std::string& file = "furnace_split.xml", Parameters parameters = {}) {
+    parameters.emplace_back("resolution", std::to_string(resolution));
+    const auto scene = projectScene(file, parameters);
     RenderSettings settings;
     settings.bdd = method.bdd;
     settings.variant = method.variant;
@@ -67,6 +70,23 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"AllQuasiSpecular", 0, Variant::main, "all", emitters},
                     Method{"AllQuasiSpecularAlternative", 0, Variant::alternative, "all", photons}),
     label);
+
+// max_depth limits the segments of the whole path, photon plus camera: the series 1 + 0.6 + 0.36 + … ends there.
+TEST_P(RightRule, EndsTheSeriesAtTheDepthLimit) {
+    double sum = 0, term = 1;
+    for (int depth = 1; depth <= 4; ++depth, term *= 0.6) {
+        sum += term;
+        const auto result = renderFurnace(GetParam(), "furnace_split.xml", {{"max_depth", std::to_string(depth)}});
+        EXPECT_NEAR(result.mean, sum, allowed(result)) << "max_depth " << depth;
+    }
+}
+
+// A lossless glass ball and a mirror in the furnace must not be seen: caustic photons, specular chains of camera paths,
+// refraction's 1 / eta^2 both ways.
+TEST_P(RightRule, SeesNothingOfGlassAndMirrors) {
+    const auto result = renderFurnace(GetParam(), "furnace_glass.xml");
+    EXPECT_NEAR(result.mean, truth, allowed(result)) << "standard error " << result.standardError;
+}
 
 // Negative controls: the same check must fail for every wrong reading of the law.
 class WrongRule : public testing::TestWithParam<Method> {};
