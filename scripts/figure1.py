@@ -40,8 +40,16 @@ def render(program, method, seconds):
     return read_channels(image, ["R", "G", "B"]), json.loads(statistics.read_text())
 
 
+def warm_up(program):
+    """Compiles the kernels of every method, so that no picture pays for it: the OpenCL runtime keeps them."""
+    RENDERS.mkdir(parents=True, exist_ok=True)
+    for options in METHODS.values():
+        command = [program, "render", SCENE, "--quiet", "--passes", "1", "--output", RENDERS / "warm-up.exr", *options]
+        subprocess.run(command, check=True)
+
+
 def tone_map(radiance):
-    """8-bit-like sRGB in 0 .. 1: linear, clamped, with the sRGB curve of IEC 61966-2-1."""
+    """sRGB in 0 .. 1: radiance scaled and clamped, then the curve of IEC 61966-2-1."""
     x = np.clip(EXPOSURE * radiance, 0, 1)
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
 
@@ -100,6 +108,7 @@ def main():
     options = parser.parse_args()
     FIGURES.mkdir(parents=True, exist_ok=True)
     reference = Reference()
+    warm_up(options.program)
     load = os.getloadavg()
     runs = {}
     for method in METHODS:
