@@ -74,7 +74,7 @@ typedef struct {
 #define SCATTER_QUASI_SPECULAR 2u
 #define SCATTER_SPECULAR 4u /* delta */
 
-/* One lobe of a BSDF. Which fields mean what is said in kernels/bsdf/<lobe>.clh; `type` is LOBE_* of kernels/bsdf/lobe_list.h. */
+/* One lobe of a BSDF. Which fields mean what is said in kernels/bsdf/lobes/<lobe>.clh; `type` is LOBE_* of kernels/bsdf/lobe_list.h. */
 typedef struct {
     unsigned int type;
     unsigned int scattering; /* SCATTER_* */

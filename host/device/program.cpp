@@ -22,6 +22,17 @@ const std::string& sourceText(const std::string& file, const Sources& extra) {
     throw DeviceError(fmt::format("kernel source '{}' is not built in", file));
 }
 
+// A name such as "bsdf/lobes/*.clh" stands for every built-in file of that folder and ending, in alphabetical order.
+std::vector<std::string> matchingFiles(const std::string& name) {
+    const auto star = name.find('*');
+    if (star == std::string::npos) return {name};
+    const std::string folder = name.substr(0, star), ending = name.substr(star + 1);
+    std::vector<std::string> files;
+    for (const auto& [file, text] : kernelSources())
+        if (file.starts_with(folder) && file.ends_with(ending)) files.push_back(file);
+    return files;
+}
+
 void join(const std::string& file, const Sources& extra, std::set<std::string>& seen, std::string& out) {
     static const std::regex include(R"re(^\s*#include\s+"([^"]+)"\s*$)re");
     if (!seen.insert(file).second) return;
@@ -31,7 +42,7 @@ void join(const std::string& file, const Sources& extra, std::set<std::string>& 
     for (int number = 1; std::getline(lines, line); ++number) {
         std::smatch match;
         if (line.find("#include") != std::string::npos && std::regex_match(line, match, include)) {
-            join(match[1], extra, seen, out);
+            for (const auto& included : matchingFiles(match[1])) join(included, extra, seen, out);
             out += fmt::format("#line {} \"{}\"\n", number + 1, file);
         } else {
             out += line + '\n';

@@ -9,7 +9,7 @@
 namespace quasilux {
 
 /// `source` with every `#include "…"` replaced by the file's text (each file once), with #line marks so that build
-/// errors name the real file. `extra` adds or replaces files (tests). Throws DeviceError for an unknown include.
+/// errors name the real file; a `*` in the name includes every file that fits. `extra` adds or replaces files (tests). Throws DeviceError for an unknown include.
 std::string joinKernelSource(const std::string& file, const std::map<std::string, std::string>& extra = {});
 
 class Kernel {

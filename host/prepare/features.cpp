@@ -8,8 +8,9 @@ namespace quasilux {
 namespace {
 
 // In the order of LobeType and of EMITTER_*.
-constexpr std::array<const char*, LOBE_TYPES> lobeNames = {"LAMBERT",  "PHONG",     "GGX",
-                                                           "BECKMANN", "CONDUCTOR", "DIELECTRIC"};
+#define LOBE_NAME(ID, argument) #ID,
+constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
+#undef LOBE_NAME
 constexpr std::array<const char*, 4> emitterNames = {"RECTANGLE", "TRIANGLES", "SPHERE", "POINT"};
 
 std::string lower(std::string text) {
@@ -38,6 +39,7 @@ std::string emitterTypeName(unsigned type) { return lower(emitterNames.at(type))
 std::string Features::options() const {
     std::string text;
     for (const unsigned type : lobes) text += std::string(" -DHAS_LOBE_") + lobeNames.at(type);
+    if (lobes.size() == 1) text += " -DONE_LOBE_TYPE";
     for (const unsigned type : emitterTypes) text += std::string(" -DHAS_EMITTER_") + emitterNames.at(type);
     for (const auto& flag : flags)
         if (this->*flag.member) text += std::string(" -D") + flag.define;

@@ -1,17 +1,18 @@
-/* Every lobe the kernels know: one line here and one file kernels/bsdf/<name>.clh make a new one.
- * X(ID, name): LOBE_<ID> is the value of Lobe.type, <name>Eval/PdfSolidAngle/Sample/Albedo are the functions of the file.
- * The host defines HAS_LOBE_<ID> for the lobes that the scene uses; the others are not compiled. */
+/* Every lobe the kernels know, in the order of Lobe.type. A new lobe is one line here and one file in kernels/bsdf/lobes/,
+ * which docs/bsdf.md describes. The host compiles only those that the scene uses (HAS_LOBE_<ID>). */
 #ifndef QUASILUX_LOBE_LIST_H
 #define QUASILUX_LOBE_LIST_H
 
-enum LobeType {
-    LOBE_LAMBERT = 0,
-    LOBE_PHONG = 1,
-    LOBE_GGX = 2,
-    LOBE_BECKMANN = 3,
-    LOBE_CONDUCTOR = 4,
-    LOBE_DIELECTRIC = 5,
-    LOBE_TYPES
-};
+/* X(ID, argument) for each lobe; `argument` is handed through. */
+#define LOBE_LIST(X, argument)                                                                                         \
+    X(LAMBERT, argument)                                                                                               \
+    X(PHONG, argument)                                                                                                 \
+    X(GGX, argument)                                                                                                   \
+    X(BECKMANN, argument)                                                                                              \
+    X(CONDUCTOR, argument)                                                                                             \
+    X(DIELECTRIC, argument)
+
+#define LOBE_ENUMERATOR(ID, argument) LOBE_##ID,
+enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
 
 #endif
