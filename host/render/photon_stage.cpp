@@ -41,6 +41,7 @@ PhotonStage::PhotonStage(Device& device, const std::string& options, const Geome
     counts_ = Buffer<uint32_t>(device, cells * map_.chunks, "photon cell counts");
     blockSums_ = Buffer<uint32_t>(device, map_.scanBlocks, "photon scan blocks");
     cellStart_ = Buffer<uint32_t>(device, cells + 1, "photon cells");
+    makeRoom(params_.paths);
 }
 
 std::vector<shared::RegionCount> PhotonStage::trace() {
@@ -56,17 +57,19 @@ std::vector<shared::RegionCount> PhotonStage::trace() {
     }
 }
 
+void PhotonStage::makeRoom(uint64_t photons) {
+    const uint64_t stride = photons + vectorWidth;
+    if (stride > UINT32_MAX)
+        throw DeviceError(fmt::format("{} photons in one pass, at most {} can be indexed: use fewer --photons", photons, UINT32_MAX));
+    map_.photonStride = static_cast<unsigned>(stride);
+    const size_t fields = storesDepth_ ? 9 : 8;
+    sorted_ = Buffer<uint32_t>();
+    sorted_ = Buffer<uint32_t>(device_, fields * map_.photonStride, "photons sorted");
+    sorted_.fill(0); // lanes beyond the last photon are read, with weight 0: they must be finite
+}
+
 void PhotonStage::index(uint64_t photons) {
-    if (photons + vectorWidth > map_.photonStride) {
-        const uint64_t stride = photons + photons / 4 + vectorWidth;
-        if (stride > UINT32_MAX)
-            throw DeviceError(fmt::format("{} photons in one pass, at most {} can be indexed: use fewer --photons", photons, UINT32_MAX));
-        map_.photonStride = static_cast<unsigned>(stride);
-        const size_t fields = storesDepth_ ? 9 : 8;
-        sorted_ = Buffer<uint32_t>();
-        sorted_ = Buffer<uint32_t>(device_, fields * map_.photonStride, "photons sorted");
-        sorted_.fill(0); // lanes beyond the last photon are read, with weight 0: they must be finite
-    }
+    if (photons + vectorWidth > map_.photonStride) makeRoom(photons + photons / 4);
     map_.regionCapacity = params_.regionCapacity;
     countPhotons_.launchFew(map_.chunks, photons_, regions_, counts_, map_);
     sumBlocks_.launchFew(map_.scanBlocks, counts_, blockSums_, map_);

@@ -33,6 +33,7 @@ public:
 
 private:
     std::vector<shared::RegionCount> trace();
+    void makeRoom(uint64_t photons); // in the sorted arrays
     void index(uint64_t photons);
     std::array<uint64_t, LIGHT_CLASSES> storedByClass() const;
 

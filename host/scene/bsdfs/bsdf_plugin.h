@@ -1,4 +1,4 @@
-// Reading of bsdfs. A new plugin is one file here and one line in bsdf_table.cpp.
+// Reading of bsdfs. A new plugin is one file here and one line in the list below.
 #pragma once
 
 #include "scene/properties.h"
@@ -20,14 +20,20 @@ int useBsdf(const Element& element, LoadContext& context);
 /// where it is needed first.
 int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
 
-BsdfLobes readDiffuse(Properties& properties);
-BsdfLobes readPhong(Properties& properties);
-BsdfLobes readConductor(Properties& properties);
-BsdfLobes readRoughConductor(Properties& properties);
-BsdfLobes readDielectric(Properties& properties);
-BsdfLobes readBlend(Properties& properties);
-BsdfLobes readTwoSided(Properties& properties);
-BsdfLobes readNull(Properties& properties);
+/// Every bsdf plugin: X(name in the scene, function that reads it).
+#define QUASILUX_BSDF_PLUGINS(X)                                                                                       \
+    X(diffuse, readDiffuse)                                                                                            \
+    X(phong, readPhong)                                                                                                \
+    X(conductor, readConductor)                                                                                        \
+    X(roughconductor, readRoughConductor)                                                                              \
+    X(dielectric, readDielectric)                                                                                      \
+    X(blendbsdf, readBlend)                                                                                            \
+    X(twosided, readTwoSided)                                                                                          \
+    X(null, readNull)
+
+#define QUASILUX_DECLARE_BSDF(name, read) BsdfLobes read(Properties& properties);
+QUASILUX_BSDF_PLUGINS(QUASILUX_DECLARE_BSDF)
+#undef QUASILUX_DECLARE_BSDF
 
 /// A lobe of type LOBE_* with everything else zero. `halfWidth` in radians.
 LobeDescription makeLobe(unsigned type, const std::string& name, Rgb reflectance, double halfWidth);

@@ -14,12 +14,9 @@ struct BsdfPlugin {
     BsdfLobes (*read)(Properties&);
 };
 
-constexpr BsdfPlugin plugins[] = {
-    {"diffuse", readDiffuse},       {"phong", readPhong},
-    {"conductor", readConductor},   {"roughconductor", readRoughConductor},
-    {"dielectric", readDielectric}, {"blendbsdf", readBlend},
-    {"twosided", readTwoSided},     {"null", readNull},
-};
+#define QUASILUX_BSDF_ENTRY(name, read) {#name, read},
+constexpr BsdfPlugin plugins[] = {QUASILUX_BSDF_PLUGINS(QUASILUX_BSDF_ENTRY)};
+#undef QUASILUX_BSDF_ENTRY
 
 const BsdfPlugin& findPlugin(const Element& element) {
     Names known;
