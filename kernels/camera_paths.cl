@@ -16,13 +16,13 @@
 typedef struct {
     Ray ray;
     float3 throughput;
-    uint d, q;    /* genuine diffuse and quasi-specular scatterings so far */
-    uint depth;   /* segments so far; passing a null surface does not start a new one */
-    float passed; /* length of the current segment before the last null surface */
-    float3 from;  /* where the current segment began */
-    int specularSoFar;   /* nothing but specular events: emission counts in full */
-    float directPdf;     /* > 0: emission counts by its share against emitter sampling; density of the sampled direction */
-    int onlyEmission;    /* the path goes on just for that share */
+    uint d, q;         /* genuine diffuse and quasi-specular scatterings so far */
+    uint depth;        /* segments so far; passing a null surface does not start a new one */
+    float passed;      /* length of the current segment before the last null surface */
+    float3 from;       /* where the current segment began */
+    int specularSoFar; /* nothing but specular events: emission counts in full */
+    float directPdf;  /* > 0: emission counts by its share against emitter sampling; density of the sampled direction */
+    int onlyEmission; /* the path goes on just for that share */
 } CameraPath;
 
 /* What the kernels of this stage read. */
@@ -56,8 +56,7 @@ inline float3 takePhotons(const World* world, const CameraPath* path, const Surf
                           __global const Lobe* lobes, uint mask, uint lightClass) {
     const CameraParams* params = world->params;
     if (classIsEmpty(world->photons, lightClass)) return 0;
-    const DensityRegion region =
-        densityRegionAt(s, params->map.radius[lightClass], world->tables, &params->scene);
+    const DensityRegion region = densityRegionAt(s, params->map.radius[lightClass], world->tables, &params->scene);
     if (!(region.kernelIntegral > 0)) return 0;
     DirectionalLobes directional = {lobes, 0, *frame, wo};
     float3 lambert = 0; /* BRDF of the Lambert lobes together */
@@ -103,9 +102,9 @@ inline void takeLight(const World* world, const CameraPath* path, const Surface*
     if (takers[LIGHT_DIRECT] && path->depth < params->maxDepth) {
         const float uSelect = rngNext(rng);
         const float2 u = rngNext2(rng);
-        components[LIGHT_DIRECT] +=
-            path->throughput * directLight(s, frame, wo, lobes, takers[LIGHT_DIRECT], choice, (float3)(uSelect, u.x, u.y),
-                                           world->nodes, world->blocks, world->tables, &params->scene);
+        components[LIGHT_DIRECT] += path->throughput * directLight(s, frame, wo, lobes, takers[LIGHT_DIRECT], choice,
+                                                                   (float3)(uSelect, u.x, u.y), world->nodes,
+                                                                   world->blocks, world->tables, &params->scene);
     }
 #endif
     for (uint c = 0; c < LIGHT_CLASSES; ++c)
@@ -130,8 +129,7 @@ inline int scatterCameraPath(const World* world, CameraPath* path, const Surface
         path->directPdf = 0;
     } else {
         const int takesDirect = lawLightTaken(scattering, path->d, path->q, world->params->bdd) >> LIGHT_DIRECT & 1;
-        path->directPdf =
-            takesDirect && lobeSharesDirect(lobe) ? choice->probability[k] * sample.pdfSolidAngle : 0.f;
+        path->directPdf = takesDirect && lobeSharesDirect(lobe) ? choice->probability[k] * sample.pdfSolidAngle : 0.f;
         path->onlyEmission = !lawMayScatter(scattering, path->d, world->params->bdd);
         path->specularSoFar = 0;
         path->d += scattering == SCATTER_GENUINE_DIFFUSE;

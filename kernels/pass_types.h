@@ -23,9 +23,9 @@ typedef struct {
 /* One photon as traced, before indexing. */
 typedef struct {
     Packed3 position;
-    unsigned int direction; /* towards where it came from, octahedral 16 + 16 bits */
-    Rgb flux;               /* W */
-    unsigned int patchSide; /* patch << 1 | side: 1 where it arrived on the side of the normal */
+    unsigned int direction;  /* towards where it came from, octahedral 16 + 16 bits */
+    Rgb flux;                /* W */
+    unsigned int patchSide;  /* patch << 1 | side: 1 where it arrived on the side of the normal */
     unsigned int classDepth; /* segments since the light << 2 | light class; segments saturate at PHOTON_DEPTH_MAX */
 } Photon;
 #define PHOTON_DEPTH_MAX 254u
@@ -42,7 +42,7 @@ typedef struct {
 typedef struct {
     unsigned int seedLow, seedHigh;
     unsigned int pass;
-    unsigned int paths;          /* photons emitted in the pass */
+    unsigned int paths; /* photons emitted in the pass */
     unsigned int pathsPerRegion;
     unsigned int regions;
     unsigned int regionCapacity; /* photons */
@@ -56,7 +56,7 @@ typedef struct {
     unsigned int cellMask;       /* cells of one class - 1, a power of two - 1 */
     unsigned int chunks;         /* stable counting sort: each chunk counts and scatters in order */
     unsigned int regions, regionCapacity;
-    unsigned int photonStride;   /* capacity of the sorted arrays, photons */
+    unsigned int photonStride; /* capacity of the sorted arrays, photons */
     unsigned int scanBlocks;
 } MapParams;
 

@@ -1,8 +1,8 @@
 /* Stage 1 of a pass: trace photons from the emitters and store them by class.
  * From: emitters. To: photons in regions, in the order of their paths (so the result does not depend on scheduling). */
 #include "emitter.clh"
-#include "law.clh"
 #include "lattice.clh"
+#include "law.clh"
 #include "scatter.clh"
 
 /* Photon paths keep their flux up to this loss, then roulette ends them in proportion. */
@@ -43,8 +43,7 @@ inline uint storableClasses(__global const Lobe* lobes, uint count) {
 inline float shadingNormalCorrection(const Surface* s, float3 wo, float3 wi) {
 #ifdef HAS_CORNER_NORMALS
     const float denominator = dot(wo, s->geometricNormal) * dot(wi, s->shadingNormal);
-    return denominator == 0 ? 0.f
-                            : fabs(dot(wo, s->shadingNormal) * dot(wi, s->geometricNormal) / denominator);
+    return denominator == 0 ? 0.f : fabs(dot(wo, s->shadingNormal) * dot(wi, s->geometricNormal) / denominator);
 #else
     return 1.f;
 #endif
@@ -73,8 +72,8 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     return 1;
 }
 
-inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* params, const Lattice* lattice, uint index,
-                             Rng* rng) {
+inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* params, const Lattice* lattice,
+                             uint index, Rng* rng) {
     const SceneTables* scene = &params->scene;
     /* Emitters are chosen by stratified numbers, so each gets its share of every pass. */
     const float uSelect = min((index + rngNext(rng)) / params->paths, 0x1.fffffep-1f);
@@ -91,9 +90,9 @@ inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* pa
     return path;
 }
 
-inline void tracePhotonPath(uint index, const Lattice* lattice, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
-                            __global const uint* tables, __global Photon* photons, const PhotonParams* params,
-                            RegionCount* count) {
+inline void tracePhotonPath(uint index, const Lattice* lattice, __global const BvhNode* nodes,
+                            __global const PrimitiveBlock* blocks, __global const uint* tables,
+                            __global Photon* photons, const PhotonParams* params, RegionCount* count) {
     const SceneTables* scene = &params->scene;
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, params->pass, STREAM_PHOTON, index);
@@ -136,6 +135,7 @@ __kernel void tracePhotons(__global const BvhNode* nodes, __global const Primiti
     const uint first = region * params.pathsPerRegion;
     const uint last = min(first + params.pathsPerRegion, params.paths);
     for (uint index = first; index < last; ++index)
-        tracePhotonPath(index, &lattice, nodes, blocks, tables, photons + (size_t)region * params.regionCapacity, &params, &count);
+        tracePhotonPath(index, &lattice, nodes, blocks, tables, photons + (size_t)region * params.regionCapacity,
+                        &params, &count);
     counts[region] = count;
 }

@@ -24,8 +24,8 @@ typedef struct {
 /* ---- geometry: 8-wide bounding volume hierarchy ------------------------------------------------------------- */
 
 #define BVH_WIDTH 8
-#define BVH_LEAF_BIT 0x80000000u       /* child reference: leaf bit | (blocks - 1) << 27 | first block */
-#define BVH_LEAF_COUNT_SHIFT 27        /* 4 bits: up to 16 blocks in one leaf */
+#define BVH_LEAF_BIT 0x80000000u /* child reference: leaf bit | (blocks - 1) << 27 | first block */
+#define BVH_LEAF_COUNT_SHIFT 27  /* 4 bits: up to 16 blocks in one leaf */
 #define BVH_LEAF_FIRST_MASK 0x07ffffffu
 #define PRIMITIVE_NULL_BIT 0x80000000u   /* primitive whose bsdf is `null`: shadow and photon rays pass through it */
 #define PRIMITIVE_SPHERE_BIT 0x40000000u /* lane holds a sphere: v0 = centre, e1x = radius, e2 = 0 */
@@ -111,8 +111,8 @@ typedef struct {
     float area;
     float radius;
     float normalSign;
-    float selectionProbability; /* in proportion to power */
-    float selectionCdf;         /* sum of the probabilities up to and including this emitter; last = 1 */
+    float selectionProbability;                /* in proportion to power */
+    float selectionCdf;                        /* sum of the probabilities up to and including this emitter; last = 1 */
     unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
 } Emitter;
 
@@ -129,14 +129,14 @@ typedef struct {
 
 typedef struct {
     Packed3 origin;
-    Packed3 corner;         /* direction to the upper left corner of the image, at depth 1 */
-    Packed3 stepX, stepY;   /* direction per pixel, to the right and down */
-    Packed3 forward;        /* unit */
+    Packed3 corner;          /* direction to the upper left corner of the image, at depth 1 */
+    Packed3 stepX, stepY;    /* direction per pixel, to the right and down */
+    Packed3 forward;         /* unit */
     float nearClip, farClip; /* depths along `forward` */
     unsigned int width, height;
-    unsigned int filter;    /* FILTER_* */
-    float filterRadius;     /* pixels */
-    float filterStddev;     /* pixels, Gaussian only */
+    unsigned int filter; /* FILTER_* */
+    float filterRadius;  /* pixels */
+    float filterStddev;  /* pixels, Gaussian only */
 } Camera;
 
 /* ---- light classes (kernels/law.clh) ----------------------------------------------------------------------------- */

@@ -1,102 +1,22 @@
 // The built program from outside: help, the device list, and that bad input ends with code 2 and writes nothing.
 // Also the names that options take.
+#include "support/program_runner.h"
+
 #include "cli/options.h"
 #include "util/nearest.h"
 
 #include <chrono>
-#include <csignal>
-#include <cstdlib>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace quasilux {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return content.str();
-}
-
-struct Outcome {
-    int exitCode = -1; ///< -1: ended by a signal
-    std::string output, errors;
-};
-
-/// Runs the program in a folder of its own that holds one small scene.
-class CommandLineTest : public testing::Test {
-protected:
-    CommandLineTest() {
-        std::string pattern = (fs::temp_directory_path() / "quasilux-cli-XXXXXX").string();
-        root = mkdtemp(pattern.data());
-        folder = root / "work";
-        fs::create_directory(folder);
-        std::ofstream(folder / "scene.xml") << R"(<scene version="3.0.0">
-  <sensor type="perspective">
-    <float name="fov" value="40"/>
-    <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film>
-  </sensor>
-  <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>
-</scene>
-)";
-    }
-    ~CommandLineTest() override { fs::remove_all(root); }
-
-    /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C.
-    Outcome run(std::vector<std::string> arguments, unsigned interruptAfter = 0) const {
-        const pid_t child = fork();
-        if (child == 0) {
-            if (chdir(folder.c_str()) != 0) _exit(120);
-            redirect(root / "stdout", STDOUT_FILENO);
-            redirect(root / "stderr", STDERR_FILENO);
-            arguments.insert(arguments.begin(), QUASILUX_PROGRAM);
-            std::vector<char*> argv;
-            for (auto& argument : arguments) argv.push_back(argument.data());
-            argv.push_back(nullptr);
-            execv(argv[0], argv.data());
-            _exit(121);
-        }
-        if (interruptAfter > 0) {
-            sleep(interruptAfter);
-            kill(child, SIGINT);
-        }
-        int status = 0;
-        waitpid(child, &status, 0);
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(root / "stdout"), readText(root / "stderr")};
-    }
-
-    /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file but the scene.
-    void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const {
-        const Outcome outcome = run(arguments);
-        SCOPED_TRACE(testing::PrintToString(arguments));
-        EXPECT_EQ(outcome.exitCode, 2);
-        EXPECT_THAT(outcome.errors, HasSubstr("quasilux: error: "));
-        EXPECT_THAT(outcome.errors, HasSubstr(message));
-        EXPECT_EQ(outcome.output, "");
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-        EXPECT_THAT(names, testing::ElementsAre("scene.xml"));
-    }
-
-    fs::path root, folder;
-
-private:
-    static void redirect(const fs::path& file, int descriptor) {
-        const int target = open(file.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
-        if (target < 0 || dup2(target, descriptor) < 0) _exit(122);
-    }
-};
 
 TEST_F(CommandLineTest, HelpStatesEveryOptionWithUnitAndDefault) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> promised{

@@ -69,8 +69,17 @@ TEST_P(Cornell, AgreesWithTheReferenceRegionByRegion) {
                100 * relativeError);
     }
 }
-INSTANTIATE_TEST_SUITE_P(Methods, Cornell, testing::Values(Method{"MainBdd0", "auto", Variant::main, 0, 4, 200'000, 1.0}, Method{"AlternativeBdd0", "auto", Variant::alternative, 0, 4, 200'000, 1.0}, Method{"StandardBdd0", "none", Variant::main, 0, 6, 200'000, 1.0}, Method{"MainBdd1", "auto", Variant::main, 1, 50, 20'000, 0.4}, Method{"AlternativeBdd1", "auto", Variant::alternative, 1, 50, 20'000, 0.4}, Method{"StandardBdd1", "none", Variant::main, 1, 50, 20'000, 0.4}, Method{"MainBdd2", "auto", Variant::main, 2, 50, 20'000, 0.4}, Method{"AlternativeBdd2", "auto", Variant::alternative, 2, 50, 20'000, 0.4}, Method{"StandardBdd2", "none", Variant::main, 2, 50, 20'000, 0.4}),
-    [](const testing::TestParamInfo<Method>& method) { return std::string(method.param.name); });
+INSTANTIATE_TEST_SUITE_P(Methods, Cornell,
+                         testing::Values(Method{"MainBdd0", "auto", Variant::main, 0, 4, 200'000, 1.0},
+                                         Method{"AlternativeBdd0", "auto", Variant::alternative, 0, 4, 200'000, 1.0},
+                                         Method{"StandardBdd0", "none", Variant::main, 0, 6, 200'000, 1.0},
+                                         Method{"MainBdd1", "auto", Variant::main, 1, 50, 20'000, 0.4},
+                                         Method{"AlternativeBdd1", "auto", Variant::alternative, 1, 50, 20'000, 0.4},
+                                         Method{"StandardBdd1", "none", Variant::main, 1, 50, 20'000, 0.4},
+                                         Method{"MainBdd2", "auto", Variant::main, 2, 50, 20'000, 0.4},
+                                         Method{"AlternativeBdd2", "auto", Variant::alternative, 2, 50, 20'000, 0.4},
+                                         Method{"StandardBdd2", "none", Variant::main, 2, 50, 20'000, 0.4}),
+                         [](const testing::TestParamInfo<Method>& method) { return std::string(method.param.name); });
 
 } // namespace
 } // namespace quasilux

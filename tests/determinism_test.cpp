@@ -75,7 +75,8 @@ TEST(Determinism, MergedHalvesAreTheWholeToOneUnitInTheLastPlace) {
     for (size_t k = 0; k < whole.radiance.size(); ++k) {
         const float unit = std::nextafter(whole.radiance[k], INFINITY) - whole.radiance[k];
         EXPECT_LE(std::abs(merged.radiance[k] - whole.radiance[k]), unit) << "value " << k;
-        EXPECT_NEAR(merged.standardError[k], whole.standardError[k], 1e-4f * whole.radiance[k] + 1e-7f) << "value " << k;
+        EXPECT_NEAR(merged.standardError[k], whole.standardError[k], 1e-4f * whole.radiance[k] + 1e-7f)
+            << "value " << k;
     }
 }
 

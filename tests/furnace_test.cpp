@@ -26,7 +26,8 @@ struct Method {
 
 using Parameters = std::vector<std::pair<std::string, std::string>>;
 
-MeanAndError renderFurnace(const Method& method, const std::string& file = "furnace_split.xml", Parameters parameters = {}) {
+MeanAndError renderFurnace(const Method& method, const std::string& file = "furnace_split.xml",
+                           Parameters parameters = {}) {
     parameters.emplace_back("resolution", std::to_string(resolution));
     const auto scene = projectScene(file, parameters);
     RenderSettings settings;

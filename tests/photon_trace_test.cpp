@@ -27,7 +27,7 @@ std::vector<std::array<double, LIGHT_CLASSES>> storedFlux(const DeviceScene& fla
     params.paths = paths;
     params.maxDepth = QL_NONE;
     params.scene = flat.offsets;
-    PhotonStage stage(testDevice(), kernelOptions(flat, settings), geometry, params, classes);
+    PhotonStage stage(testDevice(), kernelOptions(flat, settings), geometry, params, classes, false);
     std::vector<std::array<double, LIGHT_CLASSES>> flux(passes);
     for (unsigned pass = 0; pass < passes; ++pass) {
         const auto count = stage.run(pass, {0.1f, 0.1f, 0.1f, 0.1f});
@@ -36,7 +36,8 @@ std::vector<std::array<double, LIGHT_CLASSES>> storedFlux(const DeviceScene& fla
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
             for (uint64_t k = 0; k < count.stored[c]; ++k, ++photon)
                 for (unsigned channel = 3; channel < 6; ++channel) // PHOTON_R, G, B of kernels/photon_grid.clh
-                    flux[pass][c] += std::bit_cast<float>(sorted[channel * size_t(stage.map().photonStride) + photon]) / 3;
+                    flux[pass][c] +=
+                        std::bit_cast<float>(sorted[channel * size_t(stage.map().photonStride) + photon]) / 3;
     }
     return flux;
 }

@@ -22,7 +22,7 @@ std::optional<T> parseAll(const std::string& text) {
     return status == std::errc() && stopped == end ? std::optional<T>(value) : std::nullopt;
 }
 
-CLI::Validator number(const std::string& expected, std::function<bool(double)> allowed) {
+CLI::Validator number(const std::string& expected, const std::function<bool(double)>& allowed) {
     return CLI::Validator(
         [=](const std::string& text) {
             const auto value = parseAll<double>(text);

@@ -28,12 +28,11 @@ public:
     std::vector<T> read(size_t first = 0, size_t count = SIZE_MAX) const {
         std::vector<T> data(count == SIZE_MAX ? count_ - first : count);
         if (!data.empty())
-            device_->queue().enqueueReadBuffer(memory_, CL_TRUE, first * sizeof(T), data.size() * sizeof(T), data.data());
+            device_->queue().enqueueReadBuffer(memory_, CL_TRUE, first * sizeof(T), data.size() * sizeof(T),
+                                               data.data());
         return data;
     }
-    void fill(T value) {
-        device_->queue().enqueueFillBuffer(memory_, value, 0, (count_ ? count_ : 1) * sizeof(T));
-    }
+    void fill(T value) { device_->queue().enqueueFillBuffer(memory_, value, 0, (count_ ? count_ : 1) * sizeof(T)); }
 
 private:
     Device* device_ = nullptr;

@@ -49,7 +49,8 @@ cl::Device pick(int index) {
         throw InputError("no OpenCL device found, expected at least one: install a runtime, such as the Debian package "
                          "pocl-opencl-icd for the CPU");
     if (index >= static_cast<int>(devices.size()) || index < -1)
-        throw InputError(fmt::format("--device {}: no such device, expected 0 to {} (or -1: the first GPU, else the first device); `quasilux devices` lists them",
+        throw InputError(fmt::format("--device {}: no such device, expected 0 to {} (or -1: the first GPU, else the "
+                                     "first device); `quasilux devices` lists them",
                                      index, devices.size() - 1));
     if (index >= 0) return devices[static_cast<size_t>(index)];
     for (const auto& device : devices)
@@ -72,15 +73,16 @@ Device::Device(int index, unsigned workGroupSize) : workGroupSize_(workGroupSize
         context_ = cl::Context(device_);
         queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
     } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("device {}: {} failed with OpenCL error {}", info_.name, error.what(), error.err()));
+        throw DeviceError(
+            fmt::format("device {}: {} failed with OpenCL error {}", info_.name, error.what(), error.err()));
     }
 }
 
 cl::Buffer Device::allocate(size_t bytes, const std::string& label) {
     constexpr double mib = 1024.0 * 1024.0;
     if (bytes > info_.maximumAllocation)
-        throw DeviceError(fmt::format("buffer '{}' needs {:.1f} MiB, but device {} allows {:.1f} MiB in one allocation", label,
-                                      bytes / mib, info_.name, info_.maximumAllocation / mib));
+        throw DeviceError(fmt::format("buffer '{}' needs {:.1f} MiB, but device {} allows {:.1f} MiB in one allocation",
+                                      label, bytes / mib, info_.name, info_.maximumAllocation / mib));
     try {
         cl::Buffer buffer(context_, CL_MEM_READ_WRITE, bytes);
         auto& known = allocations_[label];
@@ -88,8 +90,8 @@ cl::Buffer Device::allocate(size_t bytes, const std::string& label) {
         known = bytes;
         return buffer;
     } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("buffer '{}' of {:.1f} MiB could not be allocated on device {} (OpenCL error {})", label,
-                                      bytes / mib, info_.name, error.err()));
+        throw DeviceError(fmt::format("buffer '{}' of {:.1f} MiB could not be allocated on device {} (OpenCL error {})",
+                                      label, bytes / mib, info_.name, error.err()));
     }
 }
 
@@ -97,7 +99,8 @@ void Device::finish() {
     try {
         queue_.finish();
     } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("device {}: running kernels failed with OpenCL error {}", info_.name, error.err()));
+        throw DeviceError(
+            fmt::format("device {}: running kernels failed with OpenCL error {}", info_.name, error.err()));
     }
 }
 

@@ -69,11 +69,13 @@ void Kernel::enqueue(size_t count, size_t group) {
     const size_t global = (count + group - 1) / group * group;
     try {
         cl::Event event;
-        device_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global), cl::NDRange(group), nullptr, &event);
+        device_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global), cl::NDRange(group), nullptr,
+                                              &event);
         device_->addTiming(name_, event);
     } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("kernel {} over {} work-items in groups of {} failed on device {} (OpenCL error {})",
-                                      name_, global, group, device_->info().name, error.err()));
+        throw DeviceError(
+            fmt::format("kernel {} over {} work-items in groups of {} failed on device {} (OpenCL error {})", name_,
+                        global, group, device_->info().name, error.err()));
     }
 }
 
@@ -90,8 +92,8 @@ Program::Program(Device& device, const std::string& file, const std::string& opt
         throw DeviceError(fmt::format("kernels of {} do not build on device {} with options '{}':\n{}", file,
                                       device.info().name, options, log));
     } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("kernels of {} do not build on device {} (OpenCL error {})", file, device.info().name,
-                                      error.err()));
+        throw DeviceError(fmt::format("kernels of {} do not build on device {} (OpenCL error {})", file,
+                                      device.info().name, error.err()));
     }
     buildSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -36,9 +36,13 @@ public:
 
 private:
     template <typename T>
-    void setArgument(cl_uint index, const Buffer<T>& buffer) { check(kernel_.setArg(index, buffer.memory()), index); }
+    void setArgument(cl_uint index, const Buffer<T>& buffer) {
+        check(kernel_.setArg(index, buffer.memory()), index);
+    }
     template <typename T, typename = std::enable_if_t<std::is_trivially_copyable_v<T>>>
-    void setArgument(cl_uint index, const T& value) { check(kernel_.setArg(index, sizeof(T), &value), index); }
+    void setArgument(cl_uint index, const T& value) {
+        check(kernel_.setArg(index, sizeof(T), &value), index);
+    }
     void check(cl_int status, cl_uint index);
     void enqueue(size_t count, size_t group);
 

@@ -36,7 +36,8 @@ struct DeviceScene {
 struct FlattenSettings {
     std::string quasiSpecular = "auto"; ///< as decideSplit takes it
     bool overridesScene = false;
-    std::function<double(double area)> largestRadius; ///< of the density estimate, from the surface area: indexes the borders
+    std::function<double(double area)>
+        largestRadius; ///< of the density estimate, from the surface area: indexes the borders
 };
 DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings);
 

@@ -19,7 +19,7 @@ std::string lower(std::string text) {
 }
 
 struct Flag {
-    bool Features::* member;
+    bool Features::*member;
     const char* define;
     const char* text;
 };

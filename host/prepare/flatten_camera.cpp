@@ -13,7 +13,8 @@ shared::Packed3 pack(const glm::dvec3& v) {
 
 shared::Camera flattenCamera(const Sensor& sensor) {
     const glm::dmat3 rotation(sensor.toWorld);
-    const glm::dvec3 left = glm::normalize(rotation[0]), up = glm::normalize(rotation[1]), forward = glm::normalize(rotation[2]);
+    const glm::dvec3 left = glm::normalize(rotation[0]), up = glm::normalize(rotation[1]),
+                     forward = glm::normalize(rotation[2]);
     const double halfWidth = std::tan(sensor.fovX / 2);
     const double step = 2 * halfWidth / sensor.width;
     shared::Camera camera{};

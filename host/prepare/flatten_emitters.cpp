@@ -28,7 +28,8 @@ void addTriangles(const Mesh& mesh, shared::Emitter& emitter, std::vector<shared
         triangles[emitter.firstTriangle + k].areaCdf = k + 1 == sums.size() ? 1.f : static_cast<float>(sums[k] / area);
 }
 
-shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index, std::vector<shared::EmitterTriangle>& triangles) {
+shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
+                            std::vector<shared::EmitterTriangle>& triangles) {
     shared::Emitter emitter{};
     emitter.shape = index;
     emitter.radiance = shape.emitter->radiance;

@@ -7,12 +7,11 @@ namespace quasilux {
 
 namespace {
 
-
-unsigned appendSide(const Bsdf& bsdf, const std::vector<LobeDescription>& side, const std::vector<LobeDecision>& decisions,
-                    std::vector<shared::Lobe>& lobes) {
+unsigned appendSide(const Bsdf& bsdf, const std::vector<LobeDescription>& side,
+                    const std::vector<LobeDecision>& decisions, std::vector<shared::Lobe>& lobes) {
     if (side.size() > LOBES_MAX)
-        throw InputError(bsdf.where, fmt::format("this bsdf has {} lobes on one side, expected at most {}: blend fewer", side.size(),
-                                                 LOBES_MAX));
+        throw InputError(bsdf.where, fmt::format("this bsdf has {} lobes on one side, expected at most {}: blend fewer",
+                                                 side.size(), LOBES_MAX));
     for (size_t k = 0; k < side.size(); ++k) {
         shared::Lobe lobe = side[k].device;
         lobe.scattering = decisions[k].scattering;

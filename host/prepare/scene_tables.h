@@ -12,10 +12,11 @@ namespace quasilux {
 class SceneTableWriter {
 public:
     /// Appends `records` and returns the word offset where they begin.
-    template <typename T> unsigned append(const std::vector<T>& records) {
+    template <typename T>
+    unsigned append(const std::vector<T>& records) {
         static_assert(sizeof(T) % sizeof(uint32_t) == 0);
         const auto first = static_cast<unsigned>(words_.size());
-        words_.resize(words_.size() + records.size() * sizeof(T) / sizeof(uint32_t));
+        words_.insert(words_.end(), records.size() * (sizeof(T) / sizeof(uint32_t)), 0u);
         if (!records.empty()) std::memcpy(words_.data() + first, records.data(), records.size() * sizeof(T));
         return first;
     }

@@ -41,25 +41,30 @@ void checkList(const Scene& scene, const std::vector<std::string>& list) {
     }
     for (const auto& item : list)
         if (std::find(names.begin(), names.end(), item) == names.end())
-            throw InputError(fmt::format("quasi-specular: the scene has no bsdf or lobe '{}', expected auto, none, all, or ids "
-                                         "among: {} (or ID.LOBE, such as {}.specular)",
-                                         item, known, scene.bsdfs.empty() ? "ID" : scene.bsdfs.front().id));
+            throw InputError(
+                fmt::format("quasi-specular: the scene has no bsdf or lobe '{}', expected auto, none, all, or ids "
+                            "among: {} (or ID.LOBE, such as {}.specular)",
+                            item, known, scene.bsdfs.empty() ? "ID" : scene.bsdfs.front().id));
 }
 
 LobeDecision byWidth(const LobeDescription& lobe) {
     const bool narrow = lobe.halfWidth < quasiSpecularHalfWidth;
     return {narrow ? SCATTER_QUASI_SPECULAR : SCATTER_GENUINE_DIFFUSE,
-            fmt::format("auto: half width {:.1f} deg {} {:.0f} deg", lobe.halfWidth * degrees, narrow ? "<" : ">=",
-                        quasiSpecularHalfWidth * degrees)};
+            fmt::format("auto: half width {:.1f} deg {} {:.0f} deg", lobe.halfWidth * degrees,
+                        narrow ? "<" : ">=", quasiSpecularHalfWidth * degrees)};
 }
 
 LobeDecision byScene(const LobeDescription& lobe) {
     const auto& choice = lobe.quasiSpecular;
     switch (choice.kind) {
-    case QuasiSpecularChoice::Kind::yes: return {SCATTER_QUASI_SPECULAR, "the bsdf says yes"};
-    case QuasiSpecularChoice::Kind::no: return {SCATTER_GENUINE_DIFFUSE, "the bsdf says no"};
-    case QuasiSpecularChoice::Kind::automatic: return byWidth(lobe);
-    case QuasiSpecularChoice::Kind::lobes: break;
+    case QuasiSpecularChoice::Kind::yes:
+        return {SCATTER_QUASI_SPECULAR, "the bsdf says yes"};
+    case QuasiSpecularChoice::Kind::no:
+        return {SCATTER_GENUINE_DIFFUSE, "the bsdf says no"};
+    case QuasiSpecularChoice::Kind::automatic:
+        return byWidth(lobe);
+    case QuasiSpecularChoice::Kind::lobes:
+        break;
     }
     const bool named = std::find(choice.lobes.begin(), choice.lobes.end(), lobe.name) != choice.lobes.end();
     return {named ? SCATTER_QUASI_SPECULAR : SCATTER_GENUINE_DIFFUSE,

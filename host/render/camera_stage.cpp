@@ -39,7 +39,8 @@ CameraStage::CameraStage(Device& device, const std::string& options, const Geome
                          shared::CameraParams params)
     : geometry_(geometry), program_(device, "camera_paths.cl", options),
       traceCameraPaths_(program_.kernel("traceCameraPaths")), params_(params),
-      film_(device, pixelFloats * params.camera.width * params.camera.height, "film"), counters_(device, 1, "camera counters") {
+      film_(device, pixelFloats * params.camera.width * params.camera.height, "film"),
+      counters_(device, 1, "camera counters") {
     film_.fill(0);
     counters_.write({shared::CameraCounters{0, 0}});
 }

@@ -8,7 +8,8 @@ namespace quasilux {
 
 class CameraStage {
 public:
-    CameraStage(Device& device, const std::string& options, const GeometryBuffers& geometry, shared::CameraParams params);
+    CameraStage(Device& device, const std::string& options, const GeometryBuffers& geometry,
+                shared::CameraParams params);
 
     /// One path per pixel.
     void run(unsigned pass, const PhotonStage& photons);

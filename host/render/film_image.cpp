@@ -58,7 +58,8 @@ RelativeError relativeError(const FilmImage& image) {
 
 namespace {
 
-std::vector<float> weightedMean(const std::vector<float>& a, double weightA, const std::vector<float>& b, double weightB) {
+std::vector<float> weightedMean(const std::vector<float>& a, double weightA, const std::vector<float>& b,
+                                double weightB) {
     std::vector<float> mean(std::max(a.size(), b.size())); // a component without light is empty: zero
     for (size_t k = 0; k < mean.size(); ++k)
         mean[k] = static_cast<float>((a.empty() ? 0 : weightA * a[k]) + (b.empty() ? 0 : weightB * b[k]));
@@ -85,7 +86,8 @@ FilmImage mergePasses(const FilmImage& a, const FilmImage& b) {
         const double squares = sumOfSquares(a.radiance[k], a.standardError[k], a.passes) +
                                sumOfSquares(b.radiance[k], b.standardError[k], b.passes);
         const double mean = weightA * a.radiance[k] + weightB * b.radiance[k];
-        merged.standardError[k] = static_cast<float>(std::sqrt(std::max(0.0, squares - n * mean * mean) / (n * (n - 1))));
+        merged.standardError[k] =
+            static_cast<float>(std::sqrt(std::max(0.0, squares - n * mean * mean) / (n * (n - 1))));
     }
     return merged;
 }

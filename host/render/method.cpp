@@ -12,8 +12,8 @@ constexpr unsigned photonsPerCameraPath = 6;
 
 } // namespace
 
-unsigned photonClasses(const Features& features, const RenderSettings& settings) {
-    if (settings.genericKernels) return (1u << LIGHT_CLASSES) - 1;
+unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& settings) {
+    const Features features = settings.genericKernels ? Features::generic() : sceneFeatures;
     const bool anyTakes = features.genuineDiffuse || features.quasiSpecular;
     unsigned classes = 0;
     if (settings.direct == DirectLight::photons && anyTakes) classes |= bit(LIGHT_DIRECT);
@@ -25,13 +25,17 @@ unsigned photonClasses(const Features& features, const RenderSettings& settings)
     return classes;
 }
 
+Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings) {
+    return settings.genericKernels ? Features::generic() : scene.features;
+}
+
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings) {
-    const Features features = settings.genericKernels ? Features::generic() : scene.features;
-    std::string options = features.options() + ' ' + bvhOptions(scene.bvh);
+    std::string options = compiledFeatures(scene, settings).options() + ' ' + bvhOptions(scene.bvh);
     options += fmt::format(" -DPHOTON_CLASSES={}u", photonClasses(scene.features, settings));
     if (settings.direct == DirectLight::emitters) options += " -DDIRECT_BY_EMITTERS";
     if (settings.variant == Variant::alternative) options += " -DLAW_ALTERNATIVE";
-    if (settings.lawRule != LawRule::right) options += fmt::format(" -DLAW_RULE={}", static_cast<int>(settings.lawRule));
+    if (settings.lawRule != LawRule::right)
+        options += fmt::format(" -DLAW_RULE={}", static_cast<int>(settings.lawRule));
     return options;
 }
 

@@ -11,6 +11,9 @@ namespace quasilux {
 /// Bits 1 << LIGHT_* of the photons that some camera path can use; the others are not stored (kernels/law.clh).
 unsigned photonClasses(const Features& features, const RenderSettings& settings);
 
+/// What the kernels are compiled for: what the scene needs, or everything.
+Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings);
+
 /// Compiler options shared by all stages.
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings);
 

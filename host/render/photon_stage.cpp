@@ -20,12 +20,12 @@ unsigned cellsPerClass(unsigned photons) { return std::max(4096u, std::bit_ceil(
 } // namespace
 
 PhotonStage::PhotonStage(Device& device, const std::string& options, const GeometryBuffers& geometry,
-                         shared::PhotonParams params, unsigned classes)
+                         shared::PhotonParams params, unsigned classes, bool storesDepth)
     : device_(device), geometry_(geometry), tracing_(device, "photon_trace.cl", options),
       indexing_(device, "photon_map.cl", options), tracePhotons_(tracing_.kernel("tracePhotons")),
       countPhotons_(indexing_.kernel("countPhotons")), sumBlocks_(indexing_.kernel("sumBlocks")),
       scanCells_(indexing_.kernel("scanCells")), scatterPhotons_(indexing_.kernel("scatterPhotons")), params_(params),
-      classes_(classes), classSlots_(static_cast<unsigned>(std::popcount(classes))), storesDepth_(params.maxDepth != QL_NONE) {
+      classes_(classes), classSlots_(static_cast<unsigned>(std::popcount(classes))), storesDepth_(storesDepth) {
     params_.pathsPerRegion = pathsPerRegion;
     params_.regions = (params_.paths + pathsPerRegion - 1) / pathsPerRegion;
     params_.regionCapacity = pathsPerRegion;
@@ -46,21 +46,24 @@ PhotonStage::PhotonStage(Device& device, const std::string& options, const Geome
 
 std::vector<shared::RegionCount> PhotonStage::trace() {
     for (;;) {
-        tracePhotons_.launch(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_, regions_, params_);
+        tracePhotons_.launch(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_, regions_,
+                             params_);
         auto counts = regions_.read();
         unsigned wanted = 0;
         for (const auto& count : counts) wanted = std::max(wanted, count.wanted);
         if (wanted <= params_.regionCapacity) return counts;
         params_.regionCapacity = wanted + wanted / 4;
         photons_ = Buffer<shared::Photon>();
-        photons_ = Buffer<shared::Photon>(device_, size_t(params_.regions) * params_.regionCapacity, "photons as traced");
+        photons_ =
+            Buffer<shared::Photon>(device_, size_t(params_.regions) * params_.regionCapacity, "photons as traced");
     }
 }
 
 void PhotonStage::makeRoom(uint64_t photons) {
     const uint64_t stride = photons + vectorWidth;
     if (stride > UINT32_MAX)
-        throw DeviceError(fmt::format("{} photons in one pass, at most {} can be indexed: use fewer --photons", photons, UINT32_MAX));
+        throw DeviceError(
+            fmt::format("{} photons in one pass, at most {} can be indexed: use fewer --photons", photons, UINT32_MAX));
     map_.photonStride = static_cast<unsigned>(stride);
     const size_t fields = storesDepth_ ? 9 : 8;
     sorted_ = Buffer<uint32_t>();

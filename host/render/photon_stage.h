@@ -19,8 +19,9 @@ struct PhotonPassCount {
 
 class PhotonStage {
 public:
-    PhotonStage(Device& device, const std::string& options, const GeometryBuffers& geometry, shared::PhotonParams params,
-                unsigned classes);
+    /// `classes` are bits 1 << LIGHT_*; `storesDepth` where the kernels are compiled with HAS_DEPTH_LIMIT.
+    PhotonStage(Device& device, const std::string& options, const GeometryBuffers& geometry,
+                shared::PhotonParams params, unsigned classes, bool storesDepth);
 
     /// Traces the photons of a pass and indexes them with these radii, by class. A photon buffer that proves too small
     /// is enlarged and the pass traced again, so none is lost.

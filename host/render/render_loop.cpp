@@ -14,7 +14,9 @@ constexpr unsigned firstErrorCheck = 4; // passes before the error estimate mean
 using Clock = std::chrono::steady_clock;
 
 // The film is read back for its error at most this share of the time.
-bool isErrorDue(double sinceLastCheck, double lastCheckCost) { return sinceLastCheck > std::max(1.0, 20 * lastCheckCost); }
+bool isErrorDue(double sinceLastCheck, double lastCheckCost) {
+    return sinceLastCheck > std::max(1.0, 20 * lastCheckCost);
+}
 
 double secondsLeft(const StopRule& stop, const Progress& now) {
     double left = -1;
@@ -31,8 +33,8 @@ double secondsLeft(const StopRule& stop, const Progress& now) {
 
 } // namespace
 
-FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt, const std::function<void(const Progress&)>& onProgress,
-                      const std::atomic<bool>& interrupted) {
+FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
+                      const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted) {
     StopRule stop = stopAt;
     if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
     const auto start = Clock::now();

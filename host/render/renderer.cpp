@@ -56,7 +56,8 @@ std::string scatteringName(unsigned scattering) {
 void describeLobes(const Bsdf& bsdf, const char* side, const std::vector<LobeDescription>& lobes,
                    const std::vector<LobeDecision>& decisions, SceneReport& report) {
     for (size_t k = 0; k < lobes.size(); ++k)
-        report.lobes.push_back({bsdf.id, lobes[k].name + side, scatteringName(decisions[k].scattering), decisions[k].why});
+        report.lobes.push_back(
+            {bsdf.id, lobes[k].name + side, scatteringName(decisions[k].scattering), decisions[k].why});
 }
 
 SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
@@ -65,9 +66,10 @@ SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSe
     report.spheres = flat.spheres;
     report.patches = flat.patches;
     report.borderSegments = flat.borderSegments;
-    report.features = (settings.genericKernels ? Features::generic() : flat.features).names();
+    report.features = compiledFeatures(flat, settings).names();
     for (size_t k = 0; k < flat.emitters.emitters.size(); ++k)
-        report.emitters.push_back({flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type), flat.emitters.power[k]});
+        report.emitters.push_back(
+            {flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type), flat.emitters.power[k]});
     for (size_t k = 0; k < scene.bsdfs.size(); ++k) {
         describeLobes(scene.bsdfs[k], "", scene.bsdfs[k].front, flat.split[k].front, report);
         describeLobes(scene.bsdfs[k], " (behind)", scene.bsdfs[k].back, flat.split[k].back, report);
@@ -88,7 +90,8 @@ struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_)
         : device(device_), settings(settings_), flat(std::move(flat_)), options(kernelOptions(flat, settings)),
           geometry(device, flat),
-          photons(device, options, geometry, photonParams(scene, flat, settings), photonClasses(flat.features, settings)),
+          photons(device, options, geometry, photonParams(scene, flat, settings),
+                  photonClasses(flat.features, settings), compiledFeatures(flat, settings).depthLimit),
           camera(device, options, geometry, cameraParams(flat, settings, photonParams(scene, flat, settings).maxDepth)),
           report(describe(scene, flat, settings)) {}
 

@@ -18,9 +18,14 @@ class Device;
 struct SceneReport {
     size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
     std::vector<std::string> features; ///< compiled in, such as "lobe phong", "emitter rectangle"
-    struct EmitterRow { std::string id, type; double power = 0; /* W, mean of R, G, B */ };
+    struct EmitterRow {
+        std::string id, type;
+        double power = 0; /* W, mean of R, G, B */
+    };
     std::vector<EmitterRow> emitters;
-    struct LobeRow { std::string bsdf, lobe, scattering, why; };
+    struct LobeRow {
+        std::string bsdf, lobe, scattering, why;
+    };
     std::vector<LobeRow> lobes;
     std::vector<std::string> photonClasses; ///< stored
     std::map<std::string, uint64_t> bufferBytes;
@@ -34,8 +39,8 @@ struct RenderCounters {
     uint64_t photonsEmitted = 0;
     std::map<std::string, uint64_t> photonsStored; ///< by class
     uint64_t cameraPaths = 0;
-    uint64_t nonFinite = 0;       ///< samples dropped since they were not finite; a right render has none
-    uint64_t cutPaths = 0;        ///< paths ended by the hard limit on events
+    uint64_t nonFinite = 0;              ///< samples dropped since they were not finite; a right render has none
+    uint64_t cutPaths = 0;               ///< paths ended by the hard limit on events
     double fluxEmitted = 0, fluxCut = 0; ///< W, mean of R, G, B
     double prepareSeconds = 0, compileSeconds = 0, firstPassSeconds = 0, renderSeconds = 0;
 };

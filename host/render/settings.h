@@ -9,7 +9,7 @@
 
 namespace quasilux {
 
-enum class Variant { main, alternative };   ///< of the law, kernels/law.clh
+enum class Variant { main, alternative };     ///< of the law, kernels/law.clh
 enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
 
 /// The law, or one of its known wrong readings, which tests switch on as negative controls (kernels/law.clh).
@@ -19,9 +19,9 @@ struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
     Variant variant = Variant::main;
     DirectLight direct = DirectLight::emitters;
-    std::string quasiSpecular = "auto"; ///< auto | none | all | ID,ID,…
+    std::string quasiSpecular = "auto";        ///< auto | none | all | ID,ID,…
     bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
-    unsigned photonsPerPass = 0; ///< emitted; 0 = chosen from the image size
+    unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
     uint64_t seed = 1;
     double radiusScale = 1.0;    ///< factor on the initial density radius
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)

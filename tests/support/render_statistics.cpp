@@ -30,8 +30,8 @@ Scene projectScene(const std::string& name, const std::vector<std::pair<std::str
     return loadScene(std::string(QUASILUX_SOURCE_DIR) + "/scenes/" + name, parameters);
 }
 
-std::vector<MeanAndError> renderGroups(const Scene& scene, const RenderSettings& settings, const std::vector<int>& group,
-                                       unsigned batches, unsigned passesPerBatch) {
+std::vector<MeanAndError> renderGroups(const Scene& scene, const RenderSettings& settings,
+                                       const std::vector<int>& group, unsigned batches, unsigned passesPerBatch) {
     const auto groups = static_cast<size_t>(*std::max_element(group.begin(), group.end()) + 1);
     Renderer renderer(testDevice(), scene, settings);
     std::vector<MeanAndError> out(groups);

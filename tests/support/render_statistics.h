@@ -17,7 +17,7 @@ struct MeanAndError {
 Scene projectScene(const std::string& name, const std::vector<std::pair<std::string, std::string>>& parameters = {});
 
 /// Luminance averaged over each group of pixels. `group[pixel]` is the group, or a negative number for none.
-std::vector<MeanAndError> renderGroups(const Scene& scene, const RenderSettings& settings, const std::vector<int>& group,
-                                       unsigned batches, unsigned passesPerBatch);
+std::vector<MeanAndError> renderGroups(const Scene& scene, const RenderSettings& settings,
+                                       const std::vector<int>& group, unsigned batches, unsigned passesPerBatch);
 
 } // namespace quasilux

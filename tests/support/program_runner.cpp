@@ -1,0 +1,91 @@
+#include "support/program_runner.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace quasilux {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+namespace {
+
+void redirect(const fs::path& file, int descriptor) {
+    const int target = open(file.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+    if (target < 0 || dup2(target, descriptor) < 0) _exit(122);
+}
+
+} // namespace
+
+std::string readText(const fs::path& file) {
+    std::ifstream stream(file);
+    std::ostringstream content;
+    content << stream.rdbuf();
+    return content.str();
+}
+
+CommandLineTest::CommandLineTest() {
+    std::string pattern = (fs::temp_directory_path() / "quasilux-cli-XXXXXX").string();
+    root = mkdtemp(pattern.data());
+    folder = root / "work";
+    fs::create_directory(folder);
+    std::ofstream(folder / "scene.xml") << R"(<scene version="3.0.0">
+  <sensor type="perspective">
+    <float name="fov" value="40"/>
+    <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film>
+  </sensor>
+  <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>
+</scene>
+)";
+}
+
+CommandLineTest::~CommandLineTest() { fs::remove_all(root); }
+
+Outcome CommandLineTest::run(std::vector<std::string> arguments, unsigned interruptAfter) const {
+    const pid_t child = fork();
+    if (child == 0) {
+        if (chdir(folder.c_str()) != 0) _exit(120);
+        redirect(root / "stdout", STDOUT_FILENO);
+        redirect(root / "stderr", STDERR_FILENO);
+        arguments.insert(arguments.begin(), QUASILUX_PROGRAM);
+        std::vector<char*> argv;
+        for (auto& argument : arguments) argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        execv(argv[0], argv.data());
+        _exit(121);
+    }
+    if (interruptAfter > 0) {
+        sleep(interruptAfter);
+        kill(child, SIGINT);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(root / "stdout"), readText(root / "stderr")};
+}
+
+std::vector<std::string> CommandLineTest::filesInFolder() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+void CommandLineTest::expectRefused(const std::vector<std::string>& arguments, const std::string& message) const {
+    const auto before = filesInFolder();
+    const Outcome outcome = run(arguments);
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    EXPECT_EQ(outcome.exitCode, 2);
+    EXPECT_THAT(outcome.errors, HasSubstr("quasilux: error: "));
+    EXPECT_THAT(outcome.errors, HasSubstr(message));
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_EQ(filesInFolder(), before);
+}
+
+} // namespace quasilux

@@ -1,0 +1,36 @@
+// Runs the built program from outside, in a folder of its own.
+#pragma once
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+std::string readText(const std::filesystem::path& file);
+
+struct Outcome {
+    int exitCode = -1; ///< -1: ended by a signal
+    std::string output, errors;
+};
+
+/// The folder holds one small scene, scene.xml.
+class CommandLineTest : public testing::Test {
+protected:
+    CommandLineTest();
+    ~CommandLineTest() override;
+
+    /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C.
+    Outcome run(std::vector<std::string> arguments, unsigned interruptAfter = 0) const;
+
+    /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file that was not there before.
+    void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;
+
+    std::filesystem::path root, folder;
+
+private:
+    std::vector<std::string> filesInFolder() const;
+};
+
+} // namespace quasilux
