@@ -116,7 +116,7 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
         const uint lightClass = lawPhotonClass(path.events);
         if (storableClasses(lobes, s.lobeCount) & (1u << lightClass))
             storePhoton(photons, count, params->regionCapacity, &path, &s, lightClass);
-        const float2 uDirection = event == 0 ? latticePoint2(lattice, index, 4) : rngNext2(&rng);
+        const float2 uDirection = rngNext2(&rng);
         const float3 u = (float3)(rngNext(&rng), uDirection.x, uDirection.y);
         if (!scatterPhoton(&path, &s, lobes, &rng, u)) return;
     }

@@ -98,7 +98,7 @@ const SampleGrid unitSquare{0, 1, 0, 1, 16, 16};
 TEST(Lattice, AShiftedPointIsUniform) {
     // One point of the sequence, its shift another in every pass: independent uniform points.
     const std::vector<double> even(size_t(unitSquare.cells()), 1.0 / unitSquare.cells());
-    for (const unsigned first : {0u, 2u, 4u}) {
+    for (const unsigned first : {0u, 2u}) {
         const auto points = latticePoints(100'000, 2, first, {0, 0});
         EXPECT_GT(chiSquaredPValue(histogram(points, unitSquare), even), significanceLevel(chiSquaredTests));
         for (const Float2& p : points) EXPECT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
@@ -117,7 +117,7 @@ double unevenness(const std::vector<Float2>& points) {
 TEST(Lattice, PointsAreSpreadBetterThanRandom) {
     for (const Float2 shift : {Float2{0, 0}, Float2{0.9999999f, 0.3f}})
         EXPECT_LT(unevenness(latticePoints(4096, 0, 0, shift)), 0.2);
-    for (const unsigned first : {0u, 2u, 4u}) EXPECT_LT(unevenness(latticePoints(4096, 1, first, {0, 0})), 0.5);
+    for (const unsigned first : {0u, 2u}) EXPECT_LT(unevenness(latticePoints(4096, 1, first, {0, 0})), 0.5);
     const auto numbers = uniformNumbers(2 * 4096, 3);
     std::vector<Float2> random;
     for (size_t k = 0; k < numbers.size(); k += 2) random.push_back({numbers[k], numbers[k + 1]});

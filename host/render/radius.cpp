@@ -7,7 +7,7 @@ namespace quasilux {
 namespace {
 
 constexpr double pi = 3.141592653589793;
-constexpr double photonsInDisc = 150;
+constexpr double photonsInDisc = 300;
 
 } // namespace
 

@@ -12,6 +12,7 @@ typedef struct {
     float kernelIntegral, radiusSquared;
     uint bordered;
     Packed3 axisS, axisT;
+    float correctionA, correctionB, correctionC;
     float reachSquared[SECTORS];
 } RegionAnswer;
 
@@ -41,14 +42,24 @@ __kernel void findRegions(__global const uint* tables, __global const RegionQuer
     answer->bordered = region.bordered;
     answer->axisS = pack(region.frame.s);
     answer->axisT = pack(region.frame.t);
+    const BorderCorrection correction = borderCorrection(&region);
+    answer->correctionA = correction.a;
+    answer->correctionB = correction.b;
+    answer->correctionC = correction.c;
     for (uint k = 0; k < SECTORS; ++k)
         answer->reachSquared[k] = region.bordered ? region.reachSquared[k] : region.radiusSquared;
 }
 
-/* estimates[2 i]: irradiance by the region; [2 i + 1]: the sum over the whole disc divided by the integral over the
- * whole disc, as without any care for borders. */
+/* As tests/support/density_scene.h has it. */
+typedef struct {
+    float byRegion; /* irradiance by the region, red */
+    float sloped;   /* the same, green */
+    float
+        byDisc; /* the sum over the whole disc divided by the integral over it, as without any care for borders; red */
+} Estimate;
+
 __kernel void estimate(__global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
-                       __global const RegionQuery* queries, __global float* estimates, const SceneTables scene,
+                       __global const RegionQuery* queries, __global Estimate* estimates, const SceneTables scene,
                        const MapParams map, const uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
@@ -56,11 +67,12 @@ __kernel void estimate(__global const uint* tables, __global const uint* cellSta
     const PhotonMap photons = {sorted, cellStart, &map};
     DirectionalLobes none = {0, 0, frameFromNormal(s.geometricNormal), (float3)(0, 0, 1)};
     DensityRegion region = densityRegionAt(&s, queries[i].radius, tables, &scene);
-    const float inRegion =
-        gatherPhotons(photons, LIGHT_DIFFUSE, &region, s.patch << 1 | s.front, QL_NONE, &none).irradiance.x;
-    estimates[2 * i] = region.kernelIntegral > 0 ? inRegion / region.kernelIntegral : 0.f;
+    const float3 inRegion =
+        gatherPhotons(photons, LIGHT_DIFFUSE, &region, s.patch << 1 | s.front, QL_NONE, &none).irradiance;
+    estimates[i].byRegion = region.kernelIntegral > 0 ? inRegion.x / region.kernelIntegral : 0.f;
+    estimates[i].sloped = region.kernelIntegral > 0 ? inRegion.y / region.kernelIntegral : 0.f;
     region.bordered = 0;
     const float inDisc =
         gatherPhotons(photons, LIGHT_DIFFUSE, &region, s.patch << 1 | s.front, QL_NONE, &none).irradiance.x;
-    estimates[2 * i + 1] = inDisc / regionIntegral(&region);
+    estimates[i].byDisc = inDisc / regionIntegral(&region);
 }

@@ -94,10 +94,12 @@ std::vector<RegionAnswer> DensityScene::regions(const std::vector<RegionQuery>& 
     return answers.read();
 }
 
-std::vector<Estimate> DensityScene::estimates(const std::vector<RegionQuery>& queries, const UniformPhotons& photons) {
+std::vector<Estimate> DensityScene::estimates(const std::vector<RegionQuery>& queries, const UniformPhotons& photons,
+                                              const std::string& options) {
     const auto settings = indexSettings(radius_, unsigned(photons.photons.size()));
     const PhotonIndex index = indexPhotons(photons.photons, settings);
-    Program program = testProgram("density.cl", photonIndexOptions(settings) + device_.features.options());
+    Program program =
+        testProgram("density.cl", photonIndexOptions(settings) + device_.features.options() + ' ' + options);
     Buffer<RegionQuery> queryBuffer(testDevice(), queries, "queries");
     Buffer<Estimate> estimates(testDevice(), queries.size(), "estimates");
     program.kernel("estimate")
@@ -123,7 +125,7 @@ UniformPhotons DensityScene::lightUp(unsigned count, const Hidden& hidden, std::
         if (hidden && hidden(p, piece.primitive)) continue;
         shared::Photon photon{};
         photon.position = {float(p.x), float(p.y), float(p.z)};
-        photon.flux = {flux, flux, flux};
+        photon.flux = {flux, flux * float(5 + p.x), flux};
         photon.patchSide = patchOf(piece.primitive) << 1 | 1;
         photon.classDepth = 1 << 2 | LIGHT_DIFFUSE;
         out.photons.push_back(photon);

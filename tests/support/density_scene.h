@@ -22,15 +22,17 @@ struct RegionAnswer {
     float kernelIntegral, radiusSquared;
     unsigned bordered;
     shared::Packed3 axisS, axisT;
+    float correctionA, correctionB, correctionC;
     float reachSquared[densitySectors];
 };
 
 struct Estimate {
     float byRegion;
+    float sloped; ///< by region, where irradiance is 5 + x
     float byDisc; ///< as if there were no borders
 };
 
-/// Photons of flux 1 per unit of area on what is not hidden.
+/// Photons on what is not hidden: red flux 1 per unit of area, green 5 + x.
 struct UniformPhotons {
     std::vector<shared::Photon> photons;
     double density = 0; ///< photons per unit of area
@@ -42,7 +44,8 @@ public:
     DensityScene(Scene scene, float radius);
 
     std::vector<RegionAnswer> regions(const std::vector<RegionQuery>& queries);
-    std::vector<Estimate> estimates(const std::vector<RegionQuery>& queries, const UniformPhotons& photons);
+    std::vector<Estimate> estimates(const std::vector<RegionQuery>& queries, const UniformPhotons& photons,
+                                    const std::string& options = "");
 
     /// `count` points over the area of all shapes, on the front, those where `hidden` (point, primitive) left out.
     using Hidden = std::function<bool(glm::dvec3, unsigned)>;
