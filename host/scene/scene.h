@@ -28,9 +28,9 @@ struct QuasiSpecularChoice {
 /// host/prepare/split decides between genuine diffuse and quasi-specular.
 struct LobeDescription {
     shared::Lobe device{};
-    std::string name;                 ///< "diffuse", "specular", …, as a quasi-specular list names it
+    std::string name;                  ///< "diffuse", "specular", …, as a quasi-specular list names it
     QuasiSpecularChoice quasiSpecular; ///< from the innermost bsdf that says something
-    double halfWidth = 0;             ///< radians: half the lobe's energy lies within this angle of its peak (0 delta, 45° Lambert)
+    double halfWidth = 0; ///< radians: half the lobe's energy lies within this angle of its peak (0 delta, 45° Lambert)
 };
 
 struct Bsdf {
@@ -68,11 +68,11 @@ struct ShapeDescription {
     std::string id; ///< as in the scene, or "<plugin>@line"
     std::string plugin;
     SourceLocation where;
-    Mesh mesh;                                ///< empty for a sphere
+    Mesh mesh; ///< empty for a sphere
     std::optional<Sphere> sphere;
-    std::optional<RectangleFrame> rectangle;  ///< set for `rectangle` whose sides stayed orthogonal
-    bool flipNormals = false; ///< already applied to a mesh's winding; a sphere's normal points inwards
-    int bsdf = -1;            ///< index into Scene::bsdfs
+    std::optional<RectangleFrame> rectangle; ///< set for `rectangle` whose sides stayed orthogonal
+    bool flipNormals = false;                ///< already applied to a mesh's winding; a sphere's normal points inwards
+    int bsdf = -1;                           ///< index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
 };
 
@@ -96,10 +96,10 @@ struct Sensor {
 /// quasilux settings of the scene; std::nullopt = not said. Command-line options override them.
 struct SceneSettings {
     std::optional<unsigned> bdd;
-    std::optional<std::string> variant;        ///< "main", "alternative"
-    std::optional<std::string> quasiSpecular;  ///< "auto", "none", "all", "ID,ID"
-    std::optional<std::string> direct;         ///< "emitters", "photons"
-    std::optional<unsigned> photons;           ///< emitted per pass
+    std::optional<std::string> variant;       ///< "main", "alternative"
+    std::optional<std::string> quasiSpecular; ///< "auto", "none", "all", "ID,ID"
+    std::optional<std::string> direct;        ///< "emitters", "photons"
+    std::optional<unsigned> photons;          ///< emitted per pass
     std::optional<uint64_t> seed;
 };
 
