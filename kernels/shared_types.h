@@ -128,11 +128,12 @@ typedef struct {
 #define FILTER_GAUSSIAN 2u
 
 typedef struct {
-    Packed3 origin;
-    Packed3 corner;          /* direction to the upper left corner of the image, at depth 1 */
-    Packed3 stepX, stepY;    /* direction per pixel, to the right and down */
+    Packed3 origin;          /* orthographic: centre of the near plane */
+    Packed3 corner;          /* direction to the upper left corner of the image, at depth 1; orthographic: offset to it */
+    Packed3 stepX, stepY;    /* direction per pixel, to the right and down; orthographic: offset */
     Packed3 forward;         /* unit */
     float nearClip, farClip; /* depths along `forward` */
+    unsigned int orthographic;
     unsigned int width, height;
     unsigned int filter; /* FILTER_* */
     float filterRadius;  /* pixels */

@@ -86,7 +86,8 @@ struct PointEmitter {
 struct Sensor {
     SourceLocation where;
     glm::dmat4 toWorld{1.0}; ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
-    double fovX = 0;         ///< full horizontal angle, radians (fov_axis already resolved)
+    bool orthographic = false; ///< parallel rays from local x in [-1, 1]; else perspective
+    double fovX = 0;           ///< perspective: full horizontal angle, radians (fov_axis already resolved)
     double nearClip = 1e-2, farClip = 1e4;
     unsigned width = 768, height = 576;
     unsigned filter = FILTER_GAUSSIAN;
