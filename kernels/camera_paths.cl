@@ -135,7 +135,7 @@ inline int scatterCameraPath(const World* world, CameraPath* path, const Surface
         path->d += scattering == SCATTER_GENUINE_DIFFUSE;
         path->q += scattering == SCATTER_QUASI_SPECULAR;
     }
-    path->ray = leavingRay(s->position, s->geometricNormal, wi);
+    path->ray = leavingRay(s, wi);
     path->from = s->position;
     path->passed = 0;
     return 1;
@@ -153,7 +153,7 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
 #ifdef HAS_NULL_PRIMITIVES
     if (s.isNull) {
         const float tMax = path->ray.tMax;
-        path->ray = leavingRay(s.position, s.geometricNormal, path->ray.direction);
+        path->ray = leavingRay(&s, path->ray.direction);
         path->ray.tMax = tMax - hit.t; /* the far clipping plane stays */
         path->passed += max(hit.t, FLT_MIN);
         return 1;
