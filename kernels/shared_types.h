@@ -100,10 +100,12 @@ typedef struct {
 #define EMITTER_TRIANGLES 1u /* any other mesh; sampled by area */
 #define EMITTER_SPHERE 2u    /* origin, radius; emits outwards (inwards if normalSign < 0); sampled by solid angle */
 #define EMITTER_POINT 3u     /* origin; radiance field holds the intensity in W sr^-1 */
+#define EMITTER_CONSTANT 4u  /* the same radiance from everywhere outside; origin, radius: sphere about the scene; area: of
+                                its great disc. At most one, the last of the table */
 
 typedef struct {
     unsigned int type;
-    unsigned int shape;   /* QL_NONE for a point */
+    unsigned int shape;   /* QL_NONE for a point and the surroundings */
     Rgb radiance;         /* point: radiant intensity */
     Packed3 origin;       /* rectangle: corner; sphere, point: centre */
     Packed3 edgeU, edgeV; /* rectangle: sides, orthogonal */
