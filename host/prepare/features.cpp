@@ -29,6 +29,7 @@ constexpr std::array flags = {
     Flag{&Features::cornerNormals, "HAS_CORNER_NORMALS", "vertex normals"},
     Flag{&Features::borders, "HAS_BORDERS", "surface borders"},
     Flag{&Features::depthLimit, "HAS_DEPTH_LIMIT", "path depth limit"},
+    Flag{&Features::textures, "HAS_TEXTURES", "textures"},
 };
 
 } // namespace

@@ -43,8 +43,11 @@ double readIndex(Properties& properties, const std::string& name, const std::str
 BsdfLobes readDielectric(Properties& properties) {
     const double inside = readIndex(properties, "int_ior", "bk7");
     const double outside = readIndex(properties, "ext_ior", "air");
-    LobeDescription lobe = makeLobe(LOBE_DIELECTRIC, "specular", properties.reflectance("specular_reflectance", 1), 0);
-    lobe.device.transmittance = properties.reflectance("specular_transmittance", 1);
+    LobeDescription lobe =
+        makeLobe(LOBE_DIELECTRIC, "specular", readReflectance(properties, "specular_reflectance", 1), 0);
+    const Reflectance transmittance = readReflectance(properties, "specular_transmittance", 1);
+    lobe.device.transmittance = transmittance.scale;
+    lobe.device.transmittanceTexture = transmittance.texture;
     lobe.device.scattering = SCATTER_SPECULAR;
     if (inside == outside)
         properties.context().warn(
