@@ -34,21 +34,36 @@ typedef struct {
     const CameraParams* params;
 } World;
 
-/* Radiance of the emitter that the path has met, to the film's components. */
-inline void takeEmission(const World* world, const CameraPath* path, const Surface* s, float distance,
+/* What `emitter` sends along the path, to the film's components. */
+inline void takeRadiance(const CameraPath* path, __global const Emitter* emitter, float distance, float3 normal,
                          float3* components) {
-    if (s->emitter == QL_NONE || !s->front || path->depth > world->params->maxDepth) return;
-    __global const Emitter* emitter = SCENE_TABLE(world->tables, &world->params->scene, Emitter, emitters) + s->emitter;
     const float3 radiance = path->throughput * loadRgb(emitter->radiance);
     if (path->specularSoFar) {
         components[FILM_EMISSION] += radiance;
 #ifdef DIRECT_BY_EMITTERS
     } else if (path->directPdf > 0) {
         const float lightPdf =
-            emitterPdfSolidAngle(emitter, path->from, path->ray.direction, path->passed + distance, s->geometricNormal);
+            emitterPdfSolidAngle(emitter, path->from, path->ray.direction, path->passed + distance, normal);
         components[LIGHT_DIRECT] += radiance * (path->directPdf / (path->directPdf + lightPdf));
 #endif
     }
+}
+
+/* Emission of the surface that the path has met. */
+inline void takeEmission(const World* world, const CameraPath* path, const Surface* s, float distance,
+                         float3* components) {
+    if (s->emitter == QL_NONE || !s->front || path->depth > world->params->maxDepth) return;
+    __global const Emitter* emitter = SCENE_TABLE(world->tables, &world->params->scene, Emitter, emitters) + s->emitter;
+    takeRadiance(path, emitter, distance, s->geometricNormal, components);
+}
+
+/* Radiance of the surroundings, where the path leaves the scene. */
+inline void takeSurroundings(const World* world, const CameraPath* path, float3* components) {
+    const SceneTables* scene = &world->params->scene;
+    __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
+    const uint index = emitterOfSurroundings(emitters, scene->emitterCount);
+    if (index == QL_NONE || path->depth > world->params->maxDepth) return;
+    takeRadiance(path, emitters + index, INFINITY, -path->ray.direction, components);
 }
 
 /* Radiance reflected by the lobes of `mask` from the photons of one class. */
@@ -135,7 +150,7 @@ inline int scatterCameraPath(const World* world, CameraPath* path, const Surface
         path->d += scattering == SCATTER_GENUINE_DIFFUSE;
         path->q += scattering == SCATTER_QUASI_SPECULAR;
     }
-    path->ray = leavingRay(s->position, s->geometricNormal, wi);
+    path->ray = leavingRay(s, wi);
     path->from = s->position;
     path->passed = 0;
     return 1;
@@ -145,7 +160,11 @@ inline int scatterCameraPath(const World* world, CameraPath* path, const Surface
 inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, float3* components) {
     const CameraParams* params = world->params;
     const Hit hit = intersectClosest(world->nodes, world->blocks, path->ray);
-    if (hit.primitive == QL_NONE) return 0;
+    if (hit.primitive == QL_NONE) {
+        if (path->passed == 0) ++path->depth;
+        takeSurroundings(world, path, components);
+        return 0;
+    }
     const Surface s =
         surfaceAt(hit, path->ray.origin, path->ray.direction, world->blocks, world->tables, &params->scene);
     if (path->passed == 0) ++path->depth;
@@ -153,7 +172,7 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
 #ifdef HAS_NULL_PRIMITIVES
     if (s.isNull) {
         const float tMax = path->ray.tMax;
-        path->ray = leavingRay(s.position, s.geometricNormal, path->ray.direction);
+        path->ray = leavingRay(&s, path->ray.direction);
         path->ray.tMax = tMax - hit.t; /* the far clipping plane stays */
         path->passed += max(hit.t, FLT_MIN);
         return 1;

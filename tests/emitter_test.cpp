@@ -15,7 +15,7 @@ using glm::dvec3;
 using shared::Emitter;
 using std::numbers::pi;
 
-constexpr int statisticalTests = 49;
+constexpr int statisticalTests = 59;
 constexpr size_t sampleCount = 100000;
 
 /// Points around the light of 0.5 x 0.5 at z = 1 that shines upwards: (x, y, height above its plane).
@@ -242,6 +242,74 @@ TEST(PointEmitter, followsTheInverseSquareLaw) {
     EXPECT_EQ(s.direction, dvec3(0, 0, -1));
     EXPECT_EQ(s.pdf, 0);
     EXPECT_FALSE(sampleDirections({makePoint({0, 0, 2})}, {}, {0, 0, 2}, {0.3f, 0.1f, 0.9f})[0].valid);
+}
+
+TEST(ConstantEmitter, everyPlaneReceivesPiTimesItsRadiance) {
+    const Emitter sky = makeConstant({1, 2, 3}, 2);
+    for (const dvec3 normal : {dvec3(0, 0, 1), dvec3(0, 0, -1), glm::normalize(dvec3(1, -2, 0.5))})
+        expectIrradiance({sky}, {}, {0.3, 2, 4}, normal, pi, "sky");
+}
+
+TEST(ConstantEmitter, directionsAreUniformAndFollowTheDensity) {
+    const SampleGrid sphere{-1, 1, -pi, pi, 12, 12};
+    std::vector<uint64_t> counts(sphere.cells() + 1);
+    Emitter sky = makeConstant({0, 0, 0}, 1);
+    for (const SampledEmitter& s : sampleDirections({sky}, {}, {0, 0, 0}, uniformNumbers(3 * sampleCount, 13))) {
+        ++counts[sphere.cell(std::min(std::max(s.direction.z, -1.0), 1.0), std::atan2(s.direction.y, s.direction.x))];
+        ASSERT_TRUE(s.valid && std::isinf(s.distance));
+        ASSERT_NEAR(s.pdf * 4 * pi, 1, 1e-6);
+    }
+    EXPECT_GT(chiSquaredPValue(counts, std::vector<double>(sphere.cells(), 1.0 / sphere.cells())),
+              significanceLevel(statisticalTests));
+    sky.selectionProbability = 0.25f;
+    EXPECT_NEAR(directionPdfs({sky}, 0, {0, 0, 0}, {{0, 0, 9}}, {{0, 0, -1}})[0] * 16 * pi, 1, 1e-6);
+}
+
+/// Where photons of a sky meet a sphere within the scene, each with the flux that it stands for: points (cosine to an
+/// axis) and angles of incidence (squared cosine) by cell, and the total flux over the one expected, with its z score.
+struct SphereInSky {
+    std::vector<uint64_t> points, angles;
+    double zScore;
+};
+SphereInSky lightSphere(dvec3 centre, double radius, double expectedFlux) {
+    const SampleGrid grid{-1, 1, -pi, pi, 8, 8}, square{0, 1, -pi, pi, 8, 8};
+    SphereInSky result{std::vector<uint64_t>(grid.cells() + 1), std::vector<uint64_t>(square.cells() + 1), 0};
+    double flux = 0;
+    size_t hits = 0;
+    for (const EmittedParticle& p :
+         samplePhotons({makeConstant({1, 2, 3}, 2)}, {}, uniformNumbers(5 * sampleCount, 14))) {
+        const dvec3 toCentre = centre - p.position;
+        const double along = glm::dot(toCentre, p.direction),
+                     h2 = radius * radius - glm::dot(toCentre, toCentre) + along * along;
+        if (h2 <= 0) continue;
+        const dvec3 n = (p.position + (along - std::sqrt(h2)) * p.direction - centre) / radius;
+        const double cosine = -glm::dot(n, p.direction), phi = std::atan2(n.y, n.x);
+        ++result.points[grid.cell(std::min(std::max(n.z, -1.0), 1.0), phi)];
+        ++result.angles[square.cell(std::min(cosine * cosine, 1.0), phi)];
+        flux += p.flux.y / sampleCount;
+        ++hits;
+    }
+    const double share = double(hits) / sampleCount;
+    result.zScore = std::abs(flux / expectedFlux - 1) / std::sqrt((1 - share) / hits);
+    return result;
+}
+
+// In a uniform sky a sphere receives pi L everywhere, cosine-distributed, wherever it lies in the scene.
+TEST(ConstantEmitter, photonsLightASphereEvenly) {
+    for (const auto& [centre, radius] : {std::pair(dvec3(1, 2, 3), 2.0), {dvec3(1.5, 2.5, 2.5), 1.0}}) {
+        const double flux = pi * 4 * pi * radius * radius;
+        const SphereInSky lit = lightSphere(centre, radius, flux);
+        const std::vector<double> uniform(64, 1.0 / 64);
+        EXPECT_GT(chiSquaredPValue(lit.points, uniform), significanceLevel(statisticalTests));
+        EXPECT_GT(chiSquaredPValue(lit.angles, uniform), significanceLevel(statisticalTests));
+        // All photons meet a sphere as large as the scene: nothing is random then.
+        if (radius == 1) {
+            EXPECT_GT(normalPValue(lit.zScore), significanceLevel(statisticalTests));
+            EXPECT_LT(normalPValue(lightSphere(centre, radius, 1.05 * flux).zScore),
+                      significanceLevel(statisticalTests))
+                << "negative control: power wrong by 5 %";
+        }
+    }
 }
 
 /// One emitter of each kind, chosen with unequal probabilities.

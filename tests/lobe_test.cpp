@@ -169,7 +169,7 @@ TEST(Fresnel, conductorMatchesComplexAmplitudes) {
 
 TEST(DeltaLobes, haveNoDensityAndNoValue) {
     const dvec3 wo = outgoing(0.5), mirror(-wo.x, -wo.y, wo.z);
-    for (unsigned type : {LOBE_CONDUCTOR, LOBE_DIELECTRIC}) {
+    for (unsigned type : {LOBE_CONDUCTOR, LOBE_DIELECTRIC, LOBE_THINDIELECTRIC}) {
         const EvaluatedDirection value = evaluateLobe(makeLobe(type), {wo}, {mirror})[0];
         EXPECT_EQ(value.f, dvec3(0));
         EXPECT_EQ(value.pdf, 0);
@@ -241,6 +241,39 @@ TEST(Dielectric, reflectsTotallyBeyondTheCriticalAngleAndNeverWhereThereIsNoInte
 
 TEST(Dielectric, blackInterfaceEndsThePath) {
     shared::Lobe lobe = glass(1.5f);
+    lobe.reflectance = lobe.transmittance = {0, 0, 0};
+    for (const SampledDirection& s : sampleLobe(lobe, outgoing(0.5), extremeNumbers(3))) EXPECT_FALSE(s.valid);
+}
+
+/// Reflectance of a pane as the sum over the reflections between its two surfaces.
+double paneBySeries(double cosI, double eta) {
+    const double r = exactFresnel(cosI, eta);
+    double sum = r, term = (1 - r) * r * (1 - r);
+    for (int k = 0; k < 2000; ++k, term *= r * r) sum += term;
+    return sum;
+}
+
+TEST(ThinDielectric, sharesLightAsTheSeriesOfReflectionsAndDoesNotBendIt) {
+    shared::Lobe lobe = makeLobe(LOBE_THINDIELECTRIC);
+    lobe.reflectance = {0.5f, 0.5f, 0.5f};
+    for (float eta : {1.5f, 1.001f, 2.4f, 0.8f})
+        for (double cosine : {1.0, 0.9, 0.7, 0.1, 0.01}) {
+            lobe.eta = {eta, eta, eta};
+            const dvec3 wo = outgoing(cosine);
+            const double f = eta < 1 && wo.z < 0.6 ? 1 : paneBySeries(wo.z, double(eta));
+            const double probability = 0.5 * f / (0.5 * f + 1 - f);
+            EXPECT_NEAR(lobeAlbedos(lobe, {wo})[0].y, 0.5 * f + 1 - f, 1e-6);
+            for (int transport : {radiance, flux}) {
+                const SampledDirection reflected = sampleLobe(lobe, wo, {0, 0, 0}, transport)[0];
+                EXPECT_EQ(reflected.wi, dvec3(-wo.x, -wo.y, wo.z));
+                EXPECT_NEAR(reflected.weight.y * probability, 0.5 * f, 2e-6);
+                const SampledDirection passed = sampleLobe(lobe, wo, {1 - 0x1p-24f, 0, 0}, transport)[0];
+                if (f == 1) continue; // nothing passes
+                EXPECT_EQ(passed.wi, -wo);
+                EXPECT_NEAR(passed.weight.y * (1 - probability), 1 - f, 2e-6);
+                EXPECT_EQ(passed.pdf, 0);
+            }
+        }
     lobe.reflectance = lobe.transmittance = {0, 0, 0};
     for (const SampledDirection& s : sampleLobe(lobe, outgoing(0.5), extremeNumbers(3))) EXPECT_FALSE(s.valid);
 }

@@ -24,6 +24,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     }
     features.borders = !borders.segments.empty();
     features.depthLimit = scene.maxDepth >= 0;
+    features.orthographicCamera = scene.sensor.orthographic;
     return features;
 }
 

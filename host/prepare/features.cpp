@@ -11,7 +11,7 @@ namespace {
 #define LOBE_NAME(ID, argument) #ID,
 constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
 #undef LOBE_NAME
-constexpr std::array<const char*, 4> emitterNames = {"RECTANGLE", "TRIANGLES", "SPHERE", "POINT"};
+constexpr std::array<const char*, 5> emitterNames = {"RECTANGLE", "TRIANGLES", "SPHERE", "POINT", "CONSTANT"};
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -29,6 +29,7 @@ constexpr std::array flags = {
     Flag{&Features::cornerNormals, "HAS_CORNER_NORMALS", "vertex normals"},
     Flag{&Features::borders, "HAS_BORDERS", "surface borders"},
     Flag{&Features::depthLimit, "HAS_DEPTH_LIMIT", "path depth limit"},
+    Flag{&Features::orthographicCamera, "HAS_ORTHOGRAPHIC_CAMERA", "orthographic camera"},
     Flag{&Features::textures, "HAS_TEXTURES", "textures"},
 };
 

@@ -9,20 +9,40 @@ shared::Packed3 pack(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-} // namespace
-
-shared::Camera flattenCamera(const Sensor& sensor) {
+void placePerspective(const Sensor& sensor, shared::Camera& camera) {
     const glm::dmat3 rotation(sensor.toWorld);
     const glm::dvec3 left = glm::normalize(rotation[0]), up = glm::normalize(rotation[1]),
                      forward = glm::normalize(rotation[2]);
     const double halfWidth = std::tan(sensor.fovX / 2);
     const double step = 2 * halfWidth / sensor.width;
-    shared::Camera camera{};
     camera.origin = pack(glm::dvec3(sensor.toWorld[3]));
     camera.stepX = pack(-left * step);
     camera.stepY = pack(-up * step);
     camera.corner = pack(forward + left * halfWidth + up * (step * sensor.height / 2));
     camera.forward = pack(forward);
+}
+
+// Rays start on the near plane; as in Mitsuba a scale moves that plane, while the length of the rays is not scaled.
+void placeOrthographic(const Sensor& sensor, shared::Camera& camera) {
+    const glm::dmat3 axes(sensor.toWorld);
+    const glm::dvec3 left = axes[0], up = axes[1];
+    const double step = 2.0 / sensor.width;
+    camera.orthographic = 1;
+    camera.origin = pack(glm::dvec3(sensor.toWorld * glm::dvec4(0, 0, sensor.nearClip, 1)));
+    camera.stepX = pack(-left * step);
+    camera.stepY = pack(-up * step);
+    camera.corner = pack(left + up * (step * sensor.height / 2));
+    camera.forward = pack(glm::normalize(axes[2]));
+}
+
+} // namespace
+
+shared::Camera flattenCamera(const Sensor& sensor) {
+    shared::Camera camera{};
+    if (sensor.orthographic)
+        placeOrthographic(sensor, camera);
+    else
+        placePerspective(sensor, camera);
     camera.nearClip = static_cast<float>(sensor.nearClip);
     camera.farClip = static_cast<float>(sensor.farClip);
     camera.width = sensor.width;

@@ -1,4 +1,5 @@
-// Emitting shapes and points into the emitter table, with selection in proportion to power.
+// Emitting shapes, points and surroundings into the emitter table, with selection in proportion to power.
+#include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
 
 namespace quasilux {
@@ -54,6 +55,18 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
     return emitter;
 }
 
+// Its power, pi L by area on the sphere about the scene, is 4 pi^2 R^2 L = 4 pi L times the great disc.
+shared::Emitter constantEmitter(const ConstantEmitter& surroundings, const Sphere& bounds) {
+    shared::Emitter emitter{};
+    emitter.type = EMITTER_CONSTANT;
+    emitter.shape = QL_NONE;
+    emitter.radiance = surroundings.radiance;
+    emitter.origin = pack(bounds.center);
+    emitter.radius = bounds.radius;
+    emitter.area = static_cast<float>(pi * bounds.radius * bounds.radius);
+    return emitter;
+}
+
 void setSelection(EmitterTables& tables) {
     double total = 0;
     for (const double power : tables.power) total += power;
@@ -87,6 +100,11 @@ EmitterTables flattenEmitters(const Scene& scene) {
         tables.emitters.push_back(emitter);
         tables.power.push_back(4 * pi * mean(point.intensity));
         tables.ids.push_back(point.id);
+    }
+    if (scene.surroundings) { // last, where the kernels look for it
+        tables.emitters.push_back(constantEmitter(*scene.surroundings, boundingSphere(scene)));
+        tables.power.push_back(4 * pi * tables.emitters.back().area * mean(scene.surroundings->radiance));
+        tables.ids.push_back(scene.surroundings->id);
     }
     setSelection(tables);
     return tables;

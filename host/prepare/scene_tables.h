@@ -16,7 +16,8 @@ public:
     unsigned append(const std::vector<T>& records) {
         static_assert(sizeof(T) % sizeof(uint32_t) == 0);
         const auto first = static_cast<unsigned>(words_.size());
-        words_.insert(words_.end(), records.size() * (sizeof(T) / sizeof(uint32_t)), 0u);
+        constexpr size_t wordsPerRecord = sizeof(T) / 4;
+        words_.insert(words_.end(), records.size() * wordsPerRecord, 0u);
         if (!records.empty()) std::memcpy(words_.data() + first, records.data(), records.size() * sizeof(T));
         return first;
     }

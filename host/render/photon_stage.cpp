@@ -84,6 +84,7 @@ PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CL
     std::copy(radius.begin(), radius.end(), map_.radius);
     params_.pass = pass;
     PhotonPassCount total;
+    if (classes_ == 0) return total;
     uint64_t stored = 0;
     for (const auto& count : trace()) {
         stored += count.stored;

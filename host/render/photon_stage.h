@@ -27,6 +27,9 @@ public:
     /// is enlarged and the pass traced again, so none is lost.
     PhotonPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius);
 
+    /// Photons emitted in a pass: none where no path can use any class.
+    unsigned photonsPerPass() const { return classes_ == 0 ? 0 : params_.paths; }
+
     const Buffer<uint32_t>& cellStart() const { return cellStart_; }
     const Buffer<uint32_t>& sorted() const { return sorted_; }
     const shared::MapParams& map() const { return map_; }

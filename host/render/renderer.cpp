@@ -134,7 +134,7 @@ void Renderer::renderPass(unsigned pass) {
     s.device.finish();
 
     auto& counters = s.counters;
-    counters.photonsEmitted += s.report.photonsPerPass;
+    counters.photonsEmitted += s.photons.photonsPerPass();
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
         if (photons.stored[c] > 0) counters.photonsStored[componentName(c)] += photons.stored[c];
     counters.cameraPaths += uint64_t(s.flat.camera.width) * s.flat.camera.height;

@@ -90,11 +90,11 @@ void readSensors(const std::vector<const Element*>& sensors, LoadContext& contex
 void checkEmitters(const Scene& scene) {
     const bool emits = std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                    [](const auto& shape) { return shape.emitter.has_value(); });
-    if (!emits && scene.pointEmitters.empty())
+    if (!emits && scene.pointEmitters.empty() && !scene.surroundings)
         throw InputError(
             {scene.path},
             "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
-            "<emitter type=\"point\">.");
+            "<emitter type=\"point\"> or <emitter type=\"constant\">.");
 }
 
 } // namespace

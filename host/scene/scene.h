@@ -95,10 +95,18 @@ struct PointEmitter {
     Rgb intensity{}; ///< W sr^-1
 };
 
+/// Radiance that comes from everywhere outside of the scene, W sr^-1 m^-2.
+struct ConstantEmitter {
+    std::string id;
+    SourceLocation where;
+    Rgb radiance{};
+};
+
 struct Sensor {
     SourceLocation where;
-    glm::dmat4 toWorld{1.0}; ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
-    double fovX = 0;         ///< full horizontal angle, radians (fov_axis already resolved)
+    glm::dmat4 toWorld{1.0};   ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
+    bool orthographic = false; ///< parallel rays from local x in [-1, 1]; else perspective
+    double fovX = 0;           ///< perspective: full horizontal angle, radians (fov_axis already resolved)
     double nearClip = 1e-2, farClip = 1e4;
     unsigned width = 768, height = 576;
     unsigned filter = FILTER_GAUSSIAN;
@@ -121,6 +129,7 @@ struct Scene {
     std::vector<ShapeDescription> shapes;
     std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index
     std::vector<PointEmitter> pointEmitters;
+    std::optional<ConstantEmitter> surroundings;
     Sensor sensor;
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
     SceneSettings settings;

@@ -10,7 +10,8 @@
     X(GGX, argument)                                                                                                   \
     X(BECKMANN, argument)                                                                                              \
     X(CONDUCTOR, argument)                                                                                             \
-    X(DIELECTRIC, argument)
+    X(DIELECTRIC, argument)                                                                                            \
+    X(THINDIELECTRIC, argument)
 
 #define LOBE_ENUMERATOR(ID, argument) LOBE_##ID,
 enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };

@@ -13,7 +13,7 @@ using glm::dvec3;
 Program& program() {
     static Program built =
         testProgram("emitters.cl", "-DHAS_EMITTER_RECTANGLE -DHAS_EMITTER_TRIANGLES -DHAS_EMITTER_SPHERE "
-                                   "-DHAS_EMITTER_POINT");
+                                   "-DHAS_EMITTER_POINT -DHAS_EMITTER_CONSTANT");
     return built;
 }
 
@@ -60,6 +60,13 @@ shared::Emitter makeSphere(dvec3 centre, double radius, double normalSign) {
 }
 
 shared::Emitter makePoint(dvec3 position) { return makeEmitter(EMITTER_POINT, position); }
+
+shared::Emitter makeConstant(dvec3 centre, double radius) {
+    shared::Emitter emitter = makeEmitter(EMITTER_CONSTANT, centre);
+    emitter.radius = float(radius);
+    emitter.area = float(std::numbers::pi * radius * radius);
+    return emitter;
+}
 
 std::pair<shared::Emitter, std::vector<shared::EmitterTriangle>> makeTriangles(const std::vector<TriangleSpec>& specs) {
     shared::Emitter emitter = makeEmitter(EMITTER_TRIANGLES, {});

@@ -12,6 +12,8 @@ namespace quasilux {
 shared::Emitter makeRectangle(glm::dvec3 corner, glm::dvec3 edgeU, glm::dvec3 edgeV);
 shared::Emitter makeSphere(glm::dvec3 centre, double radius, double normalSign);
 shared::Emitter makePoint(glm::dvec3 position);
+/// Surroundings of a scene within this sphere.
+shared::Emitter makeConstant(glm::dvec3 centre, double radius);
 
 struct TriangleSpec {
     glm::dvec3 p0, e1, e2;

@@ -28,6 +28,7 @@ int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
     X(conductor, readConductor)                                                                                        \
     X(roughconductor, readRoughConductor)                                                                              \
     X(dielectric, readDielectric)                                                                                      \
+    X(thindielectric, readThinDielectric)                                                                              \
     X(blendbsdf, readBlend)                                                                                            \
     X(twosided, readTwoSided)                                                                                          \
     X(null, readNull)
@@ -45,6 +46,9 @@ double phongHalfWidth(double exponent);
 /// Twice the tilt of the microfacets within which half of D(h) cos lies; the lobe moves by twice the facet's tilt.
 double ggxHalfWidth(double alpha);      ///< tan² = alpha²
 double beckmannHalfWidth(double alpha); ///< tan² = alpha² ln 2
+
+/// Index of refraction `name`: a number, or a material of Mitsuba's list.
+double readRefractiveIndex(Properties& properties, const std::string& name, const std::string& missing);
 
 /// eta and k of <bsdf type="conductor|roughconductor">: `material`, or `eta` and `k`. Without Fresnel reflection
 /// (material "none") they are 0 and 1, which makes the Fresnel factor |(eta - 1 - ik)/(eta + 1 - ik)|² exactly 1.

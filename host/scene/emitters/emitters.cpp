@@ -21,6 +21,7 @@ struct SceneEmitterPlugin {
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"point", readPoint},
+    {"constant", readConstant},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {

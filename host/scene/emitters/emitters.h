@@ -11,6 +11,7 @@ AreaEmitter readShapeEmitter(const Element& element, LoadContext& context);
 void readSceneEmitter(const Element& element, LoadContext& context);
 
 AreaEmitter readArea(Properties& properties);
+void readConstant(Properties& properties);
 void readPoint(Properties& properties);
 
 } // namespace quasilux

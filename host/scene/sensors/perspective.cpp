@@ -60,33 +60,12 @@ glm::dmat4 readPlacement(Properties& properties) {
 
 } // namespace
 
-Sensor readSensor(const Element& element, LoadContext& context) {
-    const Names known = {"perspective"};
-    if (element.get("type") != "perspective")
-        throw InputError(element.where, fmt::format("unknown sensor plugin '{}'.{}", element.get("type"),
-                                                    knownNames(element.get("type"), known)));
-    Properties properties(element, context);
-    Sensor sensor;
-    sensor.where = element.where;
-    if (const Element* film = properties.object("film")) readFilm(*film, context, sensor);
-    if (const Element* sampler = properties.object("sampler")) readSampler(*sampler, context);
+void readPerspective(Properties& properties, Sensor& sensor) {
     sensor.fovX = readFieldOfView(properties, static_cast<double>(sensor.width) / sensor.height);
     sensor.toWorld = readPlacement(properties);
-    sensor.nearClip = properties.numberAbove("near_clip", sensor.nearClip, 0, true);
-    sensor.farClip = properties.numberAbove("far_clip", sensor.farClip, sensor.nearClip, true);
     for (const char* name : {"principal_point_offset_x", "principal_point_offset_y"})
         if (properties.number(name, 0) != 0)
             properties.refuse(name, "the view must be centred; crop a larger image instead");
-    properties.finish();
-    return sensor;
-}
-
-void readSampler(const Element& element, LoadContext& context) {
-    Properties properties(element, context);
-    const Names known = {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"};
-    if (std::find(known.begin(), known.end(), properties.plugin()) == known.end())
-        throw InputError(element.where, fmt::format("unknown sampler plugin '{}'.{}", properties.plugin(),
-                                                    knownNames(properties.plugin(), known)));
 }
 
 } // namespace quasilux

@@ -1,12 +1,16 @@
-// Reading of the sensor and its film.
+// Reading of the sensor and its film. A new plugin is one file here and one line in the table of sensors.cpp.
 #pragma once
 
 #include "scene/properties.h"
 
 namespace quasilux {
 
-/// Reads <sensor> with its film. Throws InputError for anything but a perspective camera with an hdrfilm.
+/// Reads <sensor> with its film. Throws InputError for unknown plugins, parameters and films.
 Sensor readSensor(const Element& element, LoadContext& context);
+
+/// What each plugin has of its own; size of the film and clipping planes are known already.
+void readPerspective(Properties& properties, Sensor& sensor);
+void readOrthographic(Properties& properties, Sensor& sensor);
 
 /// Size and reconstruction filter.
 void readFilm(const Element& element, LoadContext& context, Sensor& sensor);

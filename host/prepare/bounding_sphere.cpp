@@ -1,0 +1,37 @@
+#include "prepare/bounding_sphere.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace quasilux {
+
+namespace {
+
+template <typename Visit>
+void forEachBall(const Scene& scene, Visit visit) {
+    for (const auto& shape : scene.shapes) {
+        if (shape.sphere) visit(glm::dvec3(shape.sphere->center), std::abs(double(shape.sphere->radius)));
+        for (const auto& position : shape.mesh.positions) visit(glm::dvec3(position), 0.0);
+    }
+}
+
+} // namespace
+
+Sphere boundingSphere(const Scene& scene) {
+    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+    forEachBall(scene, [&](const glm::dvec3& center, double radius) {
+        lower = glm::min(lower, center - radius);
+        upper = glm::max(upper, center + radius);
+    });
+    if (!(lower.x <= upper.x)) return {glm::vec3(0), 1};
+    Sphere sphere{glm::vec3(0.5 * (lower + upper)), 0};
+    double reach = 0;
+    forEachBall(scene, [&](const glm::dvec3& center, double radius) {
+        reach = std::max(reach, glm::length(center - glm::dvec3(sphere.center)) + radius);
+    });
+    const double rounding = 1e-6 * (glm::length(glm::dvec3(sphere.center)) + reach);
+    sphere.radius = reach > 0 ? static_cast<float>(reach + rounding) : 1;
+    return sphere;
+}
+
+} // namespace quasilux

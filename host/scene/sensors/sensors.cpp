@@ -1,0 +1,54 @@
+// The table of sensor plugins, and what all of them have: film, sampler, clipping planes.
+#include "scene/sensors/sensors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+struct SensorPlugin {
+    std::string_view name;
+    void (*read)(Properties&, Sensor&);
+};
+constexpr SensorPlugin sensorPlugins[] = {
+    {"perspective", readPerspective},
+    {"orthographic", readOrthographic},
+};
+
+const SensorPlugin& findPlugin(const Element& element) {
+    const std::string& plugin = element.get("type");
+    Names known;
+    for (const SensorPlugin& entry : sensorPlugins) {
+        if (entry.name == plugin) return entry;
+        known.push_back(entry.name);
+    }
+    throw InputError(element.where, fmt::format("unknown sensor plugin '{}'.{}", plugin, knownNames(plugin, known)));
+}
+
+} // namespace
+
+Sensor readSensor(const Element& element, LoadContext& context) {
+    const SensorPlugin& plugin = findPlugin(element);
+    Properties properties(element, context);
+    Sensor sensor;
+    sensor.where = element.where;
+    if (const Element* film = properties.object("film")) readFilm(*film, context, sensor);
+    if (const Element* sampler = properties.object("sampler")) readSampler(*sampler, context);
+    sensor.nearClip = properties.numberAbove("near_clip", sensor.nearClip, 0, true);
+    sensor.farClip = properties.numberAbove("far_clip", sensor.farClip, sensor.nearClip, true);
+    plugin.read(properties, sensor);
+    properties.finish();
+    return sensor;
+}
+
+void readSampler(const Element& element, LoadContext& context) {
+    Properties properties(element, context);
+    const Names known = {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"};
+    if (std::find(known.begin(), known.end(), properties.plugin()) == known.end())
+        throw InputError(element.where, fmt::format("unknown sampler plugin '{}'.{}", properties.plugin(),
+                                                    knownNames(properties.plugin(), known)));
+}
+
+} // namespace quasilux
