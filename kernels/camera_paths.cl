@@ -73,12 +73,12 @@ inline float3 takePhotons(const World* world, const CameraPath* path, const Surf
     if (classIsEmpty(world->photons, lightClass)) return 0;
     const DensityRegion region = densityRegionAt(s, params->map.radius[lightClass], world->tables, &params->scene);
     if (!(region.kernelIntegral > 0)) return 0;
-    DirectionalLobes directional = {lobes, 0, *frame, wo};
+    DirectionalLobes directional = {lobes, 0, *frame, wo, s};
     float3 lambert = 0; /* BRDF of the Lambert lobes together */
     for (uint k = 0; k < s->lobeCount; ++k) {
         if (!(mask >> k & 1)) continue;
         if (lobes[k].type == LOBE_LAMBERT)
-            lambert += loadRgb(lobes[k].reflectance) * M_1_PI_F;
+            lambert += tintedLambert(s, lobes, k);
         else
             directional.mask |= 1u << k;
     }
@@ -98,7 +98,7 @@ inline LobeChoice chooseProbabilities(const CameraPath* path, const Surface* s, 
 #ifdef DIRECT_BY_EMITTERS
         goesOn = goesOn || (directMask >> k & 1 && lobeSharesDirect(lobes + k));
 #endif
-        choice.probability[k] = goesOn ? maxComponent(path->throughput * lobeAlbedo(lobes + k, wo)) : 0.f;
+        choice.probability[k] = goesOn ? maxComponent(path->throughput * tintedAlbedo(s, lobes, k, wo)) : 0.f;
     }
     choiceFromStrengths(&choice, s->lobeCount, CAMERA_ROULETTE_THRESHOLD);
     return choice;
@@ -134,7 +134,7 @@ inline int scatterCameraPath(const World* world, CameraPath* path, const Surface
     const uint k = chooseLobe(choice, s->lobeCount, rngNext(rng), &rest);
     if (k == s->lobeCount) return 0;
     __global const Lobe* lobe = lobes + k;
-    const LobeSample sample = lobeSample(lobe, wo, rest, rngNext2(rng), TRANSPORT_RADIANCE);
+    const LobeSample sample = tintedSample(s, lobes, k, wo, rest, rngNext2(rng), TRANSPORT_RADIANCE);
     if (!sample.valid) return 0;
     const float3 wi = toWorld(frame, sample.wi);
     if (!sameSides(s, wi, sample.wi.z)) return 0;

@@ -12,6 +12,7 @@ namespace quasilux::shared {
 typedef struct {
     unsigned int primitives, shapes, cornerNormals;
     unsigned int materials, lobes;
+    unsigned int textures, texels, uvs;
     unsigned int emitters, emitterTriangles, emitterCount;
     unsigned int segments, borderCells, borderItems;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */

@@ -56,12 +56,12 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     const float3 wo = toLocal(&frame, -path->direction);
     LobeChoice choice;
     for (uint k = 0; k < s->lobeCount; ++k)
-        choice.probability[k] = maxComponent(path->flux * lobeAlbedo(lobes + k, wo)) / path->referenceFlux;
+        choice.probability[k] = maxComponent(path->flux * tintedAlbedo(s, lobes, k, wo)) / path->referenceFlux;
     choiceFromStrengths(&choice, s->lobeCount, PHOTON_ROULETTE_THRESHOLD);
     float rest;
     const uint k = chooseLobe(&choice, s->lobeCount, u.x, &rest);
     if (k == s->lobeCount) return 0;
-    const LobeSample sample = lobeSample(lobes + k, wo, rest, u.yz, TRANSPORT_FLUX);
+    const LobeSample sample = tintedSample(s, lobes, k, wo, rest, u.yz, TRANSPORT_FLUX);
     if (!sample.valid) return 0;
     const float3 wi = toWorld(&frame, sample.wi);
     if (!sameSides(s, wi, sample.wi.z)) return 0;

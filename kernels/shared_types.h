@@ -58,6 +58,8 @@ typedef struct {
     unsigned int firstPrimitive; /* primitives of a shape are consecutive */
     unsigned int firstNormal;    /* index of its first corner normal (3 per triangle), or QL_NONE: flat */
     float normalSign;            /* -1 where `flip_normals` is set */
+    unsigned int firstUv; /* word in the uv table, or QL_NONE: no textures. Mesh: u, v by corner, 6 words a triangle;
+                             sphere: the rows of the rotation from the world to its own axes, 9 words */
 } Shape;
 
 /* A straight piece of a border of a surface patch: free edge, crease, or curve where another surface cuts it.
@@ -84,6 +86,7 @@ typedef struct {
     Rgb k;                   /* imaginary part */
     float alphaU, alphaV;    /* microfacet roughness */
     float exponent;          /* Phong */
+    unsigned int reflectanceTexture, transmittanceTexture; /* 1 + index of the Texture that multiplies it; 0: none */
 } Lobe;
 
 #define MATERIAL_NULL 1u
@@ -93,6 +96,25 @@ typedef struct {
     unsigned int backFirst, backCount;
     unsigned int flags;
 } Material;
+
+/* ---- textures: factors of reflectance that vary over a surface --------------------------------------------------- */
+
+#define TEXTURE_CHECKERBOARD 0u
+#define TEXTURE_BITMAP 1u
+#define TEXTURE_NEAREST 0u /* filter */
+#define TEXTURE_BILINEAR 1u
+#define WRAP_REPEAT 0u
+#define WRAP_MIRROR 1u
+#define WRAP_CLAMP 2u
+
+typedef struct {
+    unsigned int type;          /* TEXTURE_* */
+    float toU[3], toV[3];       /* looked up at (toU . (u, v, 1), toV . (u, v, 1)) */
+    Rgb color0, color1;         /* checkerboard: of the square at the origin, of its neighbours */
+    unsigned int filter, wrap;  /* bitmap */
+    unsigned int width, height; /* bitmap, pixels */
+    unsigned int firstTexel;    /* bitmap: rows from v = 0 on, each from u = 0 on */
+} Texture;
 
 /* ---- emitters ------------------------------------------------------------------------------------------------- */
 

@@ -14,6 +14,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.genuineDiffuse |= lobe.scattering == SCATTER_GENUINE_DIFFUSE;
         features.quasiSpecular |= lobe.scattering == SCATTER_QUASI_SPECULAR;
         features.specular |= lobe.scattering == SCATTER_SPECULAR;
+        features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0;
     }
     for (const auto& emitter : emitters.emitters) features.emitterTypes.insert(emitter.type);
     for (const auto& shape : scene.shapes) {
@@ -68,6 +69,10 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.cornerNormals = tables.append(flattenCornerNormals(scene));
     out.offsets.materials = tables.append(materials.materials);
     out.offsets.lobes = tables.append(materials.lobes);
+    const auto textures = flattenTextures(scene, materials.lobes);
+    out.offsets.textures = tables.append(textures.textures);
+    out.offsets.texels = tables.append(textures.texels);
+    out.offsets.uvs = tables.append(flattenUvs(scene));
     out.offsets.emitters = tables.append(out.emitters.emitters);
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
     out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());

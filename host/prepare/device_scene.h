@@ -51,6 +51,15 @@ struct MaterialTables {
     std::vector<shared::Lobe> lobes;
 };
 MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecision>& split);
+struct TextureTables {
+    std::vector<shared::Texture> textures;
+    std::vector<Rgb> texels;
+};
+/// Only textures that `lobes` use bring texels.
+TextureTables flattenTextures(const Scene& scene, const std::vector<shared::Lobe>& lobes);
+/// Words of a textured shape in the table of flattenUvs; 0 for others.
+unsigned uvWords(const Scene& scene, const ShapeDescription& shape);
+std::vector<float> flattenUvs(const Scene& scene);
 EmitterTables flattenEmitters(const Scene& scene);
 shared::Camera flattenCamera(const Sensor& sensor);
 double scatteringArea(const Scene& scene);

@@ -30,6 +30,7 @@ constexpr std::array flags = {
     Flag{&Features::borders, "HAS_BORDERS", "surface borders"},
     Flag{&Features::depthLimit, "HAS_DEPTH_LIMIT", "path depth limit"},
     Flag{&Features::orthographicCamera, "HAS_ORTHOGRAPHIC_CAMERA", "orthographic camera"},
+    Flag{&Features::textures, "HAS_TEXTURES", "textures"},
 };
 
 } // namespace

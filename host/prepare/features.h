@@ -13,7 +13,7 @@ struct Features {
     std::set<unsigned> lobes;        ///< LOBE_* in use
     std::set<unsigned> emitterTypes; ///< EMITTER_* in use
     bool spheres = false, nullPrimitives = false, cornerNormals = false, borders = false, depthLimit = false,
-         orthographicCamera = false;
+         orthographicCamera = false, textures = false;
     bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering present
 
     /// Compiler options, such as "-DHAS_LOBE_PHONG -DHAS_BORDERS".

@@ -47,7 +47,7 @@ std::vector<shared::PrimitiveInfo> flattenPrimitiveInfo(const Scene& scene, cons
 
 std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<unsigned>& emitterOfShape) {
     std::vector<shared::Shape> records;
-    unsigned primitive = 0, normal = 0;
+    unsigned primitive = 0, normal = 0, uv = 0;
     for (size_t k = 0; k < scene.shapes.size(); ++k) {
         const auto& shape = scene.shapes[k];
         shared::Shape record{};
@@ -56,7 +56,9 @@ std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<u
         record.firstPrimitive = primitive;
         record.firstNormal = shape.mesh.cornerNormals.empty() ? QL_NONE : normal;
         record.normalSign = shape.flipNormals ? -1.f : 1.f;
+        record.firstUv = uvWords(scene, shape) == 0 ? QL_NONE : uv;
         records.push_back(record);
+        uv += uvWords(scene, shape);
         primitive += primitiveCount(shape);
         normal += static_cast<unsigned>(shape.mesh.cornerNormals.size());
     }

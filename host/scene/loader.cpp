@@ -6,6 +6,7 @@
 #include "scene/sensors/sensors.h"
 #include "scene/settings.h"
 #include "scene/shapes/shape_plugin.h"
+#include "scene/textures/texture_plugin.h"
 #include "scene/xml/numbers.h"
 #include "scene/xml/xml_document.h"
 
@@ -40,12 +41,12 @@ void readObject(const Element& object, LoadContext& context, std::vector<const E
         sensors.push_back(&object);
     else if (object.tag == "integrator")
         integrators.push_back(&object);
-    else if (object.tag == "bsdf")
-        return; // read where a shape uses it
+    else if (object.tag == "bsdf" || object.tag == "texture")
+        return; // read where a shape or a bsdf uses it
     else
         throw InputError(object.where,
-                         fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, emitter, sensor or "
-                                     "integrator.",
+                         fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, texture, emitter, "
+                                     "sensor or integrator.",
                                      object.tag));
 }
 
@@ -56,6 +57,15 @@ void checkUnusedBsdfs(const Element& root, LoadContext& context, const std::vect
         readBsdfLobes(element, context);
         if (std::find(nested.begin(), nested.end(), &element) == nested.end())
             context.warn(element.where, fmt::format("bsdf '{}' is used by no shape.", idOf(element)));
+    }
+}
+
+/// Textures that no bsdf uses, likewise.
+void checkUnusedTextures(const Element& root, LoadContext& context) {
+    for (const Element& element : root.children) {
+        if (element.tag != "texture" || context.textureIndex.count(&element)) continue;
+        readTexture(element, context);
+        context.warn(element.where, fmt::format("texture '{}' is used by no bsdf.", idOf(element)));
     }
 }
 
@@ -101,6 +111,7 @@ Scene loadScene(const std::string& path, const std::vector<std::pair<std::string
     for (const Element& child : root.children) readObject(child, context, sensors, integrators);
     collectNested(root, context, nestedBsdfs);
     checkUnusedBsdfs(root, context, nestedBsdfs);
+    checkUnusedTextures(root, context);
     readSensors(sensors, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
     if (!integrators.empty()) scene.maxDepth = readMaxDepth(*integrators[0], context);

@@ -152,6 +152,21 @@ const Element* Properties::object(const std::string& tag) {
     return found.empty() ? nullptr : found[0];
 }
 
+const Element* Properties::texture(const std::string& name) {
+    knownTextures_.insert(name);
+    const Element* found = nullptr;
+    for (const Element* object : objects_) {
+        const Element& target = context_.resolve(*object);
+        if (target.tag != "texture" || object->get("name") != name) continue;
+        const Element* before = found ? found : find(name);
+        if (before)
+            throw InputError(object->where, fmt::format("parameter '{}' is given twice (first at {}); keep one.", name,
+                                                        before->where.text()));
+        found = &target;
+    }
+    return found;
+}
+
 void Properties::accept(const Names& names) { knownNames_.insert(names.begin(), names.end()); }
 
 void Properties::refuse(const std::string& name, const std::string& why) {
@@ -161,7 +176,18 @@ void Properties::refuse(const std::string& name, const std::string& why) {
 
 void Properties::acceptAll() {
     for (const auto& entry : parameters_) knownNames_.insert(entry.first);
-    for (const Element* object : objects_) knownTags_.insert(context_.resolve(*object).tag);
+    for (const Element* object : objects_) {
+        knownTags_.insert(context_.resolve(*object).tag);
+        knownTextures_.insert(object->get("name"));
+    }
+}
+
+void Properties::failTexture(const Element& texture) const {
+    const std::string& name = texture.get("name");
+    const Names known(knownTextures_.begin(), knownTextures_.end());
+    throw InputError(texture.where, fmt::format("{} takes no texture {}. Parameters of it that may be textures: {}.",
+                                                describe(), name.empty() ? "without a name" : "as '" + name + "'",
+                                                known.empty() ? "none" : joinNames(known)));
 }
 
 void Properties::finish() const {
@@ -170,6 +196,10 @@ void Properties::finish() const {
         const TagKind kind = tagOf(child).kind;
         if (kind == TagKind::object || kind == TagKind::reference) {
             const Element& target = context_.resolve(child);
+            if (target.tag == "texture") {
+                if (!knownTextures_.count(name)) failTexture(child);
+                continue;
+            }
             if (knownTags_.count(target.tag)) continue;
             const Names tags(knownTags_.begin(), knownTags_.end());
             throw InputError(child.where, fmt::format("{} takes no <{}>. Objects that it takes: {}.", describe(),

@@ -48,6 +48,10 @@ public:
     /// At most one such object, or nullptr.
     const Element* object(const std::string& tag);
 
+    /// The <texture> that gives this parameter, nested or referenced, or nullptr. Throws InputError where the parameter
+    /// is given as a value too.
+    const Element* texture(const std::string& name);
+
     /// The parameter's element or nullptr; marks it as used.
     const Element* find(const std::string& name);
     /// Known to Mitsuba and without effect here.
@@ -61,12 +65,13 @@ public:
 
 private:
     const Element* find(const std::string& name, const Names& tags);
+    [[noreturn]] void failTexture(const Element& texture) const;
 
     const Element& element_;
     LoadContext& context_;
     std::map<std::string, const Element*> parameters_;
     std::vector<const Element*> objects_; ///< nested objects and references, as written
-    std::set<std::string> knownNames_, knownTags_;
+    std::set<std::string> knownNames_, knownTags_, knownTextures_;
 };
 
 } // namespace quasilux

@@ -40,6 +40,9 @@ struct Bsdf {
     std::vector<LobeDescription> front; ///< lobes seen from the side of the normal
     std::vector<LobeDescription> back;  ///< lobes seen from behind; empty = black (one-sided)
     bool isNull = false;
+
+    /// Whether any lobe has a texture.
+    bool isTextured() const;
 };
 
 /// Radiance that a shape emits on the side of its normal, W sr^-1 m^-2.
@@ -48,15 +51,24 @@ struct AreaEmitter {
     SourceLocation where;
 };
 
+/// A factor of reflectance over a surface, in [0, 1].
+struct TextureDescription {
+    shared::Texture device{};
+    std::vector<Rgb> texels; ///< bitmap: row by row from v = 0 on, linear
+    SourceLocation where;
+};
+
 struct Mesh {
     std::vector<glm::vec3> positions;     ///< world space
     std::vector<glm::uvec3> triangles;    ///< indices into positions; counter-clockwise seen from the normal's side
     std::vector<glm::vec3> cornerNormals; ///< 3 per triangle, unit; empty = flat. flip_normals is already applied
+    std::vector<glm::vec2> cornerUvs;     ///< 3 per triangle; empty = the mesh has none
 };
 
 struct Sphere {
     glm::vec3 center{};
     float radius = 0;
+    glm::mat3 toLocal{1.f}; ///< rotation (and mirroring) from the world to its own axes, for texture coordinates
 };
 
 /// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides, unit normal.
@@ -115,6 +127,7 @@ struct Scene {
     std::string path;
     std::vector<Bsdf> bsdfs;
     std::vector<ShapeDescription> shapes;
+    std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index
     std::vector<PointEmitter> pointEmitters;
     std::optional<ConstantEmitter> surroundings;
     Sensor sensor;

@@ -65,7 +65,7 @@ __kernel void estimate(__global const uint* tables, __global const uint* cellSta
     if (i >= count) return;
     const Surface s = surfaceOf(queries + i, tables, &scene);
     const PhotonMap photons = {sorted, cellStart, &map};
-    DirectionalLobes none = {0, 0, frameFromNormal(s.geometricNormal), (float3)(0, 0, 1)};
+    DirectionalLobes none = {0, 0, frameFromNormal(s.geometricNormal), (float3)(0, 0, 1), &s};
     DensityRegion region = densityRegionAt(&s, queries[i].radius, tables, &scene);
     const float3 inRegion =
         gatherPhotons(photons, LIGHT_DIFFUSE, &region, s.patch << 1 | s.front, QL_NONE, &none).irradiance;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/properties.h"
+#include "scene/textures/texture_plugin.h"
 
 namespace quasilux {
 
@@ -37,7 +38,7 @@ QUASILUX_BSDF_PLUGINS(QUASILUX_DECLARE_BSDF)
 #undef QUASILUX_DECLARE_BSDF
 
 /// A lobe of type LOBE_* with everything else zero. `halfWidth` in radians.
-LobeDescription makeLobe(unsigned type, const std::string& name, Rgb reflectance, double halfWidth);
+LobeDescription makeLobe(unsigned type, const std::string& name, const Reflectance& reflectance, double halfWidth);
 
 constexpr double lambertHalfWidth = 0.78539816339744831; ///< cos² = 1/2
 /// Half the energy of cos^n about the mirror direction: cos^(n+1) = 1/2.

@@ -80,7 +80,7 @@ int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context) {
     if (index >= 0) return index;
     const float reflectance = emits ? 0.0f : 0.5f;
     BsdfLobes lobes;
-    lobes.front = {makeLobe(LOBE_LAMBERT, "diffuse", {reflectance, reflectance, reflectance}, lambertHalfWidth)};
+    lobes.front = {makeLobe(LOBE_LAMBERT, "diffuse", Rgb{reflectance, reflectance, reflectance}, lambertHalfWidth)};
     index = addBsdf(std::move(lobes), emits ? "default (emitters)" : "default", "diffuse", shape.where, context.scene);
     return index;
 }

@@ -4,7 +4,8 @@
 namespace quasilux {
 
 BsdfLobes readConductor(Properties& properties) {
-    LobeDescription lobe = makeLobe(LOBE_CONDUCTOR, "specular", properties.reflectance("specular_reflectance", 1), 0);
+    LobeDescription lobe =
+        makeLobe(LOBE_CONDUCTOR, "specular", readReflectance(properties, "specular_reflectance", 1), 0);
     lobe.device.scattering = SCATTER_SPECULAR;
     readConductorIndex(properties, lobe.device);
     BsdfLobes lobes;

@@ -6,8 +6,11 @@ namespace quasilux {
 BsdfLobes readDielectric(Properties& properties) {
     const double inside = readRefractiveIndex(properties, "int_ior", "bk7");
     const double outside = readRefractiveIndex(properties, "ext_ior", "air");
-    LobeDescription lobe = makeLobe(LOBE_DIELECTRIC, "specular", properties.reflectance("specular_reflectance", 1), 0);
-    lobe.device.transmittance = properties.reflectance("specular_transmittance", 1);
+    LobeDescription lobe =
+        makeLobe(LOBE_DIELECTRIC, "specular", readReflectance(properties, "specular_reflectance", 1), 0);
+    const Reflectance transmittance = readReflectance(properties, "specular_transmittance", 1);
+    lobe.device.transmittance = transmittance.scale;
+    lobe.device.transmittanceTexture = transmittance.texture;
     lobe.device.scattering = SCATTER_SPECULAR;
     if (inside == outside)
         properties.context().warn(

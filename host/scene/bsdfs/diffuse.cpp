@@ -6,7 +6,7 @@ namespace quasilux {
 BsdfLobes readDiffuse(Properties& properties) {
     BsdfLobes lobes;
     lobes.front.push_back(
-        makeLobe(LOBE_LAMBERT, "diffuse", properties.reflectance("reflectance", 0.5f), lambertHalfWidth));
+        makeLobe(LOBE_LAMBERT, "diffuse", readReflectance(properties, "reflectance", 0.5f), lambertHalfWidth));
     return lobes;
 }
 

@@ -29,7 +29,7 @@ BsdfLobes readRoughConductor(Properties& properties) {
     const float alpha = readAlpha(properties, "alpha", 0.1);
     const bool ggx = properties.choice("distribution", "beckmann", {"beckmann", "ggx"}) == "ggx";
     LobeDescription lobe =
-        makeLobe(ggx ? LOBE_GGX : LOBE_BECKMANN, "specular", properties.reflectance("specular_reflectance", 1), 0);
+        makeLobe(ggx ? LOBE_GGX : LOBE_BECKMANN, "specular", readReflectance(properties, "specular_reflectance", 1), 0);
     lobe.device.alphaU = readAlpha(properties, "alpha_u", alpha);
     lobe.device.alphaV = readAlpha(properties, "alpha_v", alpha);
     const double widest = std::max(lobe.device.alphaU, lobe.device.alphaV);

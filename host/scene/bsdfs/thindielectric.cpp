@@ -7,8 +7,10 @@ BsdfLobes readThinDielectric(Properties& properties) {
     const double inside = readRefractiveIndex(properties, "int_ior", "bk7");
     const double outside = readRefractiveIndex(properties, "ext_ior", "air");
     LobeDescription lobe =
-        makeLobe(LOBE_THINDIELECTRIC, "specular", properties.reflectance("specular_reflectance", 1), 0);
-    lobe.device.transmittance = properties.reflectance("specular_transmittance", 1);
+        makeLobe(LOBE_THINDIELECTRIC, "specular", readReflectance(properties, "specular_reflectance", 1), 0);
+    const Reflectance transmittance = readReflectance(properties, "specular_transmittance", 1);
+    lobe.device.transmittance = transmittance.scale;
+    lobe.device.transmittanceTexture = transmittance.texture;
     lobe.device.scattering = SCATTER_SPECULAR;
     const float eta = static_cast<float>(inside / outside);
     lobe.device.eta = {eta, eta, eta};

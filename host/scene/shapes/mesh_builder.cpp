@@ -89,15 +89,26 @@ bool areFlat(const std::vector<Normals>& normals, const MeshSource& source, cons
     return true;
 }
 
+bool everyCornerHasUv(const MeshSource& source) {
+    for (const auto& triangle : source.triangles)
+        for (const MeshSource::Corner& corner : triangle)
+            if (corner.uv == QL_NONE) return false;
+    return true;
+}
+
 } // namespace
 
 Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
-              const glm::dmat4& toWorld, bool flipNormals, const SourceLocation& where) {
+              const std::vector<glm::vec2>& uvs, const glm::dmat4& toWorld, bool flipNormals,
+              const SourceLocation& where) {
     Mesh mesh;
     for (const glm::dvec3& position : positions)
         mesh.positions.push_back(toSingle(transformPoint(toWorld, position), where));
     const bool reversed = (glm::determinant(glm::dmat3(toWorld)) < 0) != flipNormals;
     for (const glm::uvec3& t : triangles) mesh.triangles.push_back(reversed ? glm::uvec3(t.x, t.z, t.y) : t);
+    mesh.cornerUvs = uvs;
+    for (size_t t = 0; reversed && t < triangles.size(); ++t)
+        std::swap(mesh.cornerUvs[3 * t + 1], mesh.cornerUvs[3 * t + 2]);
     return mesh;
 }
 
@@ -113,6 +124,8 @@ Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNorm
     if (!faceNormals) normals = fromFile ? transformNormals(source, world, toWorld) : computeNormals(source, world);
     const bool keepNormals = !faceNormals && !areFlat(normals, source, world);
 
+    const bool hasUvs = everyCornerHasUv(source);
+
     for (size_t t = 0; t < source.triangles.size(); ++t) {
         const auto& corner = source.triangles[t];
         bool reversed = flipNormals;
@@ -122,6 +135,8 @@ Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNorm
         }
         const size_t second = reversed ? 2 : 1, third = reversed ? 1 : 2;
         mesh.triangles.emplace_back(corner[0].position, corner[second].position, corner[third].position);
+        for (size_t i : {size_t(0), second, third})
+            if (hasUvs) mesh.cornerUvs.emplace_back(source.uvs[corner[i].uv]);
         if (!keepNormals) continue;
         const double sign = flipNormals ? -1 : 1;
         for (size_t i : {size_t(0), second, third}) mesh.cornerNormals.emplace_back(sign * normals[t][i]);

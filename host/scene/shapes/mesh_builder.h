@@ -13,20 +13,24 @@ struct MeshSource {
     struct Corner {
         unsigned position = 0;
         unsigned normal = QL_NONE; ///< QL_NONE: the file gives none
+        unsigned uv = QL_NONE;     ///< likewise
         uint64_t vertex = 0;       ///< corners of the same vertex share a computed normal
     };
     std::vector<glm::dvec3> positions, normals;
+    std::vector<glm::dvec2> uvs;
     std::vector<std::array<Corner, 3>> triangles;
 };
 
 /// Built-in shapes with flat faces: `triangles` are counter-clockwise seen from the side of the normal, and stay so
-/// under mirroring (normals go by the inverse transpose).
+/// under mirroring (normals go by the inverse transpose). `uvs` are texture coordinates, 3 per triangle.
 Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
-              const glm::dmat4& toWorld, bool flipNormals, const SourceLocation& where);
+              const std::vector<glm::vec2>& uvs, const glm::dmat4& toWorld, bool flipNormals,
+              const SourceLocation& where);
 
 /// Meshes of files, with the corner normals of Mitsuba 3: those of the file; where it has none at all, means over the
 /// faces at a vertex, weighted by angle; flat where `faceNormals`. Flat faces and computed normals follow the winding
 /// after the transform; normals of the file go by the inverse transpose and the winding is made to agree with them.
+/// Texture coordinates are kept where every corner has some.
 Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNormals, bool faceNormals,
               const SourceLocation& where);
 

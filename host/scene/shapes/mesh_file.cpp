@@ -6,7 +6,7 @@
 
 namespace quasilux {
 
-MeshFile readMeshFile(Properties& properties) {
+MeshFile readMeshFile(Properties& properties, bool flipsTexCoords) {
     const std::string name = properties.string("filename", "");
     if (name.empty())
         throw InputError(properties.where("filename"),
@@ -16,7 +16,7 @@ MeshFile readMeshFile(Properties& properties) {
     file.path = resolvePath(name, file.where);
     file.faceNormals = properties.boolean("face_normals", false);
     file.toWorld = properties.transform("to_world");
-    properties.accept({"flip_tex_coords"});
+    file.flipTexCoords = properties.boolean("flip_tex_coords", flipsTexCoords);
     return file;
 }
 

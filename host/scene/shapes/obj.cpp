@@ -18,7 +18,10 @@ const Names ignoredKeywords = {
 
 class ObjReader {
 public:
-    ObjReader(std::string path, std::string text) : text_(std::move(text)) { where_.file = std::move(path); }
+    ObjReader(std::string path, std::string text, bool flipTexCoords)
+        : text_(std::move(text)), flipTexCoords_(flipTexCoords) {
+        where_.file = std::move(path);
+    }
 
     MeshSource read() {
         size_t begin = 0;
@@ -43,7 +46,7 @@ private:
         else if (words[0] == "vn")
             mesh_.normals.push_back(readVector(words, "normal"));
         else if (words[0] == "vt")
-            ++textureCoordinates_;
+            mesh_.uvs.push_back(readUv(words));
         else if (words[0] == "f")
             readFace(words);
         else if (std::find(ignoredKeywords.begin(), ignoredKeywords.end(), words[0]) == ignoredKeywords.end())
@@ -69,6 +72,14 @@ private:
                 parseNumber(words[3], where_, what)};
     }
 
+    /// A second number may be missing: v is 0 then.
+    glm::dvec2 readUv(const std::vector<std::string_view>& words) const {
+        if (words.size() < 2) throw InputError(where_, "a texture coordinate without numbers; expected two.");
+        const double u = parseNumber(words[1], where_, "texture coordinate");
+        const double v = words.size() > 2 ? parseNumber(words[2], where_, "texture coordinate") : 0;
+        return {u, flipTexCoords_ ? 1 - v : v};
+    }
+
     /// An index counted from 1, or from the last one back where negative.
     unsigned readIndex(std::string_view text, size_t count, std::string_view what) const {
         const int64_t index = parseInteger(text, where_, fmt::format("face: {} index", what));
@@ -88,8 +99,10 @@ private:
         if (slash == word.size()) return corner;
         word.remove_prefix(slash + 1);
         const size_t second = std::min(word.find('/'), word.size());
-        if (second > 0) // a seam of texture coordinates splits the vertex, and so its computed normal, as in Mitsuba
-            corner.vertex |= uint64_t(readIndex(word.substr(0, second), textureCoordinates_, "texture") + 1) << 32;
+        if (second > 0) { // a seam of texture coordinates splits the vertex, and so its computed normal, as in Mitsuba
+            corner.uv = readIndex(word.substr(0, second), mesh_.uvs.size(), "texture");
+            corner.vertex |= uint64_t(corner.uv + 1) << 32;
+        }
         if (second < word.size()) corner.normal = readIndex(word.substr(second + 1), mesh_.normals.size(), "normal");
         return corner;
     }
@@ -109,14 +122,14 @@ private:
     std::string text_;
     SourceLocation where_;
     MeshSource mesh_;
-    size_t textureCoordinates_ = 0;
+    bool flipTexCoords_;
 };
 
 } // namespace
 
 void readObj(Properties& properties, ShapeDescription& shape) {
-    const MeshFile file = readMeshFile(properties);
-    ObjReader reader(file.path, readFile(file.path, file.where, "mesh"));
+    const MeshFile file = readMeshFile(properties, true);
+    ObjReader reader(file.path, readFile(file.path, file.where, "mesh"), file.flipTexCoords);
     shape.mesh = fileMesh(reader.read(), file.toWorld, shape.flipNormals, file.faceNormals, shape.where);
 }
 

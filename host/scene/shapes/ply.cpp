@@ -22,7 +22,7 @@ int findProperty(const PlyElement& element, const Names& names) {
 
 class PlyMeshReader {
 public:
-    explicit PlyMeshReader(PlyReader& reader) : reader_(reader) {}
+    PlyMeshReader(PlyReader& reader, bool flipTexCoords) : reader_(reader), flipTexCoords_(flipTexCoords) {}
 
     MeshSource read() {
         for (const PlyElement& element : reader_.elements()) {
@@ -44,6 +44,7 @@ private:
         const int x = findProperty(element, {"x"}), y = findProperty(element, {"y"}), z = findProperty(element, {"z"});
         const int nx = findProperty(element, {"nx"}), ny = findProperty(element, {"ny"}),
                   nz = findProperty(element, {"nz"});
+        const int u = findProperty(element, {"u", "s"}), v = findProperty(element, {"v", "t"});
         if (x < 0 || y < 0 || z < 0) reader_.failFile("the vertices have no x, y, z.");
         const bool hasNormals = nx >= 0 && ny >= 0 && nz >= 0;
         for (uint64_t i = 0; i < element.count; ++i) {
@@ -51,6 +52,7 @@ private:
             const auto vector = [&](int a, int b, int c) { return glm::dvec3(scalar(a), scalar(b), scalar(c)); };
             mesh_.positions.push_back(vector(x, y, z));
             if (hasNormals) mesh_.normals.push_back(vector(nx, ny, nz));
+            if (u >= 0 && v >= 0) mesh_.uvs.emplace_back(scalar(u), flipTexCoords_ ? 1 - scalar(v) : scalar(v));
         }
     }
 
@@ -80,6 +82,7 @@ private:
         corner.position = static_cast<unsigned>(index);
         corner.vertex = corner.position;
         if (!mesh_.normals.empty()) corner.normal = corner.position;
+        if (!mesh_.uvs.empty()) corner.uv = corner.position;
         return corner;
     }
 
@@ -96,6 +99,7 @@ private:
     }
 
     PlyReader& reader_;
+    bool flipTexCoords_;
     MeshSource mesh_;
     std::vector<std::vector<double>> row_; ///< values by property
 };
@@ -103,9 +107,10 @@ private:
 } // namespace
 
 void readPly(Properties& properties, ShapeDescription& shape) {
-    const MeshFile file = readMeshFile(properties);
+    const MeshFile file = readMeshFile(properties, false);
     PlyReader reader(file.path, readFile(file.path, file.where, "mesh"));
-    shape.mesh = fileMesh(PlyMeshReader(reader).read(), file.toWorld, shape.flipNormals, file.faceNormals, shape.where);
+    shape.mesh = fileMesh(PlyMeshReader(reader, file.flipTexCoords).read(), file.toWorld, shape.flipNormals,
+                          file.faceNormals, shape.where);
 }
 
 } // namespace quasilux

@@ -9,7 +9,8 @@ namespace quasilux {
 void readRectangle(Properties& properties, ShapeDescription& shape) {
     const glm::dmat4 toWorld = properties.transform("to_world");
     const std::vector<glm::dvec3> corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    shape.mesh = flatMesh(corners, {{0, 1, 2}, {0, 2, 3}}, toWorld, shape.flipNormals, shape.where);
+    const std::vector<glm::vec2> uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    shape.mesh = flatMesh(corners, {{0, 1, 2}, {0, 2, 3}}, uvs, toWorld, shape.flipNormals, shape.where);
 
     glm::dvec3 edgeU = transformVector(toWorld, {2, 0, 0}), edgeV = transformVector(toWorld, {0, 2, 0});
     if (std::abs(glm::dot(glm::normalize(edgeU), glm::normalize(edgeV))) >= 1e-5) return;

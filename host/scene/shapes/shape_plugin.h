@@ -9,14 +9,15 @@ namespace quasilux {
 /// Reads <shape> with its bsdf and emitter. Throws InputError for anything that is not right with it.
 ShapeDescription readShape(const Element& element, LoadContext& context);
 
-/// What shapes that come from files have in common.
+/// What shapes that come from files have in common. `flipsTexCoords` is the default of flip_tex_coords.
 struct MeshFile {
     std::string path; ///< relative to the scene file already resolved
     SourceLocation where;
     bool faceNormals = false;
+    bool flipTexCoords = false; ///< v becomes 1 - v
     glm::dmat4 toWorld{1.0};
 };
-MeshFile readMeshFile(Properties& properties);
+MeshFile readMeshFile(Properties& properties, bool flipsTexCoords);
 
 void readRectangle(Properties& properties, ShapeDescription& shape);
 void readCube(Properties& properties, ShapeDescription& shape);

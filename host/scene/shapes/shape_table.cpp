@@ -55,6 +55,12 @@ ShapeDescription readShape(const Element& element, LoadContext& context) {
     const Element* emitter = properties.object("emitter");
     properties.finish();
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
+    if (!shape.sphere && shape.mesh.cornerUvs.empty() &&
+        context.scene.bsdfs[static_cast<size_t>(shape.bsdf)].isTextured())
+        throw InputError(shape.where,
+                         fmt::format("shape '{}' has no texture coordinates, or not at every corner, but its bsdf has "
+                                     "a texture; add them to the mesh file, or use a bsdf without textures.",
+                                     shape.id));
     if (emitter) {
         shape.emitter = readShapeEmitter(*emitter, context);
         if (!(static_cast<float>(areaOf(shape)) > 0))

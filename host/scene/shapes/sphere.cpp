@@ -25,9 +25,10 @@ double uniformScale(const glm::dmat4& toWorld, const SourceLocation& where) {
 
 void readSphere(Properties& properties, ShapeDescription& shape) {
     const glm::dmat4 toWorld = properties.transform("to_world");
-    const double radius =
-        properties.numberAbove("radius", 1, 0, true) * uniformScale(toWorld, properties.where("to_world"));
+    const double scale = uniformScale(toWorld, properties.where("to_world"));
+    const double radius = properties.numberAbove("radius", 1, 0, true) * scale;
     Sphere sphere;
+    sphere.toLocal = glm::mat3(glm::inverse(glm::dmat3(toWorld) / scale));
     sphere.center = toSingle(transformPoint(toWorld, properties.vector("center", glm::dvec3(0))), shape.where);
     sphere.radius = toSingle(glm::dvec3(radius), shape.where).x;
     if (!(sphere.radius > 0))

@@ -21,6 +21,7 @@ const std::vector<Tag> tags = {
     {"shape", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"bsdf", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"emitter", TagKind::object, {"type"}, {"id", "name", "version"}},
+    {"texture", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"float", TagKind::parameter, {"name", "value"}, {}},
     {"integer", TagKind::parameter, {"name", "value"}, {}},
     {"boolean", TagKind::parameter, {"name", "value"}, {}},
@@ -39,7 +40,6 @@ const std::vector<Tag> tags = {
 
 /// Part of Mitsuba 3 but not of quasilux, with what to do instead.
 const std::vector<std::pair<std::string_view, std::string_view>> unsupportedTags = {
-    {"texture", "give the parameter as <rgb> or <float>"},
     {"medium", "remove it, or describe the object by its surface"},
     {"phase", "remove it"},
     {"volume", "remove it"},

@@ -1,0 +1,43 @@
+// Textures, their texels, and texture coordinates of the shapes that have some.
+#include "prepare/device_scene.h"
+
+#include <algorithm>
+
+namespace quasilux {
+
+TextureTables flattenTextures(const Scene& scene, const std::vector<shared::Lobe>& lobes) {
+    TextureTables tables;
+    for (unsigned k = 0; k < scene.textures.size(); ++k) {
+        const auto used = [&](const shared::Lobe& lobe) {
+            return lobe.reflectanceTexture == k + 1 || lobe.transmittanceTexture == k + 1;
+        };
+        shared::Texture record = scene.textures[k].device;
+        record.firstTexel = static_cast<unsigned>(tables.texels.size());
+        tables.textures.push_back(record);
+        const auto& texels = scene.textures[k].texels;
+        if (std::any_of(lobes.begin(), lobes.end(), used))
+            tables.texels.insert(tables.texels.end(), texels.begin(), texels.end());
+    }
+    return tables;
+}
+
+unsigned uvWords(const Scene& scene, const ShapeDescription& shape) {
+    if (shape.bsdf < 0 || !scene.bsdfs[static_cast<size_t>(shape.bsdf)].isTextured()) return 0;
+    return shape.sphere ? 9u : static_cast<unsigned>(2 * shape.mesh.cornerUvs.size());
+}
+
+std::vector<float> flattenUvs(const Scene& scene) {
+    std::vector<float> words;
+    for (const auto& shape : scene.shapes) {
+        if (uvWords(scene, shape) == 0) continue;
+        for (int row = 0; shape.sphere && row < 3; ++row)
+            for (int column = 0; column < 3; ++column) words.push_back(shape.sphere->toLocal[column][row]);
+        for (const glm::vec2& uv : shape.mesh.cornerUvs) {
+            words.push_back(uv.x);
+            words.push_back(uv.y);
+        }
+    }
+    return words;
+}
+
+} // namespace quasilux

@@ -1,0 +1,70 @@
+// Image files for textures, by OpenImageIO.
+#include "scene/textures/texture_plugin.h"
+#include "scene/xml/xml_document.h"
+
+#include <OpenImageIO/imageio.h>
+#include <cmath>
+#include <fmt/format.h>
+#include <sstream>
+
+namespace quasilux {
+
+namespace {
+
+constexpr int64_t maximumPixels = 1 << 26; // 800 MB of texels
+
+/// IEC 61966-2-1.
+float decodeSrgb(float encoded) {
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+[[noreturn]] void failImage(const std::string& path, const std::string& why, const SourceLocation& where) {
+    throw InputError(where, fmt::format("cannot read the image '{}': {}", path, why));
+}
+
+} // namespace
+
+Image readImage(const std::string& path, bool raw, const SourceLocation& where) {
+    readFile(path, where, "image"); // says what is wrong with the name
+    OIIO::ImageSpec asStored;
+    asStored["oiio:UnassociatedAlpha"] = 1; // colours are not to be multiplied by an alpha that is left out
+    const auto file = OIIO::ImageInput::open(path, &asStored);
+    if (!file) failImage(path, OIIO::geterror(), where);
+    const OIIO::ImageSpec spec = file->spec();
+    const int64_t count = int64_t(spec.width) * spec.height;
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || count > maximumPixels)
+        failImage(
+            path,
+            fmt::format("it has {} x {} x {} pixels of {} channels; expected a flat picture of at most {} pixels.",
+                        spec.width, spec.height, spec.depth, spec.nchannels, maximumPixels),
+            where);
+    const int channels = std::min(spec.nchannels, 3);
+    std::vector<float> values(static_cast<size_t>(count) * static_cast<size_t>(channels));
+    if (!file->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()))
+        failImage(path, file->geterror(), where);
+
+    const bool encoded = !raw && !spec.format.is_floating_point();
+    const auto step = static_cast<size_t>(channels);
+    const size_t green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2; // one channel, or grey and alpha
+    Image image{static_cast<unsigned>(spec.width), static_cast<unsigned>(spec.height), {}, 0};
+    image.pixels.reserve(static_cast<size_t>(count));
+    for (size_t i = 0; i < values.size(); i += step) {
+        float pixel[3] = {values[i], values[i + green], values[i + blue]};
+        bool above = false;
+        for (float& value : pixel) {
+            if (!(value >= 0) || !std::isfinite(value))
+                failImage(path,
+                          fmt::format("pixel {}, {} has the value {}; reflectances lie within [0, 1].",
+                                      i / step % image.width, i / step / image.width, value),
+                          where);
+            if (encoded) value = decodeSrgb(value);
+            above |= value > 1;
+            value = std::min(value, 1.f);
+        }
+        image.clamped += above;
+        image.pixels.push_back({pixel[0], pixel[1], pixel[2]});
+    }
+    return image;
+}
+
+} // namespace quasilux

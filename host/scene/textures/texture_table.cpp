@@ -1,0 +1,77 @@
+// The table of texture plugins, and what is common to reading any of them.
+#include "scene/textures/texture_plugin.h"
+#include "scene/transform.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+struct TexturePlugin {
+    std::string_view name;
+    void (*read)(Properties&, TextureDescription&);
+};
+
+constexpr TexturePlugin plugins[] = {{"checkerboard", readCheckerboard}, {"bitmap", readBitmap}};
+
+const TexturePlugin& findPlugin(const Element& element) {
+    Names known;
+    for (const TexturePlugin& plugin : plugins) {
+        if (plugin.name == element.get("type")) return plugin;
+        known.push_back(plugin.name);
+    }
+    throw InputError(element.where, fmt::format("unknown texture plugin '{}'.{}", element.get("type"),
+                                                knownNames(element.get("type"), known)));
+}
+
+/// As in Mitsuba, what the transform does within the plane of x and y.
+void readToUv(Properties& properties, shared::Texture& texture) {
+    const glm::dmat4 toUv = properties.transform("to_uv");
+    const int columns[3] = {0, 1, 3};
+    for (int i = 0; i < 3; ++i) {
+        texture.toU[i] = static_cast<float>(toUv[columns[i]][0]);
+        texture.toV[i] = static_cast<float>(toUv[columns[i]][1]);
+    }
+}
+
+Rgb larger(Rgb a, Rgb b) { return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)}; }
+
+Rgb largestValue(const TextureDescription& texture) {
+    Rgb value = larger(texture.device.color0, texture.device.color1);
+    for (const Rgb& texel : texture.texels) value = larger(value, texel);
+    return value;
+}
+
+/// Index into Scene::textures; read once however often it is used.
+int useTexture(const Element& element, LoadContext& context) {
+    const auto known = context.textureIndex.find(&element);
+    if (known != context.textureIndex.end()) return known->second;
+    context.scene.textures.push_back(readTexture(element, context));
+    const int index = static_cast<int>(context.scene.textures.size()) - 1;
+    context.textureIndex.emplace(&element, index);
+    return index;
+}
+
+} // namespace
+
+TextureDescription readTexture(const Element& element, LoadContext& context) {
+    const TexturePlugin& plugin = findPlugin(element);
+    Properties properties(element, context);
+    TextureDescription texture;
+    texture.where = element.where;
+    readToUv(properties, texture.device);
+    plugin.read(properties, texture);
+    properties.finish();
+    return texture;
+}
+
+Reflectance readReflectance(Properties& properties, const std::string& name, float missing) {
+    const Element* texture = properties.texture(name);
+    if (!texture) return properties.reflectance(name, missing);
+    const int index = useTexture(*texture, properties.context());
+    const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
+    return {static_cast<unsigned>(index) + 1, largestValue(read)};
+}
+
+} // namespace quasilux
