@@ -122,7 +122,8 @@ typedef struct {
 #define EMITTER_TRIANGLES 1u /* any other mesh; sampled by area */
 #define EMITTER_SPHERE 2u    /* origin, radius; emits outwards (inwards if normalSign < 0); sampled by solid angle */
 #define EMITTER_POINT 3u     /* origin; radiance field holds the intensity in W sr^-1 */
-#define EMITTER_CONSTANT 4u  /* the same radiance from everywhere outside; origin, radius: sphere about the scene; area: of
+#define EMITTER_CONSTANT                                                                                               \
+    4u /* the same radiance from everywhere outside; origin, radius: sphere about the scene; area: of
                                 its great disc. At most one, the last of the table */
 
 typedef struct {
@@ -152,10 +153,10 @@ typedef struct {
 #define FILTER_GAUSSIAN 2u
 
 typedef struct {
-    Packed3 origin;          /* orthographic: centre of the near plane */
-    Packed3 corner;          /* direction to the upper left corner of the image, at depth 1; orthographic: offset to it */
-    Packed3 stepX, stepY;    /* direction per pixel, to the right and down; orthographic: offset */
-    Packed3 forward;         /* unit */
+    Packed3 origin;       /* orthographic: centre of the near plane */
+    Packed3 corner;       /* direction to the upper left corner of the image, at depth 1; orthographic: offset to it */
+    Packed3 stepX, stepY; /* direction per pixel, to the right and down; orthographic: offset */
+    Packed3 forward;      /* unit */
     float nearClip, farClip; /* depths along `forward` */
     unsigned int orthographic;
     unsigned int width, height;

@@ -76,6 +76,10 @@ TEST_F(BadInput, UnknownQuasiSpecularId) {
     expectRefused({"render", "scene.xml", "--quasi-specular", "glossy"}, "glossy");
 }
 
+TEST_F(BadInput, ParameterGivenTwice) {
+    expectRefused({"render", "scene.xml", "-D", "width=1", "-D", "width=2"}, "'width' is given twice");
+}
+
 // Negative control: the same scene without a fault is rendered.
 TEST_F(BadInput, AGoodSceneIsNotRefused) {
     const auto outcome = run({"render", "scene.xml", "-o", "out.exr", "--passes", "1"});

@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
              "<texture type=\"checkerboard\" name=\"diffuse_reflectance\"><float name=\"color0\" "
              "value=\"0.9\"/></texture>",
              "4:", "more light would leave"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& row) { return std::string(row.param.name); });
 
 TEST(TextureErrors, MeshWithoutCoordinates) {
     SceneFiles files;

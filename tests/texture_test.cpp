@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
                     MitsubaLookup{"bilinear", "repeat", {.13f, .25f, .25f, .22f, .37f, .115f, .25f, .25f, .25f}},
                     MitsubaLookup{"bilinear", "mirror", {0, .3f, .25f, .4f, 0, .145f, 0, .5f, .25f}},
                     MitsubaLookup{"bilinear", "clamp", {0, .3f, .25f, .41f, 0, .23f, 0, .5f, .3f}}),
-    [](const auto& info) { return std::string(info.param.filter) + "_" + info.param.wrap; });
+    [](const auto& row) { return std::string(row.param.filter) + "_" + row.param.wrap; });
 
 double linear(int byte) {
     const double e = byte / 255.0;

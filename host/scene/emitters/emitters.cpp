@@ -48,7 +48,7 @@ AreaEmitter readShapeEmitter(const Element& element, LoadContext& context) {
     for (const ShapeEmitterPlugin& plugin : shapeEmitters) {
         if (plugin.name != element.get("type")) continue;
         Properties properties(element, context);
-        const AreaEmitter emitter = plugin.read(properties);
+        AreaEmitter emitter = plugin.read(properties);
         properties.finish();
         return emitter;
     }

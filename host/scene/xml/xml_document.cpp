@@ -47,7 +47,12 @@ struct Parameter {
 class DocumentReader {
 public:
     explicit DocumentReader(const SceneParameters& parameters) {
-        for (const auto& [name, value] : parameters) parameters_.push_back({name, value, true, false});
+        for (const auto& [name, value] : parameters) {
+            for (const Parameter& earlier : parameters_)
+                if (earlier.name == name)
+                    throw InputError(fmt::format("parameter '{}' is given twice; give it once.", name));
+            parameters_.push_back({name, value, true, false});
+        }
     }
 
     /// Root element of a file, as it stands; `mention` is the place that named the file.
