@@ -83,7 +83,7 @@ std::string Properties::string(const std::string& name, const std::string& missi
 }
 
 std::string Properties::choice(const std::string& name, const std::string& missing, const Names& known) {
-    const std::string value = string(name, missing);
+    std::string value = string(name, missing);
     if (std::find(known.begin(), known.end(), value) == known.end())
         throw InputError(where(name), fmt::format("parameter '{}' of {}: unknown value '{}'.{}", name, describe(),
                                                   value, quasilux::knownNames(value, known)));
