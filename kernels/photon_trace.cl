@@ -51,7 +51,7 @@ inline float shadingNormalCorrection(const Surface* s, float3 wo, float3 wi) {
 }
 
 /* Scatters the photon with one lobe; 0 where it ends. */
-inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe* lobes, Rng* rng, float3 u) {
+inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe* lobes, float3 u) {
     const Frame frame = frameFromNormal(s->shadingNormal);
     const float3 wo = toLocal(&frame, -path->direction);
     LobeChoice choice;
@@ -121,7 +121,7 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
             storePhoton(photons, count, params->regionCapacity, &path, &s, lightClass);
         const float2 uDirection = rngNext2(&rng);
         const float3 u = (float3)(rngNext(&rng), uDirection.x, uDirection.y);
-        if (!scatterPhoton(&path, &s, lobes, &rng, u)) return;
+        if (!scatterPhoton(&path, &s, lobes, u)) return;
     }
     ++count->cutPaths;
     count->fluxCut += (path.flux.x + path.flux.y + path.flux.z) / 3;
