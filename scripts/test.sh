@@ -10,6 +10,7 @@ hostTests=(loader_test scene_errors_test mesh_errors_test shapes_test borders_te
 logs=build/logs
 passed=0
 failed=0
+failures=()
 
 # check NAME COMMAND...: one check that passes or fails as a whole.
 check() {
@@ -18,7 +19,7 @@ check() {
         passed=$((passed + 1))
     else
         failed=$((failed + 1))
-        echo "== $1: FAILED"
+        failures+=("$1")
     fi
 }
 
@@ -29,9 +30,11 @@ runTests() {
     summary=$(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$log")
     if [[ -z $summary ]]; then
         failed=$((failed + 1))
+        failures+=("tests of preset $1: no summary")
         return
     fi
     failed=$((failed + ${summary% *}))
+    mapfile -t -O "${#failures[@]}" failures < <(sed -nE 's/^[[:space:]]+[0-9]+ - (.*)$/\1/p' "$log")
     passed=$((passed + ${summary#* } - ${summary% *}))
 }
 
@@ -44,7 +47,7 @@ formatIsRight() {
 analysisIsClean() {
     find host -name '*.cpp' | sort |
         xargs --max-procs="$(nproc)" --max-args=4 clang-tidy -p build/ci --quiet --extra-arg=-Wno-unknown-warning-option \
-            2>"$logs/clang-tidy.err" || { grep -E 'error' "$logs/clang-tidy.err"; return 1; }
+            >"$logs/clang-tidy.log" 2>&1
 }
 
 bash scripts/setup.sh
@@ -65,5 +68,6 @@ ASAN_OPTIONS=detect_leaks=0 runTests asan --tests-regex "^($(IFS='|'; echo "${ho
 echo "== all tests"
 runTests ci
 
+((failed == 0)) || { cat "$logs/clang-tidy.log"; printf '== FAILED: %s\n' "${failures[@]}"; }
 echo "$passed passed, $failed failed"
 ((failed == 0))

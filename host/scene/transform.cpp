@@ -54,11 +54,11 @@ glm::dmat4 parseMatrix(const Element& element) {
     const std::vector<double> values = parseNumbers(element.get("value"), element.where, "<matrix>");
     if (values.size() != 16 && values.size() != 9)
         throw InputError(element.where, fmt::format("<matrix>: {} numbers; expected 16 or 9.", values.size()));
-    const int size = values.size() == 16 ? 4 : 3;
+    const size_t size = values.size() == 16 ? 4 : 3;
     glm::dmat4 matrix(1.0);
-    for (int row = 0; row < size; ++row)
-        for (int column = 0; column < size; ++column)
-            matrix[column][row] = values[static_cast<size_t>(row * size + column)];
+    for (size_t row = 0; row < size; ++row)
+        for (size_t column = 0; column < size; ++column)
+            matrix[static_cast<int>(column)][static_cast<int>(row)] = values[row * size + column];
     if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1)
         throw InputError(element.where, "<matrix>: the last row is not 0 0 0 1; only affine transforms are supported.");
     return matrix;

@@ -122,7 +122,8 @@ void PlyReader::readProperty(const PlyProperty& property, std::vector<double>& v
         failRow(fmt::format("a list of {} values.", count));
     if (count > static_cast<double>(content_.size() - position_))
         failRow(fmt::format("a list of {} values is longer than the file.", count));
-    for (double i = 0; i < count; ++i) values.push_back(readValue(property.type));
+    const auto length = static_cast<uint32_t>(count);
+    for (uint32_t i = 0; i < length; ++i) values.push_back(readValue(property.type));
 }
 
 double PlyReader::readAsciiValue() {
