@@ -13,6 +13,7 @@ typedef struct {
     unsigned int primitives, shapes, cornerNormals;
     unsigned int materials, lobes;
     unsigned int textures, texels, uvs;
+    unsigned int media;
     unsigned int emitters, emitterTriangles, emitterCount;
     unsigned int segments, borderCells, borderItems;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */

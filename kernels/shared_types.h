@@ -60,6 +60,8 @@ typedef struct {
     float normalSign;            /* -1 where `flip_normals` is set */
     unsigned int firstUv; /* word in the uv table, or QL_NONE: no textures. Mesh: u, v by corner, 6 words a triangle;
                              sphere: the rows of the rotation from the world to its own axes, 9 words */
+    unsigned int interior, exterior; /* medium behind the surface and on the side of its normal: index, MEDIUM_NONE or,
+                                        both, MEDIUM_UNCHANGED */
 } Shape;
 
 /* A straight piece of a border of a surface patch: free edge, crease, or curve where another surface cuts it.
@@ -96,6 +98,28 @@ typedef struct {
     unsigned int backFirst, backCount;
     unsigned int flags;
 } Material;
+
+/* ---- participating media -------------------------------------------------------------------------------------- */
+
+#define PHASE_ISOTROPIC 0u
+#define PHASE_HG 1u
+#define PHASE_RAYLEIGH 2u
+
+#define MEDIUM_NONE QL_NONE          /* vacuum */
+#define MEDIUM_UNCHANGED 0xfffffffeu /* of a surface that bounds no medium: a path that passes it stays where it is */
+
+/* Homogeneous medium. The phase function p is split by a level (sr^-1): genuine diffuse = min(p, level), quasi-specular
+ * = the peak above it. Level 0: all of it is quasi-specular; infinity: all of it genuine diffuse (standard method). */
+typedef struct {
+    unsigned int phase; /* PHASE_* */
+    float g;            /* mean cosine of the scattering angle (HG); > 0 forwards */
+    Rgb sigmaT;         /* extinction coefficient, 1/scene unit */
+    Rgb albedo;         /* scattering / extinction */
+    float level;
+    Packed3 kernelAxis; /* unit; density kernels are cylinders about it (kernels/volume_density.clh) */
+    /* Of the density kernel in pass 0, by light class, scene units: radius across the axis, half height along it. */
+    float kernelRadius[4], kernelHalfHeight[4];
+} Medium;
 
 /* ---- textures: factors of reflectance that vary over a surface --------------------------------------------------- */
 
@@ -139,6 +163,7 @@ typedef struct {
     float selectionProbability;                /* in proportion to power */
     float selectionCdf;                        /* sum of the probabilities up to and including this emitter; last = 1 */
     unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
+    unsigned int medium;                       /* into which it emits: index or MEDIUM_NONE */
 } Emitter;
 
 typedef struct {
@@ -163,6 +188,7 @@ typedef struct {
     unsigned int filter; /* FILTER_* */
     float filterRadius;  /* pixels */
     float filterStddev;  /* pixels, Gaussian only */
+    unsigned int medium; /* in which it stands: index or MEDIUM_NONE */
 } Camera;
 
 /* ---- light classes (kernels/law.clh) ----------------------------------------------------------------------------- */

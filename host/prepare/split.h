@@ -27,4 +27,17 @@ struct BsdfDecision {
 /// Throws InputError for an ID that the scene does not have.
 std::vector<BsdfDecision> decideSplit(const Scene& scene, const std::string& setting, bool overridesScene);
 
+/// How a medium's phase function is split (shared::Medium::level).
+struct MediumDecision {
+    float level = 0; ///< sr^-1: genuine diffuse = min(p, level); 0: none of it, infinity: all of it
+    std::string why;
+};
+
+/// The level of phase function that `auto` chooses: 5/4 of an isotropic one's value, 1/(4 pi).
+inline constexpr double autoPhaseLevel = 0.1;
+
+/// Decisions for Scene::media. `setting` as above, or `level:0.1` for every medium; in a list ID names a medium too and
+/// makes all of its phase function quasi-specular.
+std::vector<MediumDecision> decideMediumSplit(const Scene& scene, const std::string& setting, bool overridesScene);
+
 } // namespace quasilux

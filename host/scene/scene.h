@@ -16,12 +16,13 @@ namespace quasilux {
 
 using shared::Rgb;
 
-/// What `<?quasilux quasi-specular="…"?>` in a bsdf, or the command line, says of its lobes.
+/// What `<?quasilux quasi-specular="…"?>` in a bsdf or a medium, or the command line, says of its lobes.
 struct QuasiSpecularChoice {
-    enum class Kind { automatic, yes, no, lobes };
+    enum class Kind { automatic, yes, no, lobes, level };
     Kind kind = Kind::automatic;
     std::vector<std::string> lobes; ///< Kind::lobes: names such as "specular"
-    bool stated = false;            ///< false: nothing was said, the global setting decides
+    double level = 0;    ///< Kind::level, media only: sr^-1, what of the phase function lies below is genuine diffuse
+    bool stated = false; ///< false: nothing was said, the global setting decides
 };
 
 /// One lobe as the scene describes it. `device.scattering` is SCATTER_SPECULAR for delta lobes and otherwise 0 until
@@ -76,6 +77,17 @@ struct RectangleFrame {
     glm::vec3 corner{}, edgeU{}, edgeV{}, normal{};
 };
 
+/// <medium type="homogeneous">: what fills the inside of shapes, or surrounds them.
+struct MediumDescription {
+    std::string id; ///< as in the scene, or "homogeneous@line"
+    SourceLocation where;
+    unsigned phase = PHASE_ISOTROPIC; ///< PHASE_*
+    double g = 0;                     ///< HG: mean cosine, > 0 forwards
+    Rgb sigmaT{};                     ///< 1/scene unit, `scale` included
+    Rgb albedo{};
+    QuasiSpecularChoice quasiSpecular;
+};
+
 struct ShapeDescription {
     std::string id; ///< as in the scene, or "<plugin>@line"
     std::string plugin;
@@ -86,6 +98,7 @@ struct ShapeDescription {
     bool flipNormals = false;                ///< already applied to a mesh's winding; a sphere's normal points inwards
     int bsdf = -1;                           ///< index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
+    std::optional<unsigned> interior, exterior; ///< media as stated, index into Scene::media
 };
 
 struct PointEmitter {
@@ -111,6 +124,7 @@ struct Sensor {
     unsigned width = 768, height = 576;
     unsigned filter = FILTER_GAUSSIAN;
     double filterRadius = 2.0, filterStddev = 0.5; ///< pixels
+    std::optional<unsigned> medium;                ///< as stated, index into Scene::media
 };
 
 /// quasilux settings of the scene; std::nullopt = not said. Command-line options override them.
@@ -128,6 +142,7 @@ struct Scene {
     std::vector<Bsdf> bsdfs;
     std::vector<ShapeDescription> shapes;
     std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index
+    std::vector<MediumDescription> media;
     std::vector<PointEmitter> pointEmitters;
     std::optional<ConstantEmitter> surroundings;
     Sensor sensor;
