@@ -70,7 +70,7 @@ inline void takeSurroundings(const World* world, const CameraPath* path, float3*
 inline float3 takePhotons(const World* world, const CameraPath* path, const Surface* s, const Frame* frame, float3 wo,
                           __global const Lobe* lobes, uint mask, uint lightClass) {
     const CameraParams* params = world->params;
-    if (classIsEmpty(world->photons, lightClass)) return 0;
+    if (slotIsEmpty(world->photons, lightClass)) return 0;
     const DensityRegion region = densityRegionAt(s, params->map.radius[lightClass], world->tables, &params->scene);
     if (!(region.kernelIntegral > 0)) return 0;
     DirectionalLobes directional = {lobes, 0, *frame, wo, s};

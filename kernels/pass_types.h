@@ -13,7 +13,7 @@ typedef struct {
     unsigned int primitives, shapes, cornerNormals;
     unsigned int materials, lobes;
     unsigned int textures, texels, uvs;
-    unsigned int media;
+    unsigned int media, mediumPlanes;
     unsigned int emitters, emitterTriangles, emitterCount;
     unsigned int segments, borderCells, borderItems;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
@@ -27,10 +27,14 @@ typedef struct {
     Packed3 position;
     unsigned int direction;  /* towards where it came from, octahedral 16 + 16 bits */
     Rgb flux;                /* W */
-    unsigned int patchSide;  /* patch << 1 | side: 1 where it arrived on the side of the normal */
-    unsigned int classDepth; /* segments since the light << 2 | light class; segments saturate at PHOTON_DEPTH_MAX */
+    unsigned int patchSide; /* patch << 1 | side: 1 where it arrived on the side of the normal; in a medium its index */
+    unsigned int classDepth; /* segments since the light << 3 | map slot; segments saturate at PHOTON_DEPTH_MAX */
 } Photon;
-#define PHOTON_DEPTH_MAX 254u
+#define PHOTON_DEPTH_MAX 0x1fffffffu
+
+/* Photons on surfaces and in media have maps of their own, by class: slots of one index. */
+#define PHOTON_SLOTS 8
+#define VOLUME_SLOT(lightClass) (LIGHT_CLASSES + (lightClass))
 
 /* One work-item traces the paths of one region and stores into its own part of the photon buffer. */
 typedef struct {
@@ -49,12 +53,15 @@ typedef struct {
     unsigned int regions;
     unsigned int regionCapacity; /* photons */
     unsigned int maxDepth;       /* segments of the whole path, QL_NONE = no limit */
+    float keepProbability[LIGHT_CLASSES]; /* of photons in media, by class: they are thinned where there are many */
     SceneTables scene;
 } PhotonParams;
 
 /* One indexed map per photon class, all in one cell table and one sorted set of photons (kernels/photon_grid.clh). */
 typedef struct {
-    float radius[LIGHT_CLASSES]; /* density radius of this pass = cell size */
+    float radius[LIGHT_CLASSES]; /* density radius of this pass on surfaces = cell size */
+    float volumeScale;           /* of this pass's kernels in media to those of pass 0 (Medium) */
+    unsigned int media;          /* SceneTables::media */
     unsigned int cellMask;       /* cells of one class - 1, a power of two - 1 */
     unsigned int chunks;         /* stable counting sort: each chunk counts and scatters in order */
     unsigned int regions, regionCapacity;

@@ -4,10 +4,19 @@
  * then stand in the order of their paths whatever the number of chunks, so sums over them are reproducible. */
 #include "photon_grid.clh"
 
-inline uint photonCell(__global const Photon* photon, const MapParams* params) {
-    const uint lightClass = photon->classDepth & 3;
-    const int3 c = gridCoordinate(load3(photon->position), params->radius[lightClass]);
-    return CLASS_SLOT(lightClass) * (params->cellMask + 1) + gridCell(c, params->cellMask);
+inline uint photonCell(__global const Photon* photon, __global const uint* tables, const MapParams* params) {
+    const uint slot = photon->classDepth & (PHOTON_SLOTS - 1);
+    const float3 position = load3(photon->position);
+    int3 c;
+#ifdef HAS_MEDIA
+    if (slot >= LIGHT_CLASSES) {
+        __global const Medium* medium = (__global const Medium*)(tables + params->media) + photon->patchSide;
+        const KernelSpace space = kernelSpaceOf(medium, slot - LIGHT_CLASSES, params->volumeScale);
+        c = gridCoordinate(toKernelSpace(&space, position), 1);
+    } else
+#endif
+        c = gridCoordinate(position, params->radius[slot]);
+    return CLASS_SLOT(slot) * (params->cellMask + 1) + gridCell(c, params->cellMask);
 }
 
 inline uint cellCount(const MapParams* params) { return CLASS_SLOTS * (params->cellMask + 1); }
@@ -18,8 +27,8 @@ inline uint chunkRegion(uint chunk, const MapParams* params) {
 }
 
 /* counts[chunk * cells + cell] */
-__kernel void countPhotons(__global const Photon* photons, __global const RegionCount* regions, __global uint* counts,
-                           const MapParams params) {
+__kernel void countPhotons(__global const Photon* photons, __global const RegionCount* regions,
+                           __global const uint* tables, __global uint* counts, const MapParams params) {
     const uint chunk = get_global_id(0);
     if (chunk >= params.chunks) return;
     const uint cells = cellCount(&params);
@@ -27,7 +36,7 @@ __kernel void countPhotons(__global const Photon* photons, __global const Region
     for (uint cell = 0; cell < cells; ++cell) own[cell] = 0;
     for (uint region = chunkRegion(chunk, &params); region < chunkRegion(chunk + 1, &params); ++region) {
         __global const Photon* first = photons + (size_t)region * params.regionCapacity;
-        for (uint k = 0; k < regions[region].stored; ++k) ++own[photonCell(first + k, &params)];
+        for (uint k = 0; k < regions[region].stored; ++k) ++own[photonCell(first + k, tables, &params)];
     }
 }
 
@@ -76,18 +85,19 @@ inline void placePhoton(__global const Photon* photon, __global uint* sorted, ui
     sorted[(size_t)PHOTON_PATCH_SIDE * stride + place] = photon->patchSide;
     sorted[(size_t)PHOTON_DIRECTION * stride + place] = photon->direction;
 #ifdef HAS_DEPTH_LIMIT
-    sorted[(size_t)PHOTON_DEPTH * stride + place] = photon->classDepth >> 2;
+    sorted[(size_t)PHOTON_DEPTH * stride + place] = photon->classDepth >> 3;
 #endif
 }
 
-__kernel void scatterPhotons(__global const Photon* photons, __global const RegionCount* regions, __global uint* counts,
-                             __global uint* sorted, const MapParams params) {
+__kernel void scatterPhotons(__global const Photon* photons, __global const RegionCount* regions,
+                             __global const uint* tables, __global uint* counts, __global uint* sorted,
+                             const MapParams params) {
     const uint chunk = get_global_id(0);
     if (chunk >= params.chunks) return;
     __global uint* own = counts + (size_t)chunk * cellCount(&params);
     for (uint region = chunkRegion(chunk, &params); region < chunkRegion(chunk + 1, &params); ++region) {
         __global const Photon* first = photons + (size_t)region * params.regionCapacity;
         for (uint k = 0; k < regions[region].stored; ++k)
-            placePhoton(first + k, sorted, own[photonCell(first + k, &params)]++, params.photonStride);
+            placePhoton(first + k, sorted, own[photonCell(first + k, tables, &params)]++, params.photonStride);
     }
 }

@@ -3,6 +3,7 @@
 #include "emitter.clh"
 #include "lattice.clh"
 #include "law.clh"
+#include "medium_flight.clh"
 #include "scatter.clh"
 
 /* Photon paths go on for sure down to this share of their first flux; below, roulette ends them in proportion. On the
@@ -15,21 +16,24 @@ typedef struct {
     float referenceFlux; /* largest channel at emission, scale of the roulette */
     uint events;         /* union of SCATTER_* so far */
     uint depth;          /* segments */
+#ifdef HAS_MEDIA
+    uint medium; /* index or MEDIUM_NONE */
+#endif
 } PhotonPath;
 
 inline void storePhoton(__global Photon* photons, RegionCount* count, uint capacity, const PhotonPath* path,
-                        const Surface* s, uint lightClass) {
+                        float3 position, float3 flux, uint place, uint slot) {
     if (count->wanted++ >= capacity) return;
     __global Photon* p = photons + count->stored++;
-    p->position.x = s->position.x;
-    p->position.y = s->position.y;
-    p->position.z = s->position.z;
+    p->position.x = position.x;
+    p->position.y = position.y;
+    p->position.z = position.z;
     p->direction = encodeOctahedral(-path->direction);
-    p->flux.r = path->flux.x;
-    p->flux.g = path->flux.y;
-    p->flux.b = path->flux.z;
-    p->patchSide = s->patch << 1 | s->front;
-    p->classDepth = min(path->depth, PHOTON_DEPTH_MAX) << 2 | lightClass;
+    p->flux.r = flux.x;
+    p->flux.g = flux.y;
+    p->flux.b = flux.z;
+    p->patchSide = place;
+    p->classDepth = min(path->depth, PHOTON_DEPTH_MAX) << 3 | slot;
 }
 
 /* Classes of light that the lobes met here can ever take, restricted to those the kernels store. */
@@ -51,7 +55,8 @@ inline float shadingNormalCorrection(const Surface* s, float3 wo, float3 wi) {
 }
 
 /* Scatters the photon with one lobe; 0 where it ends. */
-inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe* lobes, float3 u) {
+inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe* lobes, __global const Shape* shape,
+                         float3 u) {
     const Frame frame = frameFromNormal(s->shadingNormal);
     const float3 wo = toLocal(&frame, -path->direction);
     LobeChoice choice;
@@ -70,8 +75,40 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     path->direction = wi;
     const Ray ray = leavingRay(s, wi);
     path->origin = ray.origin;
+#ifdef HAS_MEDIA
+    if (sample.wi.z < 0) path->medium = mediumBeyond(shape, !s->front, path->medium);
+#endif
     return 1;
 }
+
+#ifdef HAS_MEDIA
+/* A collision in the medium that the path is in: stores the photon, thinned, and scatters it; 0 where it ends. */
+inline int collidePhoton(PhotonPath* path, const FreeFlight* flight, __global const Medium* medium,
+                         __global Photon* photons, RegionCount* count, const PhotonParams* params, Rng* rng) {
+    path->origin += flight->distance * path->direction;
+    path->flux *= flight->weight;
+    const uint slot = VOLUME_SLOT(lawPhotonClass(path->events));
+    uint possible = 0;
+    const uint scatterings = phaseScatterings(medium);
+    if (scatterings & SCATTER_GENUINE_DIFFUSE) possible |= lawLightPossible(SCATTER_GENUINE_DIFFUSE);
+    if (scatterings & SCATTER_QUASI_SPECULAR) possible |= lawLightPossible(SCATTER_QUASI_SPECULAR);
+    if ((possible << LIGHT_CLASSES & PHOTON_CLASSES) >> slot & 1) {
+        const float keep = params->keepProbability[slot - LIGHT_CLASSES];
+        if (rngNext(rng) < keep)
+            storePhoton(photons, count, params->regionCapacity, path, path->origin,
+                        path->flux * inverseExtinction(medium) / keep, path->medium, slot);
+    }
+    path->flux *= loadRgb(medium->albedo);
+    const float strength = maxComponent(path->flux) / path->referenceFlux;
+    const float survival = min(1.f, strength / PHOTON_ROULETTE_THRESHOLD);
+    if (rngNext(rng) >= survival) return 0;
+    path->flux /= survival;
+    const float3 before = path->direction;
+    path->direction = phaseSampleDirection(medium, before, rngNext2(rng));
+    path->events |= phaseEvent(medium, phaseValue(medium, dot(before, path->direction)), rngNext(rng));
+    return 1;
+}
+#endif
 
 inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* params, const Lattice* lattice,
                              uint index, Rng* rng) {
@@ -90,6 +127,9 @@ inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* pa
     path.referenceFlux = maxComponent(path.flux);
     path.events = 0;
     path.depth = 0;
+#ifdef HAS_MEDIA
+    path.medium = SCENE_TABLE(tables, scene, Emitter, emitters)[emitted.emitter].medium;
+#endif
     return path;
 }
 
@@ -106,22 +146,46 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
             return;
         }
         if (path.depth >= params->maxDepth) return;
+        Hit hit;
         Ray ray;
         ray.origin = path.origin;
         ray.direction = path.direction;
         ray.tMin = 0;
         ray.tMax = INFINITY;
-        const Hit hit = intersectClosestOpaque(nodes, blocks, ray);
+#ifdef HAS_MEDIA
+        if (inMedium(path.medium)) {
+            __global const Medium* medium = SCENE_TABLE(tables, scene, Medium, media) + path.medium;
+            const MediumSegment segment =
+                followMedium(medium, path.flux, &ray, 1, rngNext2(&rng), nodes, blocks, tables, scene);
+            if (segment.flight.collided) {
+                ++path.depth;
+                if (!collidePhoton(&path, &segment.flight, medium, photons, count, params, &rng)) return;
+                continue;
+            }
+            path.flux *= segment.flight.weight;
+            hit = segment.hit;
+        } else
+#endif
+            hit = intersectClosestOpaque(nodes, blocks, ray);
         if (hit.primitive == QL_NONE) return;
-        ++path.depth;
         const Surface s = surfaceAt(hit, path.origin, path.direction, blocks, tables, scene);
+        __global const Shape* shape = SCENE_TABLE(tables, scene, Shape, shapes) + s.shape;
+#ifdef HAS_MEDIA
+        if (s.isNull) { /* the border of a medium that light passes freely */
+            path.medium = mediumBeyond(shape, !s.front, path.medium);
+            path.origin = leavingRay(&s, path.direction).origin;
+            continue;
+        }
+#endif
+        ++path.depth;
         __global const Lobe* lobes = SCENE_TABLE(tables, scene, Lobe, lobes) + s.firstLobe;
         const uint lightClass = lawPhotonClass(path.events);
         if (storableClasses(lobes, s.lobeCount) & (1u << lightClass))
-            storePhoton(photons, count, params->regionCapacity, &path, &s, lightClass);
+            storePhoton(photons, count, params->regionCapacity, &path, s.position, path.flux, s.patch << 1 | s.front,
+                        lightClass);
         const float2 uDirection = rngNext2(&rng);
         const float3 u = (float3)(rngNext(&rng), uDirection.x, uDirection.y);
-        if (!scatterPhoton(&path, &s, lobes, u)) return;
+        if (!scatterPhoton(&path, &s, lobes, shape, u)) return;
     }
     ++count->cutPaths;
     count->fluxCut += (path.flux.x + path.flux.y + path.flux.z) / 3;

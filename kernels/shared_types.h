@@ -116,10 +116,18 @@ typedef struct {
     Rgb sigmaT;         /* extinction coefficient, 1/scene unit */
     Rgb albedo;         /* scattering / extinction */
     float level;
-    Packed3 kernelAxis; /* unit; density kernels are cylinders about it (kernels/volume_density.clh) */
-    /* Of the density kernel in pass 0, by light class, scene units: radius across the axis, half height along it. */
+    Packed3 kernelAxis; /* unit; flat density kernels are cylinders about it (kernels/volume_region.clh) */
+    /* Of the density kernel in pass 0, by light class, scene units: radius across the axis and half height along it;
+     * half height 0: a ball. */
     float kernelRadius[4], kernelHalfHeight[4];
+    unsigned int firstPlane, planeCount; /* MediumPlane records that bound it with nothing inside; 0: not known */
 } Medium;
+
+/* A face of a medium that is a convex polyhedron: the inside has dot(normal, x) < offset. */
+typedef struct {
+    Packed3 normal; /* unit, outwards */
+    float offset;
+} MediumPlane;
 
 /* ---- textures: factors of reflectance that vary over a surface --------------------------------------------------- */
 
