@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 #include "scene/xml/element.h"
 
+#include <set>
 #include <unordered_map>
 
 namespace quasilux {
@@ -19,10 +20,12 @@ public:
     void warn(const SourceLocation& where, const std::string& message);
 
     Scene& scene;
-    std::unordered_map<const Element*, int> bsdfIndex;    ///< of bsdfs that shapes use, into Scene::bsdfs
-    std::unordered_map<const Element*, int> textureIndex; ///< of textures that bsdfs use, into Scene::textures
-    int defaultBsdf = -1, defaultEmitterBsdf = -1;        ///< of shapes without one; -1 until the first needs it
-    std::vector<const Element*> openBsdfs;                ///< being read now, outermost first: a cycle shows here
+    std::unordered_map<const Element*, int> bsdfIndex;        ///< of bsdfs that shapes use, into Scene::bsdfs
+    std::unordered_map<const Element*, int> textureIndex;     ///< of textures that bsdfs use, into Scene::textures
+    std::unordered_map<const Element*, unsigned> mediumIndex; ///< of media in use, into Scene::media
+    std::set<const Element*> usedPhases;                      ///< that a medium has
+    int defaultBsdf = -1, defaultEmitterBsdf = -1;            ///< of shapes without one; -1 until the first needs it
+    std::vector<const Element*> openBsdfs;                    ///< being read now, outermost first: a cycle shows here
 
 private:
     void collect(const Element& element);

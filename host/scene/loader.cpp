@@ -3,6 +3,8 @@
 #include "scene/emitters/emitters.h"
 #include "scene/integrator.h"
 #include "scene/load_context.h"
+#include "scene/media/medium_plugin.h"
+#include "scene/phases/phase_plugin.h"
 #include "scene/sensors/sensors.h"
 #include "scene/settings.h"
 #include "scene/shapes/shape_plugin.h"
@@ -41,12 +43,12 @@ void readObject(const Element& object, LoadContext& context, std::vector<const E
         sensors.push_back(&object);
     else if (object.tag == "integrator")
         integrators.push_back(&object);
-    else if (object.tag == "bsdf" || object.tag == "texture")
-        return; // read where a shape or a bsdf uses it
+    else if (object.tag == "bsdf" || object.tag == "texture" || object.tag == "medium" || object.tag == "phase")
+        return; // read where another object uses it
     else
         throw InputError(object.where,
-                         fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, texture, emitter, "
-                                     "sensor or integrator.",
+                         fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, texture, medium, "
+                                     "phase, emitter, sensor or integrator.",
                                      object.tag));
 }
 
@@ -66,6 +68,21 @@ void checkUnusedTextures(const Element& root, LoadContext& context) {
         if (element.tag != "texture" || context.textureIndex.count(&element)) continue;
         readTexture(element, context);
         context.warn(element.where, fmt::format("texture '{}' is used by no bsdf.", idOf(element)));
+    }
+}
+
+/// Media that no shape, sensor or emitter uses, likewise, and phase functions that no medium uses.
+void checkUnusedMedia(const Element& root, LoadContext& context) {
+    for (const Element& element : root.children) {
+        if (element.tag != "medium" || context.mediumIndex.count(&element)) continue;
+        readMedium(element, context);
+        context.warn(element.where, fmt::format("medium '{}' is used by no shape, sensor or emitter.", idOf(element)));
+    }
+    for (const Element& element : root.children) {
+        if (element.tag != "phase" || context.usedPhases.count(&element)) continue;
+        MediumDescription unused;
+        readPhase(element, context, unused);
+        context.warn(element.where, fmt::format("phase '{}' is used by no medium.", idOf(element)));
     }
 }
 
@@ -113,6 +130,7 @@ Scene loadScene(const std::string& path, const std::vector<std::pair<std::string
     checkUnusedBsdfs(root, context, nestedBsdfs);
     checkUnusedTextures(root, context);
     readSensors(sensors, context);
+    checkUnusedMedia(root, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
     if (!integrators.empty()) scene.maxDepth = readMaxDepth(*integrators[0], context);
     checkEmitters(scene);

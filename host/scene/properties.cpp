@@ -152,12 +152,12 @@ const Element* Properties::object(const std::string& tag) {
     return found.empty() ? nullptr : found[0];
 }
 
-const Element* Properties::texture(const std::string& name) {
-    knownTextures_.insert(name);
+const Element* Properties::named(const std::string& tag, const std::string& name) {
+    knownNamed_[tag].insert(name);
     const Element* found = nullptr;
     for (const Element* object : objects_) {
         const Element& target = context_.resolve(*object);
-        if (target.tag != "texture" || object->get("name") != name) continue;
+        if (target.tag != tag || object->get("name") != name) continue;
         const Element* before = found ? found : find(name);
         if (before)
             throw InputError(object->where, fmt::format("parameter '{}' is given twice (first at {}); keep one.", name,
@@ -176,35 +176,38 @@ void Properties::refuse(const std::string& name, const std::string& why) {
 
 void Properties::acceptAll() {
     for (const auto& entry : parameters_) knownNames_.insert(entry.first);
-    for (const Element* object : objects_) {
-        knownTags_.insert(context_.resolve(*object).tag);
-        knownTextures_.insert(object->get("name"));
-    }
+    for (const Element* object : objects_) knownTags_.insert(context_.resolve(*object).tag);
 }
 
-void Properties::failTexture(const Element& texture) const {
-    const std::string& name = texture.get("name");
-    const Names known(knownTextures_.begin(), knownTextures_.end());
-    throw InputError(texture.where, fmt::format("{} takes no texture {}. Parameters of it that may be textures: {}.",
-                                                describe(), name.empty() ? "without a name" : "as '" + name + "'",
-                                                known.empty() ? "none" : joinNames(known)));
+void Properties::checkObject(const Element& object) const {
+    const std::string& tag = context_.resolve(object).tag;
+    if (knownTags_.count(tag)) return;
+    const std::string& name = object.get("name");
+    const auto byName = knownNamed_.find(tag);
+    if (byName != knownNamed_.end() && byName->second.count(name)) return;
+    const std::string given = name.empty() ? "without a name" : "as '" + name + "'";
+    Names names;
+    if (byName != knownNamed_.end()) names.assign(byName->second.begin(), byName->second.end());
+    if (tag == "texture")
+        throw InputError(object.where, fmt::format("{} takes no texture {}. Parameters of it that may be textures: {}.",
+                                                   describe(), given, names.empty() ? "none" : joinNames(names)));
+    if (!names.empty())
+        throw InputError(object.where, fmt::format("{} takes no {} {}; name it.{}", describe(), tag, given,
+                                                   quasilux::knownNames(name, names)));
+    Names tags(knownTags_.begin(), knownTags_.end());
+    for (const auto& entry : knownNamed_) tags.push_back(entry.first);
+    throw InputError(object.where, fmt::format("{} takes no <{}>. Objects that it takes: {}.", describe(), tag,
+                                               tags.empty() ? "none" : joinNames(tags)));
 }
 
 void Properties::finish() const {
     for (const Element& child : element_.children) {
-        const std::string& name = child.get("name");
         const TagKind kind = tagOf(child).kind;
         if (kind == TagKind::object || kind == TagKind::reference) {
-            const Element& target = context_.resolve(child);
-            if (target.tag == "texture") {
-                if (!knownTextures_.count(name)) failTexture(child);
-                continue;
-            }
-            if (knownTags_.count(target.tag)) continue;
-            const Names tags(knownTags_.begin(), knownTags_.end());
-            throw InputError(child.where, fmt::format("{} takes no <{}>. Objects that it takes: {}.", describe(),
-                                                      target.tag, tags.empty() ? "none" : joinNames(tags)));
+            checkObject(child);
+            continue;
         }
+        const std::string& name = child.get("name");
         if (knownNames_.count(name)) continue;
         const Names known(knownNames_.begin(), knownNames_.end());
         throw InputError(child.where, fmt::format("unknown parameter '{}' of {}.{}", name, describe(),

@@ -50,7 +50,9 @@ public:
 
     /// The <texture> that gives this parameter, nested or referenced, or nullptr. Throws InputError where the parameter
     /// is given as a value too.
-    const Element* texture(const std::string& name);
+    const Element* texture(const std::string& name) { return named("texture", name); }
+    /// The <medium> of that name, nested or referenced, or nullptr.
+    const Element* medium(const std::string& name) { return named("medium", name); }
 
     /// The parameter's element or nullptr; marks it as used.
     const Element* find(const std::string& name);
@@ -65,13 +67,15 @@ public:
 
 private:
     const Element* find(const std::string& name, const Names& tags);
-    [[noreturn]] void failTexture(const Element& texture) const;
+    const Element* named(const std::string& tag, const std::string& name);
+    void checkObject(const Element& object) const;
 
     const Element& element_;
     LoadContext& context_;
     std::map<std::string, const Element*> parameters_;
     std::vector<const Element*> objects_; ///< nested objects and references, as written
-    std::set<std::string> knownNames_, knownTags_, knownTextures_;
+    std::set<std::string> knownNames_, knownTags_;
+    std::map<std::string, std::set<std::string>> knownNamed_; ///< by tag, of objects that go by name
 };
 
 } // namespace quasilux

@@ -1,15 +1,18 @@
-// `<?quasilux quasi-specular="…"?>` in a bsdf.
+// `<?quasilux quasi-specular="…"?>` in a bsdf or a medium.
 #include "scene/quasi_specular.h"
 
 #include "scene/xml/names.h"
 #include "scene/xml/numbers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
+
+constexpr std::string_view levelPrefix = "level:";
 
 void checkLobes(const QuasiSpecularChoice& choice, const Names& lobes, const SourceLocation& where) {
     for (const std::string& name : choice.lobes)
@@ -20,11 +23,11 @@ void checkLobes(const QuasiSpecularChoice& choice, const Names& lobes, const Sou
                                    name, knownNames(name, lobes)));
 }
 
-QuasiSpecularChoice parseChoice(const std::string& text, const SourceLocation& where) {
+QuasiSpecularChoice parseForBsdf(const std::string& text, const SourceLocation& where) {
     using Kind = QuasiSpecularChoice::Kind;
     QuasiSpecularChoice choice;
     choice.stated = true;
-    if (text.compare(0, 6, "level:") == 0)
+    if (isPhaseLevel(text))
         throw InputError(
             where, fmt::format("quasi-specular=\"{}\": a level splits phase functions; for a bsdf give auto, yes, "
                                "no, or names of its lobes.",
@@ -41,28 +44,73 @@ QuasiSpecularChoice parseChoice(const std::string& text, const SourceLocation& w
     return choice;
 }
 
+QuasiSpecularChoice parseForMedium(const std::string& text, const SourceLocation& where) {
+    using Kind = QuasiSpecularChoice::Kind;
+    QuasiSpecularChoice choice;
+    choice.stated = true;
+    if (isPhaseLevel(text)) {
+        choice.kind = Kind::level;
+        choice.level = parsePhaseLevel(text, where);
+    } else if (text == "yes" || text == "no") {
+        choice.kind = text == "yes" ? Kind::yes : Kind::no;
+    } else if (text != "auto") {
+        throw InputError(where, fmt::format("quasi-specular=\"{}\" of a medium: expected auto, yes, no, or a level "
+                                            "such as level:0.1.",
+                                            text));
+    }
+    return choice;
+}
+
+/// The one entry of the instructions of `object`, or nullptr.
+const Attribute* findEntry(const Element& object) {
+    if (object.instructions.size() > 1)
+        throw InputError(object.instructions[1].where,
+                         fmt::format("a second <?quasilux?> in one {}; keep one.", object.tag));
+    const Attribute* found = nullptr;
+    for (const Instruction& instruction : object.instructions) {
+        for (const Attribute& entry : instruction.entries) {
+            if (entry.name != "quasi-specular")
+                throw InputError(instruction.where,
+                                 fmt::format("unknown key '{}' of <?quasilux?> in a {}.{}", entry.name, object.tag,
+                                             knownNames(entry.name, {"quasi-specular"})));
+            found = &entry;
+        }
+    }
+    return found;
+}
+
 } // namespace
 
 void applyQuasiSpecular(const Element& bsdf, std::vector<LobeDescription>& front, std::vector<LobeDescription>& back) {
-    if (bsdf.instructions.size() > 1)
-        throw InputError(bsdf.instructions[1].where, "a second <?quasilux?> in one bsdf; keep one.");
+    const Attribute* entry = findEntry(bsdf);
+    if (!entry) return;
     Names lobes;
     for (const auto* side : {&front, &back})
         for (const LobeDescription& lobe : *side)
             if (std::find(lobes.begin(), lobes.end(), lobe.name) == lobes.end()) lobes.push_back(lobe.name);
-    for (const Instruction& instruction : bsdf.instructions) {
-        for (const Attribute& entry : instruction.entries) {
-            if (entry.name != "quasi-specular")
-                throw InputError(instruction.where,
-                                 fmt::format("unknown key '{}' of <?quasilux?> in a bsdf.{}", entry.name,
-                                             knownNames(entry.name, {"quasi-specular"})));
-            const QuasiSpecularChoice choice = parseChoice(entry.value, instruction.where);
-            checkLobes(choice, lobes, instruction.where);
-            for (auto* side : {&front, &back})
-                for (LobeDescription& lobe : *side)
-                    if (!lobe.quasiSpecular.stated) lobe.quasiSpecular = choice;
-        }
-    }
+    const SourceLocation& where = bsdf.instructions.front().where;
+    const QuasiSpecularChoice choice = parseForBsdf(entry->value, where);
+    checkLobes(choice, lobes, where);
+    for (auto* side : {&front, &back})
+        for (LobeDescription& lobe : *side)
+            if (!lobe.quasiSpecular.stated) lobe.quasiSpecular = choice;
+}
+
+QuasiSpecularChoice readMediumQuasiSpecular(const Element& medium) {
+    const Attribute* entry = findEntry(medium);
+    return entry ? parseForMedium(entry->value, medium.instructions.front().where) : QuasiSpecularChoice{};
+}
+
+bool isPhaseLevel(std::string_view text) { return text.substr(0, levelPrefix.size()) == levelPrefix; }
+
+double parsePhaseLevel(std::string_view text, const SourceLocation& where) {
+    const double level = parseNumber(text.substr(levelPrefix.size()), where, "quasi-specular: level");
+    const float single = static_cast<float>(level);
+    if (!(single > 0) || !std::isfinite(single))
+        throw InputError(where, fmt::format("quasi-specular: level {} is out of range; expected sr^-1 above 0, such as "
+                                            "level:0.1 (all of a medium: yes, nothing of it: no).",
+                                            level));
+    return level;
 }
 
 } // namespace quasilux

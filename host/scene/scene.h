@@ -105,7 +105,8 @@ struct PointEmitter {
     std::string id;
     SourceLocation where;
     glm::vec3 position{};
-    Rgb intensity{}; ///< W sr^-1
+    Rgb intensity{};                ///< W sr^-1
+    std::optional<unsigned> medium; ///< in which it stands, as stated, index into Scene::media
 };
 
 /// Radiance that comes from everywhere outside of the scene, W sr^-1 m^-2.
@@ -131,7 +132,7 @@ struct Sensor {
 struct SceneSettings {
     std::optional<unsigned> bdd;
     std::optional<std::string> variant;       ///< "main", "alternative"
-    std::optional<std::string> quasiSpecular; ///< "auto", "none", "all", "ID,ID"
+    std::optional<std::string> quasiSpecular; ///< "auto", "none", "all", "level:NUMBER", "ID,ID"
     std::optional<std::string> direct;        ///< "emitters", "photons"
     std::optional<unsigned> photons;          ///< emitted per pass
     std::optional<uint64_t> seed;

@@ -1,6 +1,7 @@
 // `<?quasilux …?>` directly in the scene.
 #include "scene/settings.h"
 
+#include "scene/quasi_specular.h"
 #include "scene/xml/names.h"
 #include "scene/xml/numbers.h"
 
@@ -23,10 +24,12 @@ std::string oneOf(const Attribute& entry, const Names& known, const SourceLocati
 }
 
 std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& where) {
-    if (entry.value == "yes" || entry.value == "no" || splitList(entry.value).empty())
-        throw InputError(
-            where,
-            fmt::format("quasi-specular=\"{}\" of a scene: expected auto, none, all, or ids of bsdfs.", entry.value));
+    if (isPhaseLevel(entry.value))
+        parsePhaseLevel(entry.value, where);
+    else if (entry.value == "yes" || entry.value == "no" || splitList(entry.value).empty())
+        throw InputError(where, fmt::format("quasi-specular=\"{}\" of a scene: expected auto, none, all, level:NUMBER, "
+                                            "or ids of bsdfs and media.",
+                                            entry.value));
     return entry.value;
 }
 

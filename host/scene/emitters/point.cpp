@@ -1,5 +1,6 @@
 // <emitter type="point">: the same intensity in all directions from one point.
 #include "scene/emitters/emitters.h"
+#include "scene/media/medium_plugin.h"
 #include "scene/transform.h"
 
 namespace quasilux {
@@ -14,6 +15,7 @@ void readPoint(Properties& properties) {
     emitter.where = properties.element().where;
     emitter.position = toSingle(position, emitter.where);
     emitter.intensity = properties.emission("intensity", {1, 1, 1});
+    if (const Element* medium = properties.object("medium")) emitter.medium = useMedium(*medium, properties.context());
     properties.context().scene.pointEmitters.push_back(emitter);
 }
 

@@ -1,6 +1,8 @@
 // The table of sensor plugins, and what all of them have: film, sampler, clipping planes.
 #include "scene/sensors/sensors.h"
 
+#include "scene/media/medium_plugin.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -38,6 +40,7 @@ Sensor readSensor(const Element& element, LoadContext& context) {
     if (const Element* sampler = properties.object("sampler")) readSampler(*sampler, context);
     sensor.nearClip = properties.numberAbove("near_clip", sensor.nearClip, 0, true);
     sensor.farClip = properties.numberAbove("far_clip", sensor.farClip, sensor.nearClip, true);
+    if (const Element* medium = properties.object("medium")) sensor.medium = useMedium(*medium, context);
     plugin.read(properties, sensor);
     properties.finish();
     return sensor;

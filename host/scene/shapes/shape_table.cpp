@@ -3,6 +3,7 @@
 
 #include "scene/bsdfs/bsdf_plugin.h"
 #include "scene/emitters/emitters.h"
+#include "scene/media/medium_plugin.h"
 
 #include <fmt/format.h>
 
@@ -53,7 +54,11 @@ ShapeDescription readShape(const Element& element, LoadContext& context) {
     plugin.read(properties, shape);
     const Element* bsdf = properties.object("bsdf");
     const Element* emitter = properties.object("emitter");
+    const Element* interior = properties.medium("interior");
+    const Element* exterior = properties.medium("exterior");
     properties.finish();
+    if (interior) shape.interior = useMedium(*interior, context);
+    if (exterior) shape.exterior = useMedium(*exterior, context);
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
     if (!shape.sphere && shape.mesh.cornerUvs.empty() &&
         context.scene.bsdfs[static_cast<size_t>(shape.bsdf)].isTextured())

@@ -22,6 +22,8 @@ const std::vector<Tag> tags = {
     {"bsdf", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"emitter", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"texture", TagKind::object, {"type"}, {"id", "name", "version"}},
+    {"medium", TagKind::object, {"type"}, {"id", "name", "version"}},
+    {"phase", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"float", TagKind::parameter, {"name", "value"}, {}},
     {"integer", TagKind::parameter, {"name", "value"}, {}},
     {"boolean", TagKind::parameter, {"name", "value"}, {}},
@@ -40,9 +42,7 @@ const std::vector<Tag> tags = {
 
 /// Part of Mitsuba 3 but not of quasilux, with what to do instead.
 const std::vector<std::pair<std::string_view, std::string_view>> unsupportedTags = {
-    {"medium", "remove it, or describe the object by its surface"},
-    {"phase", "remove it"},
-    {"volume", "remove it"},
+    {"volume", "media are homogeneous: give the value as a <float>, <rgb> or <spectrum> in its place"},
     {"path", "write file names relative to the scene file"},
     {"alias", "repeat the object under its second id"},
     {"animation", "use one <transform>"},

@@ -73,7 +73,8 @@ public:
             const ptrdiff_t bracket = node.type() == pugi::node_pi ? 2 : 1; // "<?" or "<" before the name
             const SourceLocation where = positions.at(node.offset_debug() - bracket);
             if (node.type() == pugi::node_pi && std::string_view(node.name()) == "quasilux")
-                throw InputError(where, "<?quasilux?> outside of the scene; put it into <scene> or a <bsdf>.");
+                throw InputError(where,
+                                 "<?quasilux?> outside of the scene; put it into <scene>, a <bsdf> or a <medium>.");
             if (node.type() != pugi::node_element) continue;
             if (!root.tag.empty()) throw InputError(where, "a second outermost element; a file has one.");
             root = convert(node, nullptr, positions, 0);
@@ -117,10 +118,11 @@ private:
         if (child.type() == pugi::node_pi) {
             if (std::string_view(child.name()) != "quasilux") return; // another program's
             const SourceLocation where = positions.at(child.offset_debug() - 2);
-            if (parent.tag != "scene" && parent.tag != "bsdf")
-                throw InputError(
-                    where,
-                    fmt::format("<?quasilux?> has no meaning in <{}>; put it into <scene> or a <bsdf>.", parent.tag));
+            if (parent.tag != "scene" && parent.tag != "bsdf" && parent.tag != "medium")
+                throw InputError(where,
+                                 fmt::format("<?quasilux?> has no meaning in <{}>; put it into <scene>, a <bsdf> "
+                                             "or a <medium>.",
+                                             parent.tag));
             parent.instructions.push_back(parseInstruction(child.value(), where));
         } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
             const std::string text = child.value();

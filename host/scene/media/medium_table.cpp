@@ -1,0 +1,55 @@
+// The table of medium plugins, and what is common to reading any of them.
+#include "scene/media/medium_plugin.h"
+
+#include "scene/phases/phase_plugin.h"
+#include "scene/quasi_specular.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+struct MediumPlugin {
+    std::string_view name;
+    void (*read)(Properties&, MediumDescription&);
+};
+
+constexpr MediumPlugin plugins[] = {{"homogeneous", readHomogeneous}};
+
+const MediumPlugin& findPlugin(const Element& element) {
+    Names known;
+    for (const MediumPlugin& plugin : plugins) {
+        if (plugin.name == element.get("type")) return plugin;
+        known.push_back(plugin.name);
+    }
+    throw InputError(element.where, fmt::format("unknown medium plugin '{}'.{}", element.get("type"),
+                                                knownNames(element.get("type"), known)));
+}
+
+} // namespace
+
+MediumDescription readMedium(const Element& element, LoadContext& context) {
+    const MediumPlugin& plugin = findPlugin(element);
+    Properties properties(element, context);
+    MediumDescription medium;
+    medium.id = idOf(element);
+    medium.where = element.where;
+    plugin.read(properties, medium);
+    if (const Element* phase = properties.object("phase")) readPhase(*phase, context, medium);
+    properties.accept({"sample_emitters", "has_spectral_extinction"});
+    properties.finish();
+    medium.quasiSpecular = readMediumQuasiSpecular(element);
+    return medium;
+}
+
+unsigned useMedium(const Element& element, LoadContext& context) {
+    const auto known = context.mediumIndex.find(&element);
+    if (known != context.mediumIndex.end()) return known->second;
+    context.scene.media.push_back(readMedium(element, context));
+    const auto index = static_cast<unsigned>(context.scene.media.size() - 1);
+    context.mediumIndex.emplace(&element, index);
+    return index;
+}
+
+} // namespace quasilux

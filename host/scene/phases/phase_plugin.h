@@ -1,0 +1,16 @@
+// Reading of phase functions. A new plugin is one file here and one line in the table of phase_table.cpp.
+#pragma once
+
+#include "scene/properties.h"
+
+namespace quasilux {
+
+/// Reads a <phase> into MediumDescription::phase and what it needs. Throws InputError for unknown plugins and
+/// parameters.
+void readPhase(const Element& element, LoadContext& context, MediumDescription& medium);
+
+void readIsotropic(Properties& properties, MediumDescription& medium);
+void readHenyeyGreenstein(Properties& properties, MediumDescription& medium);
+void readRayleigh(Properties& properties, MediumDescription& medium);
+
+} // namespace quasilux
