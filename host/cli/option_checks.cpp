@@ -1,6 +1,7 @@
 // Validators for CLI11: each returns an empty text, or what is wrong and what was expected.
 #include "cli/option_checks.h"
 
+#include "scene/quasi_specular.h"
 #include "util/nearest.h"
 
 #include <algorithm>
@@ -29,6 +30,16 @@ CLI::Validator number(const std::string& expected, const std::function<bool(doub
             return value && allowed(*value) ? std::string() : fmt::format("'{}' given, expected {}", text, expected);
         },
         "");
+}
+
+/// What is wrong with "level:NUMBER"; empty if nothing.
+std::string levelError(const std::string& text) {
+    try {
+        parsePhaseLevel(text, {});
+    } catch (const InputError& error) {
+        return fmt::format("'{}' given: {}", text, error.what());
+    }
+    return {};
 }
 
 } // namespace
@@ -75,6 +86,7 @@ CLI::Validator definition() {
 CLI::Validator quasiSpecularList() {
     return CLI::Validator(
         [](const std::string& text) {
+            if (isPhaseLevel(text)) return levelError(text);
             std::istringstream items(text + ',');
             std::string item;
             bool complete = !text.empty();
@@ -82,10 +94,12 @@ CLI::Validator quasiSpecularList() {
             while (std::getline(items, item, ',')) {
                 complete = complete && !item.empty();
                 ++count;
-                words += item == "auto" || item == "none" || item == "all";
+                words += item == "auto" || item == "none" || item == "all" || isPhaseLevel(item);
             }
             if (complete && (words == 0 || count == 1)) return std::string();
-            return fmt::format("'{}' given, expected auto, none, all or ids of bsdfs with commas between", text);
+            return fmt::format("'{}' given, expected auto, none, all or ids of bsdfs and media with commas between, or "
+                               "level:NUMBER",
+                               text);
         },
         "");
 }

@@ -15,7 +15,7 @@ CLI::Validator numberBetween(double from, double to);
 CLI::Validator oneOf(std::vector<std::string> names);
 /// "name=value" with a name.
 CLI::Validator definition();
-/// "auto", "none", "all" or a comma-separated list without empty items.
+/// "auto", "none", "all", "level:NUMBER" or a comma-separated list without empty items.
 CLI::Validator quasiSpecularList();
 
 } // namespace quasilux

@@ -27,10 +27,11 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->check(oneOf({"main", "alternative"}))
         ->group(group);
     command
-        .add_option("--quasi-specular", options.quasiSpecular,
-                    "Lobes followed like mirrors: auto, none, all, or ids of bsdfs (or ID.LOBE) with commas between "
-                    "(default: the "
-                    "scene's, else auto)")
+        .add_option(
+            "--quasi-specular", options.quasiSpecular,
+            "Scattering followed like mirrors: auto, none, all, ids of bsdfs (or ID.LOBE) and media with commas "
+            "between, or level:X, the phase functions of media above X per sr (default: the scene's, else "
+            "auto)")
         ->type_name("LIST")
         ->check(quasiSpecularList())
         ->group(group);

@@ -1,22 +1,17 @@
+// Decides for every lobe between genuine diffuse and quasi-specular.
 #include "prepare/split.h"
+
+#include "prepare/split_list.h"
+#include "scene/quasi_specular.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <sstream>
 
 namespace quasilux {
 
 namespace {
 
 constexpr double degrees = 57.29577951308232;
-
-std::vector<std::string> splitList(const std::string& text) {
-    std::vector<std::string> items;
-    std::istringstream stream(text);
-    for (std::string item; std::getline(stream, item, ',');)
-        if (!item.empty()) items.push_back(item);
-    return items;
-}
 
 bool hasSpecialLobe(const Bsdf& bsdf) {
     const auto special = [](const LobeDescription& lobe) { return lobe.device.type != LOBE_LAMBERT; };
@@ -28,23 +23,6 @@ bool isListed(const std::vector<std::string>& list, const Bsdf& bsdf, const Lobe
     const bool wholeBsdf = std::find(list.begin(), list.end(), bsdf.id) != list.end();
     const bool thisLobe = std::find(list.begin(), list.end(), bsdf.id + '.' + lobe.name) != list.end();
     return thisLobe || (wholeBsdf && (lobe.device.type != LOBE_LAMBERT || !hasSpecialLobe(bsdf)));
-}
-
-void checkList(const Scene& scene, const std::vector<std::string>& list) {
-    std::string known;
-    std::vector<std::string> names;
-    for (const auto& bsdf : scene.bsdfs) {
-        known += (known.empty() ? "" : ", ") + bsdf.id;
-        names.push_back(bsdf.id);
-        for (const auto* side : {&bsdf.front, &bsdf.back})
-            for (const auto& lobe : *side) names.push_back(bsdf.id + '.' + lobe.name);
-    }
-    for (const auto& item : list)
-        if (std::find(names.begin(), names.end(), item) == names.end())
-            throw InputError(
-                fmt::format("quasi-specular: the scene has no bsdf or lobe '{}', expected auto, none, all, or ids "
-                            "among: {} (or ID.LOBE, such as {}.specular)",
-                            item, known, scene.bsdfs.empty() ? "ID" : scene.bsdfs.front().id));
 }
 
 LobeDecision byWidth(const LobeDescription& lobe) {
@@ -64,6 +42,7 @@ LobeDecision byScene(const LobeDescription& lobe) {
     case QuasiSpecularChoice::Kind::automatic:
         return byWidth(lobe);
     case QuasiSpecularChoice::Kind::lobes:
+    case QuasiSpecularChoice::Kind::level: // the loader gives it to media only
         break;
     }
     const bool named = std::find(choice.lobes.begin(), choice.lobes.end(), lobe.name) != choice.lobes.end();
@@ -84,12 +63,9 @@ LobeDecision decide(const Bsdf& bsdf, const LobeDescription& lobe, const std::st
 
 } // namespace
 
-std::vector<BsdfDecision> decideSplit(const Scene& scene, const std::string& setting, bool overridesScene) {
-    std::vector<std::string> list;
-    if (setting != "auto" && setting != "none" && setting != "all") {
-        list = splitList(setting);
-        checkList(scene, list);
-    }
+std::vector<BsdfDecision> decideSplit(const Scene& scene, const std::string& asked, bool overridesScene) {
+    const std::string setting = isPhaseLevel(asked) ? "auto" : asked; // a level says nothing of lobes
+    const std::vector<std::string> list = listedIds(scene, setting);
     std::vector<BsdfDecision> decisions;
     for (const auto& bsdf : scene.bsdfs) {
         BsdfDecision decision;

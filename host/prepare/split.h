@@ -1,4 +1,4 @@
-// Which lobes are genuine diffuse and which quasi-specular: the one choice that the method leaves to its user. Any choice
+// Which lobes, and which part of a phase function, are genuine diffuse and which quasi-specular: the one choice that the method leaves to its user. Any choice
 // gives the same mean image (kernels/law.clh); only the noise differs.
 #pragma once
 
@@ -22,8 +22,8 @@ struct BsdfDecision {
     std::vector<LobeDecision> front, back;
 };
 
-/// `setting` is auto | none | all | ID,ID,… where ID names a bsdf (its lobes other than Lambert, or all if it has no
-/// other) or ID.LOBE one lobe of it. With `overridesScene` it wins over what the bsdfs of the scene say.
+/// `setting` is auto | none | all | level:NUMBER (as auto) | ID,ID,… where ID names a bsdf (its lobes other than
+/// Lambert, or all if it has no other), ID.LOBE one lobe of it, or ID a medium (no lobe). With `overridesScene` it wins over what the bsdfs of the scene say.
 /// Throws InputError for an ID that the scene does not have.
 std::vector<BsdfDecision> decideSplit(const Scene& scene, const std::string& setting, bool overridesScene);
 
@@ -36,8 +36,9 @@ struct MediumDecision {
 /// The level of phase function that `auto` chooses: 5/4 of an isotropic one's value, 1/(4 pi).
 inline constexpr double autoPhaseLevel = 0.1;
 
-/// Decisions for Scene::media. `setting` as above, or `level:0.1` for every medium; in a list ID names a medium too and
-/// makes all of its phase function quasi-specular.
+/// Decisions for Scene::media. `setting` as above: none is level infinity, all is level 0, `level:0.1` that level for
+/// every medium; a list makes all of the phase function quasi-specular where it names the medium, and is auto for the
+/// others. A level that the phase function nowhere exceeds becomes infinity. `overridesScene` as above; throws alike.
 std::vector<MediumDecision> decideMediumSplit(const Scene& scene, const std::string& setting, bool overridesScene);
 
 } // namespace quasilux
