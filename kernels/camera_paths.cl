@@ -9,6 +9,9 @@
 #include "direct_light.clh"
 #include "film.clh"
 #include "law.clh"
+#include "medium_flight.clh"
+#include "medium_light.clh"
+#include "volume_density.clh"
 
 /* Paths whose next contribution is below this share of the first are ended by roulette. */
 #define CAMERA_ROULETTE_THRESHOLD 0.05f
@@ -23,7 +26,18 @@ typedef struct {
     int specularSoFar; /* nothing but specular events: emission counts in full */
     float directPdf;  /* > 0: emission counts by its share against emitter sampling; density of the sampled direction */
     int onlyEmission; /* the path goes on just for that share */
+#ifdef HAS_MEDIA
+    uint medium; /* index or MEDIUM_NONE */
+#endif
 } CameraPath;
+
+inline uint mediumOf(const CameraPath* path) {
+#ifdef HAS_MEDIA
+    return path->medium;
+#else
+    return MEDIUM_NONE;
+#endif
+}
 
 /* What the kernels of this stage read. */
 typedef struct {
@@ -117,9 +131,10 @@ inline void takeLight(const World* world, const CameraPath* path, const Surface*
     if (takers[LIGHT_DIRECT] && path->depth < params->maxDepth) {
         const float uSelect = rngNext(rng);
         const float2 u = rngNext2(rng);
-        components[LIGHT_DIRECT] += path->throughput * directLight(s, frame, wo, lobes, takers[LIGHT_DIRECT], choice,
-                                                                   (float3)(uSelect, u.x, u.y), world->nodes,
-                                                                   world->blocks, world->tables, &params->scene);
+        components[LIGHT_DIRECT] +=
+            path->throughput * directLight(s, frame, wo, lobes, takers[LIGHT_DIRECT], choice,
+                                           (float3)(uSelect, u.x, u.y), mediumOf(path), world->nodes, world->blocks,
+                                           world->tables, &params->scene);
     }
 #endif
     for (uint c = 0; c < LIGHT_CLASSES; ++c)
@@ -153,13 +168,101 @@ inline int scatterCameraPath(const World* world, CameraPath* path, const Surface
     path->ray = leavingRay(s, wi);
     path->from = s->position;
     path->passed = 0;
+#ifdef HAS_MEDIA
+    if (sample.wi.z < 0)
+        path->medium = mediumBeyond(SCENE_TABLE(world->tables, &world->params->scene, Shape, shapes) + s->shape,
+                                    !s->front, path->medium);
+#endif
     return 1;
 }
+
+#ifdef HAS_MEDIA
+/* Takes every class of light that the law names at a collision; `path` has come to it at `position`, its throughput
+ * includes the albedo. */
+inline void takeLightInMedium(const World* world, const CameraPath* path, float3 position,
+                              __global const Medium* medium, Rng* rng, float3* components) {
+    const CameraParams* params = world->params;
+    const uint kinds = phaseScatterings(medium);
+    const uint diffuse =
+        kinds & SCATTER_GENUINE_DIFFUSE ? lawLightTaken(SCATTER_GENUINE_DIFFUSE, path->d, path->q, params->bdd) : 0u;
+    const uint quasi =
+        kinds & SCATTER_QUASI_SPECULAR ? lawLightTaken(SCATTER_QUASI_SPECULAR, path->d, path->q, params->bdd) : 0u;
+    const Geometry geometry = {world->nodes, world->blocks, world->tables, &params->scene};
+#ifdef HAS_DIRECT_IN_MEDIA
+    const uint direct = takers(diffuse, quasi, LIGHT_DIRECT);
+    if (direct) {
+        const float uSelect = rngNext(rng);
+        const float2 u = rngNext2(rng);
+        components[LIGHT_DIRECT] +=
+            path->throughput * directLightInMedium(&geometry, medium, path->medium, position, path->ray.direction,
+                                                   direct, phaseSurvival(path->throughput),
+                                                   (float3)(uSelect, u.x, u.y));
+    }
+#endif
+    const float3 wo = -path->ray.direction;
+    const uint depthMax = params->maxDepth == QL_NONE ? QL_NONE : params->maxDepth - path->depth;
+    const float2 u = rngNext2(rng);
+    for (uint c = 0; c < LIGHT_CLASSES; ++c) {
+        const uint parts = takers(diffuse, quasi, c);
+        if (!(PHOTON_CLASSES >> VOLUME_SLOT(c) & 1) || !parts || slotIsEmpty(world->photons, VOLUME_SLOT(c))) continue;
+        const VolumeRegion region = volumeRegionAt(&geometry, medium, position, c, params->map.volumeScale, u);
+        components[c] += path->throughput * gatherVolumePhotons(world->photons, c, medium - path->medium, path->medium,
+                                                                &region, wo, parts, depthMax);
+    }
+}
+
+/* A collision: light is taken and the path scattered; 0 where it ends. */
+inline int collideCameraPath(const World* world, CameraPath* path, const FreeFlight* flight,
+                             __global const Medium* medium, Rng* rng, float3* components) {
+    const CameraParams* params = world->params;
+    if (path->passed == 0) ++path->depth;
+    if (path->onlyEmission || path->depth >= params->maxDepth) return 0;
+    path->throughput *= flight->weight * loadRgb(medium->albedo);
+    const float3 position = path->ray.origin + flight->distance * path->ray.direction;
+    takeLightInMedium(world, path, position, medium, rng, components);
+
+    const float survival = phaseSurvival(path->throughput);
+    if (rngNext(rng) >= survival) return 0;
+    path->throughput /= survival;
+    const float3 direction = phaseSampleDirection(medium, path->ray.direction, rngNext2(rng));
+    const float p = phaseValue(medium, dot(path->ray.direction, direction));
+    const uint scattering = phaseEvent(medium, p, rngNext(rng));
+    path->directPdf = 0;
+#ifdef HAS_DIRECT_IN_MEDIA
+    if (lawLightTaken(scattering, path->d, path->q, params->bdd) >> LIGHT_DIRECT & 1 &&
+        phaseSharesDirect(medium, scattering))
+        path->directPdf = survival * phasePart(medium, scattering, p);
+#endif
+    path->onlyEmission = !lawMayScatter(scattering, path->d, params->bdd);
+    if (path->onlyEmission && path->directPdf == 0) return 0;
+    path->specularSoFar = 0;
+    path->d += scattering == SCATTER_GENUINE_DIFFUSE;
+    path->q += scattering == SCATTER_QUASI_SPECULAR;
+    path->ray.origin = position;
+    path->ray.direction = direction;
+    path->ray.tMin = 0;
+    path->ray.tMax = INFINITY;
+    path->from = position;
+    path->passed = 0;
+    return 1;
+}
+#endif
 
 /* One segment of the path and what happens at its end; 0 where the path ends. */
 inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, float3* components) {
     const CameraParams* params = world->params;
-    const Hit hit = intersectClosest(world->nodes, world->blocks, path->ray);
+    Hit hit;
+#ifdef HAS_MEDIA
+    if (inMedium(path->medium)) {
+        __global const Medium* medium = SCENE_TABLE(world->tables, &params->scene, Medium, media) + path->medium;
+        const MediumSegment segment = followMedium(medium, path->throughput, &path->ray, 0, rngNext2(rng), world->nodes,
+                                                   world->blocks, world->tables, &params->scene);
+        if (segment.flight.collided) return collideCameraPath(world, path, &segment.flight, medium, rng, components);
+        path->throughput *= segment.flight.weight;
+        hit = segment.hit;
+    } else
+#endif
+        hit = intersectClosest(world->nodes, world->blocks, path->ray);
     if (hit.primitive == QL_NONE) {
         if (path->passed == 0) ++path->depth;
         takeSurroundings(world, path, components);
@@ -169,12 +272,16 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
         surfaceAt(hit, path->ray.origin, path->ray.direction, world->blocks, world->tables, &params->scene);
     if (path->passed == 0) ++path->depth;
     takeEmission(world, path, &s, hit.t, components);
-#ifdef HAS_NULL_PRIMITIVES
+#if defined(HAS_NULL_PRIMITIVES) || defined(HAS_MEDIA)
     if (s.isNull) {
         const float tMax = path->ray.tMax;
         path->ray = leavingRay(&s, path->ray.direction);
         path->ray.tMax = tMax - hit.t; /* the far clipping plane stays */
         path->passed += max(hit.t, FLT_MIN);
+#ifdef HAS_MEDIA
+        path->medium =
+            mediumBeyond(SCENE_TABLE(world->tables, &params->scene, Shape, shapes) + s.shape, !s.front, path->medium);
+#endif
         return 1;
     }
 #endif
@@ -208,6 +315,9 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
     path.specularSoFar = 1;
     path.directPdf = 0;
     path.onlyEmission = 0;
+#ifdef HAS_MEDIA
+    path.medium = params.camera.medium;
+#endif
     float3 components[FILM_COMPONENTS];
     for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = 0;
     uint event = 0;

@@ -25,8 +25,8 @@ typedef struct {
 /* One photon as traced, before indexing. */
 typedef struct {
     Packed3 position;
-    unsigned int direction;  /* towards where it came from, octahedral 16 + 16 bits */
-    Rgb flux;                /* W */
+    unsigned int direction; /* towards where it came from, octahedral 16 + 16 bits */
+    Rgb flux;               /* W */
     unsigned int patchSide; /* patch << 1 | side: 1 where it arrived on the side of the normal; in a medium its index */
     unsigned int classDepth; /* segments since the light << 3 | map slot; segments saturate at PHOTON_DEPTH_MAX */
 } Photon;
@@ -51,8 +51,8 @@ typedef struct {
     unsigned int paths; /* photons emitted in the pass */
     unsigned int pathsPerRegion;
     unsigned int regions;
-    unsigned int regionCapacity; /* photons */
-    unsigned int maxDepth;       /* segments of the whole path, QL_NONE = no limit */
+    unsigned int regionCapacity;          /* photons */
+    unsigned int maxDepth;                /* segments of the whole path, QL_NONE = no limit */
     float keepProbability[LIGHT_CLASSES]; /* of photons in media, by class: they are thinned where there are many */
     SceneTables scene;
 } PhotonParams;

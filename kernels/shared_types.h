@@ -129,6 +129,12 @@ typedef struct {
     float offset;
 } MediumPlane;
 
+/* Known mistakes, switched on by tests as negative controls: 1 flux at collisions is not divided by the extinction, 2
+ * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken. */
+#ifndef MEDIUM_RULE
+#define MEDIUM_RULE 0
+#endif
+
 /* ---- textures: factors of reflectance that vary over a surface --------------------------------------------------- */
 
 #define TEXTURE_CHECKERBOARD 0u

@@ -94,9 +94,10 @@ TEST(SkyScene, IsSeenInFullAndEndsWithTheDepthLimit) {
 }
 
 TEST(SkyScene, PowerIsThatWhichEntersTheSphereAboutTheScene) {
-    const auto flat = flattenEmitters(test::loadBody(
+    const Scene scene = test::loadBody(
         R"(<emitter type="constant"><rgb name="radiance" value="1,2,3"/></emitter>
-           <shape type="sphere"><point name="center" x="1" y="2" z="3"/><float name="radius" value="2"/></shape>)"));
+           <shape type="sphere"><point name="center" x="1" y="2" z="3"/><float name="radius" value="2"/></shape>)");
+    const auto flat = flattenEmitters(scene, placeMedia(scene));
     ASSERT_EQ(flat.emitters.size(), 2u); // with the point of every test scene
     EXPECT_EQ(flat.emitters.back().type, EMITTER_CONSTANT);
     const double pi = std::numbers::pi;

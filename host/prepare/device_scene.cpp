@@ -2,12 +2,30 @@
 
 #include "prepare/scene_tables.h"
 
+#include <cmath>
+
 namespace quasilux {
 
 namespace {
 
+void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& media, const EmitterTables& emitters,
+                        Features& features) {
+    features.media = !media.empty();
+    for (const auto& medium : media) {
+        features.phases.insert(medium.phase);
+        features.chromaticMedia |= medium.sigmaT.r != medium.sigmaT.g || medium.sigmaT.r != medium.sigmaT.b;
+        features.genuineDiffuseMedia |= medium.level > 0;
+        features.quasiSpecularMedia |= std::isfinite(medium.level);
+    }
+    // Through anything but a null surface light comes as caustic photons, so emitter sampling would find nothing.
+    for (const auto& emitter : emitters.emitters) features.directInMedia |= emitter.medium != MEDIUM_NONE;
+    for (const auto& shape : scene.shapes)
+        features.directInMedia |=
+            scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull && (shape.interior || shape.exterior);
+}
+
 Features findFeatures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters,
-                      const SurfaceBorders& borders) {
+                      const std::vector<shared::Medium>& media, const SurfaceBorders& borders) {
     Features features;
     for (const auto& lobe : materials.lobes) {
         features.lobes.insert(lobe.type);
@@ -17,6 +35,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0;
     }
     for (const auto& emitter : emitters.emitters) features.emitterTypes.insert(emitter.type);
+    findMediumFeatures(scene, media, emitters, features);
     for (const auto& shape : scene.shapes) {
         features.spheres |= shape.sphere.has_value();
         features.cornerNormals |= !shape.mesh.cornerNormals.empty();
@@ -56,16 +75,20 @@ void appendBorders(const SurfaceBorders& borders, float reach, SceneTableWriter&
 DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     DeviceScene out;
     out.split = decideSplit(scene, settings.quasiSpecular, settings.overridesScene);
-    out.emitters = flattenEmitters(scene);
+    out.mediumSplit = decideMediumSplit(scene, settings.quasiSpecular, settings.overridesScene);
+    const auto placement = placeMedia(scene);
+    const auto media = flattenMedia(scene, out.mediumSplit, settings.photons);
+    out.media = media.media;
+    out.emitters = flattenEmitters(scene, placement);
     const auto materials = flattenMaterials(scene, out.split);
     const auto borders = findBorders(scene);
     out.surfaceArea = scatteringArea(scene);
-    out.features = findFeatures(scene, materials, out.emitters, borders);
+    out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
     out.bvh = buildBvh(flattenPrimitives(scene));
 
     SceneTableWriter tables;
     out.offsets.primitives = tables.append(flattenPrimitiveInfo(scene, borders));
-    out.offsets.shapes = tables.append(flattenShapes(scene, out.emitters.emitterOfShape));
+    out.offsets.shapes = tables.append(flattenShapes(scene, out.emitters.emitterOfShape, placement));
     out.offsets.cornerNormals = tables.append(flattenCornerNormals(scene));
     out.offsets.materials = tables.append(materials.materials);
     out.offsets.lobes = tables.append(materials.lobes);
@@ -73,12 +96,14 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.textures = tables.append(textures.textures);
     out.offsets.texels = tables.append(textures.texels);
     out.offsets.uvs = tables.append(flattenUvs(scene));
+    out.offsets.media = tables.append(media.media);
+    out.offsets.mediumPlanes = tables.append(media.planes);
     out.offsets.emitters = tables.append(out.emitters.emitters);
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
     out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
     appendBorders(borders, static_cast<float>(settings.largestRadius(out.surfaceArea)), tables, out.offsets);
     out.tables = tables.words();
-    out.camera = flattenCamera(scene.sensor);
+    out.camera = flattenCamera(scene.sensor, placement.camera);
 
     for (const auto& shape : scene.shapes) {
         out.triangles += shape.mesh.triangles.size();

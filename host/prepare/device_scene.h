@@ -5,6 +5,7 @@
 #include "prepare/borders.h"
 #include "prepare/bvh.h"
 #include "prepare/features.h"
+#include "prepare/media.h"
 #include "prepare/split.h"
 
 #include <functional>
@@ -31,10 +32,13 @@ struct DeviceScene {
     double emittedFlux = 0; ///< W, mean of R, G, B
     EmitterTables emitters;
     std::vector<BsdfDecision> split;
+    std::vector<MediumDecision> mediumSplit;
+    std::vector<shared::Medium> media; ///< as in the tables
 };
 
 struct FlattenSettings {
     std::string quasiSpecular = "auto"; ///< as decideSplit takes it
+    unsigned photons = 0;               ///< emitted in a pass
     bool overridesScene = false;
     std::function<double(double area)>
         largestRadius; ///< of the density estimate, from the surface area: indexes the borders
@@ -44,7 +48,8 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings);
 /// Pieces of it, each a table.
 std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene);
 std::vector<shared::PrimitiveInfo> flattenPrimitiveInfo(const Scene& scene, const SurfaceBorders& borders);
-std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<unsigned>& emitterOfShape);
+std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<unsigned>& emitterOfShape,
+                                         const MediumPlacement& placement);
 std::vector<shared::Packed3> flattenCornerNormals(const Scene& scene);
 struct MaterialTables {
     std::vector<shared::Material> materials;
@@ -60,8 +65,16 @@ TextureTables flattenTextures(const Scene& scene, const std::vector<shared::Lobe
 /// Words of a textured shape in the table of flattenUvs; 0 for others.
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape);
 std::vector<float> flattenUvs(const Scene& scene);
-EmitterTables flattenEmitters(const Scene& scene);
-shared::Camera flattenCamera(const Sensor& sensor);
+EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placement);
+shared::Camera flattenCamera(const Sensor& sensor, unsigned medium = MEDIUM_NONE);
+struct MediumTables {
+    std::vector<shared::Medium> media;
+    std::vector<shared::MediumPlane> planes;
+};
+/// `photons` are emitted in a pass: they decide the first size of density kernels.
+MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>& split, unsigned photons);
 double scatteringArea(const Scene& scene);
+/// Whether a shape is no more than a place that light passes: a `null` bsdf that bounds no medium.
+bool passesLight(const Scene& scene, const ShapeDescription& shape);
 
 } // namespace quasilux

@@ -12,6 +12,7 @@ namespace {
 constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
 #undef LOBE_NAME
 constexpr std::array<const char*, 5> emitterNames = {"RECTANGLE", "TRIANGLES", "SPHERE", "POINT", "CONSTANT"};
+constexpr std::array<const char*, 3> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH"}; // in the order of PHASE_*
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -31,6 +32,9 @@ constexpr std::array flags = {
     Flag{&Features::depthLimit, "HAS_DEPTH_LIMIT", "path depth limit"},
     Flag{&Features::orthographicCamera, "HAS_ORTHOGRAPHIC_CAMERA", "orthographic camera"},
     Flag{&Features::textures, "HAS_TEXTURES", "textures"},
+    Flag{&Features::media, "HAS_MEDIA", "media"},
+    Flag{&Features::chromaticMedia, "HAS_CHROMATIC_MEDIA", "media with coloured extinction"},
+    Flag{&Features::directInMedia, "HAS_DIRECT_IN_MEDIA", "emitters that shine into media"},
 };
 
 } // namespace
@@ -43,6 +47,7 @@ std::string Features::options() const {
     for (const unsigned type : lobes) text += std::string(" -DHAS_LOBE_") + lobeNames.at(type);
     if (lobes.size() == 1) text += " -DONE_LOBE_TYPE";
     for (const unsigned type : emitterTypes) text += std::string(" -DHAS_EMITTER_") + emitterNames.at(type);
+    for (const unsigned type : phases) text += std::string(" -DHAS_PHASE_") + phaseNames.at(type);
     for (const auto& flag : flags)
         if (this->*flag.member) text += std::string(" -D") + flag.define;
     return text;
@@ -52,6 +57,7 @@ std::vector<std::string> Features::names() const {
     std::vector<std::string> list;
     for (const unsigned type : lobes) list.push_back("lobe " + lobeName(type));
     for (const unsigned type : emitterTypes) list.push_back("emitter " + emitterTypeName(type));
+    for (const unsigned type : phases) list.push_back("phase " + lower(phaseNames.at(type)));
     for (const auto& flag : flags)
         if (this->*flag.member) list.emplace_back(flag.text);
     return list;
@@ -61,8 +67,10 @@ Features Features::generic() {
     Features all;
     for (unsigned type = 0; type < LOBE_TYPES; ++type) all.lobes.insert(type);
     for (unsigned type = 0; type < emitterNames.size(); ++type) all.emitterTypes.insert(type);
+    for (unsigned type = 0; type < phaseNames.size(); ++type) all.phases.insert(type);
     for (const auto& flag : flags) all.*flag.member = true;
     all.genuineDiffuse = all.quasiSpecular = all.specular = true;
+    all.genuineDiffuseMedia = all.quasiSpecularMedia = true;
     return all;
 }
 

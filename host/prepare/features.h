@@ -12,9 +12,13 @@ namespace quasilux {
 struct Features {
     std::set<unsigned> lobes;        ///< LOBE_* in use
     std::set<unsigned> emitterTypes; ///< EMITTER_* in use
+    std::set<unsigned> phases;       ///< PHASE_* in use
     bool spheres = false, nullPrimitives = false, cornerNormals = false, borders = false, depthLimit = false,
          orthographicCamera = false, textures = false;
-    bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering present
+    bool media = false, chromaticMedia = false; ///< extinction differs between the channels of some medium
+    bool directInMedia = false;                 ///< emitter sampling can reach points in some medium
+    bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering of surfaces
+    bool genuineDiffuseMedia = false, quasiSpecularMedia = false;         ///< and of media
 
     /// Compiler options, such as "-DHAS_LOBE_PHONG -DHAS_BORDERS".
     std::string options() const;

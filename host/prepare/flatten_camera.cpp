@@ -37,12 +37,13 @@ void placeOrthographic(const Sensor& sensor, shared::Camera& camera) {
 
 } // namespace
 
-shared::Camera flattenCamera(const Sensor& sensor) {
+shared::Camera flattenCamera(const Sensor& sensor, unsigned medium) {
     shared::Camera camera{};
     if (sensor.orthographic)
         placeOrthographic(sensor, camera);
     else
         placePerspective(sensor, camera);
+    camera.medium = medium;
     camera.nearClip = static_cast<float>(sensor.nearClip);
     camera.farClip = static_cast<float>(sensor.farClip);
     camera.width = sensor.width;

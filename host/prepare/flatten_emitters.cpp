@@ -59,6 +59,7 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
 shared::Emitter constantEmitter(const ConstantEmitter& surroundings, const Sphere& bounds) {
     shared::Emitter emitter{};
     emitter.type = EMITTER_CONSTANT;
+    emitter.medium = MEDIUM_NONE;
     emitter.shape = QL_NONE;
     emitter.radiance = surroundings.radiance;
     emitter.origin = pack(bounds.center);
@@ -80,7 +81,7 @@ void setSelection(EmitterTables& tables) {
 
 } // namespace
 
-EmitterTables flattenEmitters(const Scene& scene) {
+EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placement) {
     EmitterTables tables;
     tables.emitterOfShape.assign(scene.shapes.size(), QL_NONE);
     for (unsigned k = 0; k < scene.shapes.size(); ++k) {
@@ -88,11 +89,14 @@ EmitterTables flattenEmitters(const Scene& scene) {
         if (!shape.emitter) continue;
         tables.emitterOfShape[k] = static_cast<unsigned>(tables.emitters.size());
         tables.emitters.push_back(areaEmitter(shape, k, tables.triangles));
+        tables.emitters.back().medium = placement.shapeEmitters[k];
         tables.power.push_back(pi * tables.emitters.back().area * mean(shape.emitter->radiance));
         tables.ids.push_back(shape.id);
     }
-    for (const auto& point : scene.pointEmitters) {
+    for (size_t k = 0; k < scene.pointEmitters.size(); ++k) {
+        const auto& point = scene.pointEmitters[k];
         shared::Emitter emitter{};
+        emitter.medium = placement.pointEmitters[k];
         emitter.type = EMITTER_POINT;
         emitter.shape = QL_NONE;
         emitter.radiance = point.intensity;

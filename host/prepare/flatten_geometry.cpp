@@ -26,10 +26,14 @@ double meshArea(const Mesh& mesh) {
 
 } // namespace
 
+bool passesLight(const Scene& scene, const ShapeDescription& shape) {
+    return isNull(scene, shape) && !shape.interior && !shape.exterior;
+}
+
 std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene) {
     std::vector<BvhPrimitive> primitives;
     for (const auto& shape : scene.shapes) {
-        const bool null = isNull(scene, shape);
+        const bool null = passesLight(scene, shape);
         if (shape.sphere) primitives.push_back({shape.sphere->center, {shape.sphere->radius, 0, 0}, {}, true, null});
         const auto& p = shape.mesh.positions;
         for (const auto& t : shape.mesh.triangles) primitives.push_back({p[t.x], p[t.y], p[t.z], false, null});
@@ -45,7 +49,8 @@ std::vector<shared::PrimitiveInfo> flattenPrimitiveInfo(const Scene& scene, cons
     return records;
 }
 
-std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<unsigned>& emitterOfShape) {
+std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<unsigned>& emitterOfShape,
+                                         const MediumPlacement& placement) {
     std::vector<shared::Shape> records;
     unsigned primitive = 0, normal = 0, uv = 0;
     for (size_t k = 0; k < scene.shapes.size(); ++k) {
@@ -57,6 +62,8 @@ std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<u
         record.firstNormal = shape.mesh.cornerNormals.empty() ? QL_NONE : normal;
         record.normalSign = shape.flipNormals ? -1.f : 1.f;
         record.firstUv = uvWords(scene, shape) == 0 ? QL_NONE : uv;
+        record.interior = placement.interior[k];
+        record.exterior = placement.exterior[k];
         records.push_back(record);
         uv += uvWords(scene, shape);
         primitive += primitiveCount(shape);

@@ -10,19 +10,28 @@ namespace {
 constexpr unsigned bit(unsigned lightClass) { return 1u << lightClass; }
 constexpr unsigned photonsPerCameraPath = 6;
 
+// Classes that can be taken at all where there is genuine diffuse and quasi-specular scattering (kernels/law.clh).
+unsigned takenClasses(bool genuineDiffuse, bool quasiSpecular, Variant variant) {
+    const unsigned e0 = bit(LIGHT_DIRECT) | bit(LIGHT_CAUSTIC);
+    unsigned classes = 0;
+    if (genuineDiffuse) classes |= e0 | bit(LIGHT_QUASI_CAUSTIC) | bit(LIGHT_DIFFUSE);
+    if (quasiSpecular) classes |= variant == Variant::main ? e0 | bit(LIGHT_QUASI_CAUSTIC) : e0;
+    return classes;
+}
+
 } // namespace
 
 unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& settings) {
     const Features features = settings.genericKernels ? Features::generic() : sceneFeatures;
-    const bool anyTakes = features.genuineDiffuse || features.quasiSpecular;
-    unsigned classes = 0;
-    if (settings.direct == DirectLight::photons && anyTakes) classes |= bit(LIGHT_DIRECT);
-    if (features.specular && anyTakes) classes |= bit(LIGHT_CAUSTIC);
-    // The alternative variant never takes Eqc with F_qs, so it needs a genuine diffuse lobe to take it.
-    const bool takesQuasiCaustic = features.genuineDiffuse || settings.variant == Variant::main;
-    if (features.quasiSpecular && takesQuasiCaustic) classes |= bit(LIGHT_QUASI_CAUSTIC);
-    if (features.genuineDiffuse) classes |= bit(LIGHT_DIFFUSE);
-    return classes;
+    unsigned exist = 0; // classes that photons of this scene can have
+    if (settings.direct == DirectLight::photons) exist |= bit(LIGHT_DIRECT);
+    if (features.specular) exist |= bit(LIGHT_CAUSTIC);
+    if (features.quasiSpecular || features.quasiSpecularMedia) exist |= bit(LIGHT_QUASI_CAUSTIC);
+    if (features.genuineDiffuse || features.genuineDiffuseMedia) exist |= bit(LIGHT_DIFFUSE);
+    const unsigned surfaces = exist & takenClasses(features.genuineDiffuse, features.quasiSpecular, settings.variant);
+    const unsigned media =
+        exist & takenClasses(features.genuineDiffuseMedia, features.quasiSpecularMedia, settings.variant);
+    return surfaces | media << LIGHT_CLASSES;
 }
 
 Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings) {
@@ -34,6 +43,8 @@ std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settin
     options += fmt::format(" -DPHOTON_CLASSES={}u", photonClasses(scene.features, settings));
     if (settings.direct == DirectLight::emitters) options += " -DDIRECT_BY_EMITTERS";
     if (settings.variant == Variant::alternative) options += " -DLAW_ALTERNATIVE";
+    if (settings.mediumRule != MediumRule::right)
+        options += fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(settings.mediumRule));
     if (settings.lawRule != LawRule::right)
         options += fmt::format(" -DLAW_RULE={}", static_cast<int>(settings.lawRule));
     return options;

@@ -12,23 +12,32 @@ namespace quasilux {
 
 /// What one pass traced and stored.
 struct PhotonPassCount {
-    std::array<uint64_t, LIGHT_CLASSES> stored{}; ///< by class
+    std::array<uint64_t, PHOTON_SLOTS> stored{}; ///< by slot of the map: classes on surfaces, then in media
     uint64_t cutPaths = 0, nonFinite = 0;
     double fluxCut = 0;
 };
 
 class PhotonStage {
 public:
-    /// `classes` are bits 1 << LIGHT_*; `storesDepth` where the kernels are compiled with HAS_DEPTH_LIMIT.
+    /// `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where the kernels are compiled with HAS_DEPTH_LIMIT.
     PhotonStage(Device& device, const std::string& options, const GeometryBuffers& geometry,
                 shared::PhotonParams params, unsigned classes, bool storesDepth);
 
     /// Traces the photons of a pass and indexes them with these radii, by class. A photon buffer that proves too small
-    /// is enlarged and the pass traced again, so none is lost.
-    PhotonPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius);
+    /// is enlarged and the pass traced again, so none is lost. `volumeScale` is that of kernels in media to their first
+    /// size.
+    PhotonPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
+
+    /// Photons by slot that `paths` emitted ones leave: a pilot, traced apart from all passes.
+    std::array<uint64_t, PHOTON_SLOTS> pilot(unsigned paths, const std::array<float, LIGHT_CLASSES>& radius);
+
+    /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more.
+    void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
 
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : params_.paths; }
+    /// Bytes of a photon in the map.
+    size_t photonBytes() const { return fields() * sizeof(uint32_t); }
 
     const Buffer<uint32_t>& cellStart() const { return cellStart_; }
     const Buffer<uint32_t>& sorted() const { return sorted_; }
@@ -37,9 +46,10 @@ public:
 
 private:
     std::vector<shared::RegionCount> trace();
+    size_t fields() const { return storesDepth_ ? 9 : 8; }
     void makeRoom(uint64_t photons); // in the sorted arrays
     void index(uint64_t photons);
-    std::array<uint64_t, LIGHT_CLASSES> storedByClass() const;
+    std::array<uint64_t, PHOTON_SLOTS> storedBySlot() const;
 
     Device& device_;
     const GeometryBuffers& geometry_;
@@ -47,7 +57,7 @@ private:
     Kernel tracePhotons_, countPhotons_, sumBlocks_, scanCells_, scatterPhotons_;
     shared::PhotonParams params_;
     shared::MapParams map_{};
-    unsigned classes_; // bits 1 << LIGHT_*
+    unsigned classes_; // bits 1 << slot
     unsigned classSlots_;
     bool storesDepth_;
     Buffer<shared::Photon> photons_;

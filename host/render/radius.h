@@ -15,6 +15,9 @@ double initialRadius(double area, unsigned photons);
 /// Radius of pass `pass` as a fraction of that of pass 0: from the pass number alone, so passes are independent.
 double radiusShrink(unsigned pass);
 
+/// Size of density kernels in media in pass `pass` as a fraction of that of pass 0; they shrink in all directions.
+double volumeShrink(unsigned pass);
+
 /// Classes whose light varies faster over a surface get a smaller radius; factor on initialRadius.
 double classRadiusFactor(unsigned lightClass);
 

@@ -11,6 +11,9 @@ namespace quasilux {
 
 namespace {
 
+constexpr unsigned pilotPaths = 2048;
+constexpr double volumePhotonsPerPath = 8; // kept of a class, per photon emitted
+
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -22,6 +25,7 @@ DeviceScene flatten(const Scene& scene, const RenderSettings& settings) {
     const unsigned photons = photonsPerPass(settings, flattenCamera(scene.sensor));
     FlattenSettings flattening;
     flattening.quasiSpecular = settings.quasiSpecular;
+    flattening.photons = photons;
     flattening.overridesScene = settings.quasiSpecularFromCommandLine;
     flattening.largestRadius = [&](double area) { return firstRadius(area, settings, photons); };
     return flattenScene(scene, flattening);
@@ -60,6 +64,22 @@ void describeLobes(const Bsdf& bsdf, const char* side, const std::vector<LobeDes
             {bsdf.id, lobes[k].name + side, scatteringName(decisions[k].scattering), decisions[k].why});
 }
 
+void describeMedia(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings, SceneReport& report) {
+    for (size_t k = 0; k < flat.media.size(); ++k) {
+        SceneReport::MediumRow row;
+        row.medium = scene.media[k].id;
+        row.level = flat.mediumSplit[k].level;
+        row.why = flat.mediumSplit[k].why;
+        row.kernelRadius = settings.radiusScale * flat.media[k].kernelRadius[LIGHT_DIFFUSE];
+        row.kernelHalfHeight = settings.radiusScale * flat.media[k].kernelHalfHeight[LIGHT_DIFFUSE];
+        report.media.push_back(row);
+    }
+}
+
+std::string slotName(unsigned slot) {
+    return slot < LIGHT_CLASSES ? componentName(slot) : "volume " + componentName(slot - LIGHT_CLASSES);
+}
+
 SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
     SceneReport report;
     report.triangles = flat.triangles;
@@ -75,11 +95,13 @@ SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSe
         describeLobes(scene.bsdfs[k], " (behind)", scene.bsdfs[k].back, flat.split[k].back, report);
     }
     report.photonsPerPass = photonsPerPass(settings, flat.camera);
-    for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
-        if (!(photonClasses(flat.features, settings) >> c & 1)) continue;
-        report.photonClasses.push_back(componentName(c));
-        report.initialRadius[componentName(c)] =
-            firstRadius(flat.surfaceArea, settings, report.photonsPerPass) * classRadiusFactor(c);
+    describeMedia(scene, flat, settings, report);
+    for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
+        if (!(photonClasses(flat.features, settings) >> slot & 1)) continue;
+        report.photonClasses.push_back(slotName(slot));
+        if (slot < LIGHT_CLASSES)
+            report.initialRadius[slotName(slot)] =
+                firstRadius(flat.surfaceArea, settings, report.photonsPerPass) * classRadiusFactor(slot);
     }
     return report;
 }
@@ -93,7 +115,24 @@ struct Renderer::Stages {
           photons(device, options, geometry, photonParams(scene, flat, settings),
                   photonClasses(flat.features, settings), compiledFeatures(flat, settings).depthLimit),
           camera(device, options, geometry, cameraParams(flat, settings, photonParams(scene, flat, settings).maxDepth)),
-          report(describe(scene, flat, settings)) {}
+          report(describe(scene, flat, settings)) {
+        if (!flat.media.empty()) thinVolume();
+    }
+
+    // Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
+    void thinVolume() {
+        const unsigned paths = std::min(pilotPaths, report.photonsPerPass);
+        const auto counted = photons.pilot(paths, radii(0));
+        std::array<float, LIGHT_CLASSES> keep{};
+        for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
+            const double expected = double(counted[VOLUME_SLOT(c)]) * report.photonsPerPass / paths;
+            const double wanted = volumePhotonsPerPath * report.photonsPerPass;
+            keep[c] = static_cast<float>(std::min(1.0, wanted / std::max(expected, 1.0)));
+        }
+        photons.thinVolume(keep);
+    }
+
+    float volumeScale(unsigned pass) const { return static_cast<float>(settings.radiusScale * volumeShrink(pass)); }
 
     std::array<float, LIGHT_CLASSES> radii(unsigned pass) const {
         std::array<float, LIGHT_CLASSES> radius{};
@@ -129,14 +168,14 @@ Renderer::~Renderer() = default;
 void Renderer::renderPass(unsigned pass) {
     auto& s = *stages_;
     const auto start = Clock::now();
-    const auto photons = s.photons.run(pass, s.radii(pass));
+    const auto photons = s.photons.run(pass, s.radii(pass), s.volumeScale(pass));
     s.camera.run(pass, s.photons);
     s.device.finish();
 
     auto& counters = s.counters;
     counters.photonsEmitted += s.photons.photonsPerPass();
-    for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
-        if (photons.stored[c] > 0) counters.photonsStored[componentName(c)] += photons.stored[c];
+    for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
+        if (photons.stored[slot] > 0) counters.photonsStored[slotName(slot)] += photons.stored[slot];
     counters.cameraPaths += uint64_t(s.flat.camera.width) * s.flat.camera.height;
     counters.cutPaths += photons.cutPaths;
     counters.nonFinite += photons.nonFinite;

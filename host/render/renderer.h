@@ -27,6 +27,12 @@ struct SceneReport {
         std::string bsdf, lobe, scattering, why;
     };
     std::vector<LobeRow> lobes;
+    struct MediumRow {
+        std::string medium, why;
+        double level = 0;                              ///< shared::Medium::level
+        double kernelRadius = 0, kernelHalfHeight = 0; ///< of the diffuse class in pass 0, scene units; 0 high: a ball
+    };
+    std::vector<MediumRow> media;
     std::vector<std::string> photonClasses; ///< stored
     std::map<std::string, uint64_t> bufferBytes;
     unsigned photonsPerPass = 0;
@@ -37,7 +43,7 @@ struct SceneReport {
 struct RenderCounters {
     uint64_t passes = 0;
     uint64_t photonsEmitted = 0;
-    std::map<std::string, uint64_t> photonsStored; ///< by class
+    std::map<std::string, uint64_t> photonsStored; ///< by class; in media "volume " and the class
     uint64_t cameraPaths = 0;
     uint64_t nonFinite = 0;              ///< samples dropped since they were not finite; a right render has none
     uint64_t cutPaths = 0;               ///< paths ended by the hard limit on events

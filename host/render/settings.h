@@ -15,6 +15,11 @@ enum class DirectLight { emitters, photons }; ///< how E0's direct part is estim
 /// The law, or one of its known wrong readings, which tests switch on as negative controls (kernels/law.clh).
 enum class LawRule { right, quasiSpecularUntilFirst, diffuseAtEveryHit, fullAlongChain };
 
+/// The right handling of media, or one of the known mistakes, as negative controls of tests: flux at collisions not divided
+/// by the extinction; refracted radiance not scaled by 1/eta^2; the phase function's g of the wrong sign where photons
+/// are taken.
+enum class MediumRule { right, missingSigmaT, missingEtaSquared, wrongSignOfG };
+
 struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
     Variant variant = Variant::main;
@@ -26,6 +31,7 @@ struct RenderSettings {
     double radiusScale = 1.0;    ///< factor on the initial density radius
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
     LawRule lawRule = LawRule::right;
+    MediumRule mediumRule = MediumRule::right;
 };
 
 /// The first limit reached ends the render; none set = 30 s.

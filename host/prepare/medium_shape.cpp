@@ -1,0 +1,154 @@
+#include "prepare/medium_shape.h"
+
+#include "prepare/bounding_sphere.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quasilux {
+
+namespace {
+
+constexpr double pi = 3.141592653589793;
+constexpr double sameDirection = 1e-5; // sine between normals of one plane
+constexpr double plateShare = 0.6;     // of the surface, in two parallel faces
+constexpr size_t planesMax = 12;
+
+struct Box {
+    glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
+    void add(const glm::dvec3& p) {
+        lower = glm::min(lower, p);
+        upper = glm::max(upper, p);
+    }
+    double diagonal() const { return glm::length(upper - lower); }
+};
+
+Box boxOf(const ShapeDescription& shape) {
+    Box box;
+    for (const auto& p : shape.mesh.positions) box.add(p);
+    if (shape.sphere) {
+        box.add(glm::dvec3(shape.sphere->center) - double(shape.sphere->radius));
+        box.add(glm::dvec3(shape.sphere->center) + double(shape.sphere->radius));
+    }
+    return box;
+}
+
+struct Face {
+    glm::dvec3 normal{};
+    double offset = 0, area = 0;
+};
+
+// The planes of a mesh, by area; none where there are more than a polyhedron of few faces has.
+std::vector<Face> facesOf(const Mesh& mesh, double size) {
+    std::vector<Face> faces;
+    for (const auto& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        const glm::dvec3 doubled = glm::cross(b - a, c - a);
+        const double area = 0.5 * glm::length(doubled);
+        if (area == 0) continue;
+        const Face face{glm::normalize(doubled), glm::dot(glm::normalize(doubled), a), area};
+        const auto same = std::find_if(faces.begin(), faces.end(), [&](const Face& other) {
+            return glm::length(other.normal - face.normal) < sameDirection &&
+                   std::abs(other.offset - face.offset) < sameDirection * size;
+        });
+        if (same != faces.end())
+            same->area += area;
+        else if (faces.size() == planesMax)
+            return {};
+        else
+            faces.push_back(face);
+    }
+    return faces;
+}
+
+// By the divergence theorem; negative where the normals point inwards.
+double enclosedVolume(const Mesh& mesh) {
+    double six = 0;
+    for (const auto& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        six += glm::dot(a, glm::cross(b, c));
+    }
+    return six / 6;
+}
+
+// All corners on the inner side of all planes, and the surface closed: then its faces' vector areas add up to nothing.
+bool isConvexPolyhedron(const Mesh& mesh, const std::vector<Face>& faces, double size) {
+    glm::dvec3 vectorArea{0};
+    double area = 0;
+    for (const auto& face : faces) {
+        vectorArea += face.area * face.normal;
+        area += face.area;
+        for (const auto& p : mesh.positions)
+            if (glm::dot(face.normal, glm::dvec3(p)) > face.offset + sameDirection * size) return false;
+    }
+    return faces.size() >= 4 && glm::length(vectorArea) < sameDirection * area && enclosedVolume(mesh) > 0;
+}
+
+bool isEmptyInside(const Scene& scene, const ShapeDescription& own) {
+    const Box box = boxOf(own);
+    const double margin = 1e-6 * box.diagonal();
+    return std::none_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeDescription& other) {
+        const Box its = boxOf(other);
+        return &other != &own && glm::all(glm::lessThan(its.lower + margin, box.upper)) &&
+               glm::all(glm::lessThan(box.lower + margin, its.upper));
+    });
+}
+
+void findPlate(const std::vector<Face>& faces, const Box& box, MediumShape& shape) {
+    double total = 0, largest = 0;
+    for (const auto& face : faces) total += face.area;
+    for (const auto& face : faces)
+        for (const auto& opposite : faces) {
+            if (glm::length(face.normal + opposite.normal) > sameDirection) continue;
+            const double area = face.area + opposite.area, thickness = face.offset + opposite.offset;
+            if (area < plateShare * total || area <= largest || thickness <= 0 || thickness > 0.5 * box.diagonal())
+                continue;
+            largest = area;
+            shape.isPlate = true;
+            shape.axis = face.normal;
+            shape.thickness = thickness;
+        }
+}
+
+void addPlanes(const std::vector<Face>& faces, MediumShape& shape) {
+    for (const auto& face : faces)
+        shape.planes.push_back(
+            {{static_cast<float>(face.normal.x), static_cast<float>(face.normal.y), static_cast<float>(face.normal.z)},
+             static_cast<float>(face.offset)});
+}
+
+} // namespace
+
+MediumShape findMediumShape(const Scene& scene, unsigned medium) {
+    MediumShape shape;
+    Box box;
+    const ShapeDescription* only = nullptr;
+    size_t boundaries = 0;
+    for (const auto& candidate : scene.shapes) {
+        boundaries += candidate.interior == medium || candidate.exterior == medium;
+        if (candidate.interior != medium) continue;
+        const Box its = boxOf(candidate);
+        box.add(its.lower);
+        box.add(its.upper);
+        only = &candidate;
+        shape.volume += candidate.sphere ? 4.0 / 3 * pi * std::pow(double(candidate.sphere->radius), 3)
+                                         : std::abs(enclosedVolume(candidate.mesh));
+    }
+    if (!only) {
+        const Sphere bounds = boundingSphere(scene);
+        shape.volume = 4.0 / 3 * pi * std::pow(double(bounds.radius), 3);
+        shape.extent = 2 * double(bounds.radius);
+        return shape;
+    }
+    const glm::dvec3 sides = box.upper - box.lower;
+    shape.extent = std::max({sides.x, sides.y, sides.z});
+    if (boundaries != 1 || only->sphere) return shape;
+    const auto faces = facesOf(only->mesh, shape.extent);
+    if (!isConvexPolyhedron(only->mesh, faces, shape.extent)) return shape;
+    findPlate(faces, box, shape);
+    if (isEmptyInside(scene, *only)) addPlanes(faces, shape);
+    return shape;
+}
+
+} // namespace quasilux
