@@ -189,16 +189,18 @@ TEST(MediaPlacement, AnEmitterOnTheBorderOfAMediumShinesToTheSideOfItsNormal) {
 
 TEST(MediaPlacement, AnOpenSurfaceHoldsNothing) {
     Scene scene;
-    scene.media.resize(2);
-    addPlane(scene, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
-    scene.shapes.back().interior = fog;
+    scene.media.resize(3);
+    addPlane(scene, {-1, -1, -1}, {2, 0, 2}, {0, 2, 0}, 4); // tilted, so that its bounding box has an inside
+    scene.shapes[0].interior = fog;
     EXPECT_EQ(placeMedia(scene).exterior[0], MEDIUM_NONE);
-    for (const double z : {1e-9, 1e-3, 0.5, 0.0, -1e-9, -1e-3, -0.5})
-        EXPECT_EQ(cameraMedium(scene, {0, 0, z}), MEDIUM_NONE);
     // Within a larger body its other side is that body's medium.
     cube(scene, {0, 0, 0}, 10).interior = milk;
     EXPECT_EQ(placeMedia(scene).exterior[0], milk);
     EXPECT_EQ(placeMedia(scene).interior[0], fog);
+    scene.shapes[0].exterior = juice;
+    const dvec3 normal = glm::normalize(dvec3(-1, 0, 1));
+    for (const double height : {1e-9, 1e-3, 0.5, 0.0, -1e-9, -1e-3, -0.5})
+        EXPECT_EQ(cameraMedium(scene, dvec3(0.1, 0.1, 0.1) + height * normal), milk) << height;
 }
 
 TEST(MediaPlacement, AHollowShellHoldsOnlyItsWall) {
