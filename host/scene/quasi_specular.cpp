@@ -108,7 +108,7 @@ double parsePhaseLevel(std::string_view text, const SourceLocation& where) {
     const float single = static_cast<float>(level);
     if (!(single > 0) || !std::isfinite(single))
         throw InputError(where, fmt::format("quasi-specular: level {} is out of range; expected sr^-1 above 0, such as "
-                                            "level:0.1 (all of a medium: yes, nothing of it: no).",
+                                            "level:0.1.",
                                             level));
     return level;
 }
