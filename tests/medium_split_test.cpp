@@ -73,6 +73,7 @@ TEST(MediumSplit, TheShareStatedIsTheIntegralOfThePartBelow) {
             scene.media = {medium("fog", PHASE_HG, sign * g)};
             const auto decision = decideMediumSplit(scene, "auto", false).at(0);
             EXPECT_NEAR(shareIn(decision.why) / 100, henyeyGreensteinShare(g, autoPhaseLevel), 6e-4) << decision.why;
+            EXPECT_NEAR(decision.genuineDiffuseShare, henyeyGreensteinShare(g, autoPhaseLevel), 2e-5) << g;
         }
     }
     // Rayleigh exceeds 0.1 where cos^2 > c^2 = 1.6 pi / 3 - 1, by two caps of 2 pi (3 / (16 pi) (1 + cos^2) - 0.1) each.
@@ -84,6 +85,8 @@ TEST(MediumSplit, TheShareStatedIsTheIntegralOfThePartBelow) {
 TEST(MediumSplit, GlobalSettings) {
     const Scene scene = threeMedia();
     for (const auto& decision : decideMediumSplit(scene, "all", false)) EXPECT_EQ(decision.level, 0);
+    EXPECT_EQ(decideMediumSplit(scene, "all", false)[0].genuineDiffuseShare, 0);
+    EXPECT_EQ(decideMediumSplit(scene, "none", false)[0].genuineDiffuseShare, 1);
     for (const auto& decision : decideMediumSplit(scene, "none", false)) EXPECT_TRUE(std::isinf(decision.level));
     const auto leveled = decideMediumSplit(scene, "level:0.05", false);
     for (const auto& decision : leveled) EXPECT_EQ(decision.level, 0.05f);

@@ -29,7 +29,8 @@ std::vector<BsdfDecision> decideSplit(const Scene& scene, const std::string& set
 
 /// How a medium's phase function is split (shared::Medium::level).
 struct MediumDecision {
-    float level = 0; ///< sr^-1: genuine diffuse = min(p, level); 0: none of it, infinity: all of it
+    float level = 0;                ///< sr^-1: genuine diffuse = min(p, level); 0: none of it, infinity: all of it
+    double genuineDiffuseShare = 0; ///< of the scattering: integral of min(p, level) over the sphere
     std::string why;
 };
 

@@ -48,22 +48,26 @@ double genuineDiffuseShare(const MediumDescription& medium, double level) {
     return sum / steps;
 }
 
+MediumDecision allQuasiSpecular(const std::string& why) { return {0, 0, why}; }
+MediumDecision allGenuineDiffuse(const std::string& why) { return {infinity, 1, why}; }
+
 MediumDecision byLevel(const MediumDescription& medium, double level, const std::string& by) {
     const double highest = phaseValue(medium, 0);
     if (highest <= level)
-        return {infinity, fmt::format("{}: all of it is genuine diffuse, its phase function stays below {:.3g} per sr",
-                                      by, level)};
-    return {static_cast<float>(level), fmt::format("{}: level {:.3g} per sr: {:.3g} % of the scattering is genuine "
-                                                   "diffuse",
-                                                   by, level, 100 * genuineDiffuseShare(medium, level))};
+        return allGenuineDiffuse(
+            fmt::format("{}: all of it is genuine diffuse, its phase function stays below {:.3g} per sr", by, level));
+    const double share = genuineDiffuseShare(medium, level);
+    return {
+        static_cast<float>(level), share,
+        fmt::format("{}: level {:.3g} per sr: {:.3g} % of the scattering is genuine diffuse", by, level, 100 * share)};
 }
 
 MediumDecision byScene(const MediumDescription& medium) {
     switch (medium.quasiSpecular.kind) {
     case QuasiSpecularChoice::Kind::yes:
-        return {0, "the medium says yes"};
+        return allQuasiSpecular("the medium says yes");
     case QuasiSpecularChoice::Kind::no:
-        return {infinity, "the medium says no"};
+        return allGenuineDiffuse("the medium says no");
     case QuasiSpecularChoice::Kind::level:
         return byLevel(medium, medium.quasiSpecular.level, "the medium's level");
     case QuasiSpecularChoice::Kind::automatic:
@@ -76,10 +80,10 @@ MediumDecision byScene(const MediumDescription& medium) {
 MediumDecision decide(const MediumDescription& medium, const std::string& setting, const std::vector<std::string>& list,
                       bool overridesScene) {
     if (medium.quasiSpecular.stated && (!overridesScene || setting == "auto")) return byScene(medium);
-    if (setting == "none") return {infinity, "none asked for"};
-    if (setting == "all") return {0, "all asked for"};
+    if (setting == "none") return allGenuineDiffuse("none asked for");
+    if (setting == "all") return allQuasiSpecular("all asked for");
     if (isPhaseLevel(setting)) return byLevel(medium, parsePhaseLevel(setting, {}), "asked for");
-    if (std::find(list.begin(), list.end(), medium.id) != list.end()) return {0, "listed"};
+    if (std::find(list.begin(), list.end(), medium.id) != list.end()) return allQuasiSpecular("listed");
     return byLevel(medium, autoPhaseLevel, "auto");
 }
 
