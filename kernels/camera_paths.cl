@@ -26,6 +26,7 @@ typedef struct {
     int specularSoFar; /* nothing but specular events: emission counts in full */
     float directPdf;  /* > 0: emission counts by its share against emitter sampling; density of the sampled direction */
     int onlyEmission; /* the path goes on just for that share */
+    float firstChoice; /* in [0,1): chooses at the first surface, evenly over the passes; < 0 after it */
 #ifdef HAS_MEDIA
     uint medium; /* index or MEDIUM_NONE */
 #endif
@@ -146,7 +147,9 @@ inline void takeLight(const World* world, const CameraPath* path, const Surface*
 inline int scatterCameraPath(const World* world, CameraPath* path, const Surface* s, const Frame* frame, float3 wo,
                              __global const Lobe* lobes, const LobeChoice* choice, Rng* rng) {
     float rest;
-    const uint k = chooseLobe(choice, s->lobeCount, rngNext(rng), &rest);
+    const float random = rngNext(rng);
+    const uint k = chooseLobe(choice, s->lobeCount, path->firstChoice < 0 ? random : path->firstChoice, &rest);
+    path->firstChoice = -1;
     if (k == s->lobeCount) return 0;
     __global const Lobe* lobe = lobes + k;
     const LobeSample sample = tintedSample(s, lobes, k, wo, rest, rngNext2(rng), TRANSPORT_RADIANCE);
@@ -221,17 +224,23 @@ inline int collideCameraPath(const World* world, CameraPath* path, const FreeFli
     const float3 position = path->ray.origin + flight->distance * path->ray.direction;
     takeLightInMedium(world, path, position, medium, rng, components);
 
+    int quasiOnly = !lawMayScatter(SCATTER_GENUINE_DIFFUSE, path->d, params->bdd);
+#ifdef HAS_DIRECT_IN_MEDIA
+    quasiOnly = quasiOnly && !phaseSharesDirect(medium, SCATTER_GENUINE_DIFFUSE);
+    const float directSurvival = phaseSurvival(path->throughput); /* as takeLightInMedium weighs with */
+#endif
+    const PhaseSample sample = phaseSample(medium, path->ray.direction, quasiOnly, rng);
+    if (!sample.valid) return 0;
+    const uint scattering = sample.scattering;
+    path->throughput *= sample.weight;
     const float survival = phaseSurvival(path->throughput);
     if (rngNext(rng) >= survival) return 0;
     path->throughput /= survival;
-    const float3 direction = phaseSampleDirection(medium, path->ray.direction, rngNext2(rng));
-    const float p = phaseValue(medium, dot(path->ray.direction, direction));
-    const uint scattering = phaseEvent(medium, p, rngNext(rng));
     path->directPdf = 0;
 #ifdef HAS_DIRECT_IN_MEDIA
     if (lawLightTaken(scattering, path->d, path->q, params->bdd) >> LIGHT_DIRECT & 1 &&
         phaseSharesDirect(medium, scattering))
-        path->directPdf = survival * phasePart(medium, scattering, p);
+        path->directPdf = directSurvival * phasePart(medium, scattering, sample.p);
 #endif
     path->onlyEmission = !lawMayScatter(scattering, path->d, params->bdd);
     if (path->onlyEmission && path->directPdf == 0) return 0;
@@ -239,7 +248,7 @@ inline int collideCameraPath(const World* world, CameraPath* path, const FreeFli
     path->d += scattering == SCATTER_GENUINE_DIFFUSE;
     path->q += scattering == SCATTER_QUASI_SPECULAR;
     path->ray.origin = position;
-    path->ray.direction = direction;
+    path->ray.direction = sample.direction;
     path->ray.tMin = 0;
     path->ray.tMax = INFINITY;
     path->from = position;
@@ -307,7 +316,9 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
     const ulong seed = (ulong)params.seedHigh << 32 | params.seedLow;
     Rng rng = rngMake(seed, params.pass, STREAM_CAMERA, pixel);
     CameraPath path;
-    path.ray = cameraRay(&params.camera, pixel, params.pass, seed);
+    const float3 even = pixelNumbers(pixel, params.pass, seed);
+    path.ray = cameraRay(&params.camera, pixel, even.xy);
+    path.firstChoice = even.z;
     path.throughput = 1;
     path.d = path.q = path.depth = 0;
     path.passed = 0;

@@ -116,6 +116,7 @@ typedef struct {
     Rgb sigmaT;         /* extinction coefficient, 1/scene unit */
     Rgb albedo;         /* scattering / extinction */
     float level;
+    float genuineDiffuseShare; /* integral of min(p, level) over the sphere */
     Packed3 kernelAxis; /* unit; flat density kernels are cylinders about it (kernels/volume_region.clh) */
     /* Of the density kernel in pass 0, by light class, scene units: radius across the axis and half height along it;
      * half height 0: a ball. */

@@ -55,6 +55,7 @@ MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>&
         medium.sigmaT = description.sigmaT;
         medium.albedo = description.albedo;
         medium.level = split[k].level;
+        medium.genuineDiffuseShare = static_cast<float>(split[k].genuineDiffuseShare);
         medium.kernelAxis = {static_cast<float>(shape.axis.x), static_cast<float>(shape.axis.y),
                              static_cast<float>(shape.axis.z)};
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {

@@ -55,11 +55,14 @@ std::vector<shared::RegionCount> PhotonStage::trace() {
         unsigned wanted = 0;
         for (const auto& count : counts) wanted = std::max(wanted, count.wanted);
         if (wanted <= params_.regionCapacity) return counts;
-        params_.regionCapacity = wanted + wanted / 4;
-        photons_ = Buffer<shared::Photon>();
-        photons_ =
-            Buffer<shared::Photon>(device_, size_t(params_.regions) * params_.regionCapacity, "photons as traced");
+        makeRegions(wanted + wanted / 4);
     }
+}
+
+void PhotonStage::makeRegions(unsigned capacity) {
+    params_.regionCapacity = capacity;
+    photons_ = Buffer<shared::Photon>();
+    photons_ = Buffer<shared::Photon>(device_, size_t(params_.regions) * capacity, "photons as traced");
 }
 
 void PhotonStage::makeRoom(uint64_t photons) {
@@ -93,11 +96,13 @@ std::array<uint64_t, PHOTON_SLOTS> PhotonStage::pilot(unsigned paths, const std:
     params_.paths = paramsPaths;
     params_.regions = map_.regions = regions;
     map_.chunks = chunks;
+    makeRegions(pathsPerRegion);
     return counted;
 }
 
-void PhotonStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability) {
+void PhotonStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability, double expectedPhotons) {
     std::copy(keepProbability.begin(), keepProbability.end(), params_.keepProbability);
+    makeRegions(std::max(pathsPerRegion, static_cast<unsigned>(1.5 * expectedPhotons / params_.regions)));
 }
 
 PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale) {

@@ -31,8 +31,9 @@ public:
     /// Photons by slot that `paths` emitted ones leave: a pilot, traced apart from all passes.
     std::array<uint64_t, PHOTON_SLOTS> pilot(unsigned paths, const std::array<float, LIGHT_CLASSES>& radius);
 
-    /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more.
-    void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
+    /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more;
+    /// about `expectedPhotons` are then stored in a pass.
+    void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability, double expectedPhotons);
 
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : params_.paths; }
@@ -47,7 +48,8 @@ public:
 private:
     std::vector<shared::RegionCount> trace();
     size_t fields() const { return storesDepth_ ? 9 : 8; }
-    void makeRoom(uint64_t photons); // in the sorted arrays
+    void makeRegions(unsigned capacity); // of photons as traced
+    void makeRoom(uint64_t photons);     // in the sorted arrays
     void index(uint64_t photons);
     std::array<uint64_t, PHOTON_SLOTS> storedBySlot() const;
 

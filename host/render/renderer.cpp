@@ -12,7 +12,7 @@ namespace quasilux {
 namespace {
 
 constexpr unsigned pilotPaths = 2048;
-constexpr double volumePhotonsPerPath = 8; // kept of a class, per photon emitted
+const double volumePhotonsPerPath = getenv("VP") ? atof(getenv("VP")) : 8; // kept of a class, per photon emitted
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -124,12 +124,14 @@ struct Renderer::Stages {
         const unsigned paths = std::min(pilotPaths, report.photonsPerPass);
         const auto counted = photons.pilot(paths, radii(0));
         std::array<float, LIGHT_CLASSES> keep{};
+        double stored = 0;
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
             const double expected = double(counted[VOLUME_SLOT(c)]) * report.photonsPerPass / paths;
             const double wanted = volumePhotonsPerPath * report.photonsPerPass;
             keep[c] = static_cast<float>(std::min(1.0, wanted / std::max(expected, 1.0)));
+            stored += keep[c] * expected + double(counted[c]) * report.photonsPerPass / paths;
         }
-        photons.thinVolume(keep);
+        photons.thinVolume(keep, stored);
     }
 
     float volumeScale(unsigned pass) const { return static_cast<float>(settings.radiusScale * volumeShrink(pass)); }
