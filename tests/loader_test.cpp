@@ -262,6 +262,36 @@ TEST(DielectricBsdf, EqualIndicesAreAllowedWithAWarning) {
     EXPECT_THAT(scene.warnings[0], testing::HasSubstr("int_ior and ext_ior are equal"));
 }
 
+TEST(RoughDielectricBsdf, HasTheIndexOfEachSideAndTheSameRoughness) {
+    const Bsdf plain = loadBsdf(R"(<bsdf type="roughdielectric"/>)");
+    ASSERT_EQ(plain.front.size(), 1u);
+    ASSERT_EQ(plain.back.size(), 1u);
+    EXPECT_EQ(plain.front[0].device.type, unsigned(LOBE_BECKMANNDIELECTRIC));
+    EXPECT_FLOAT_EQ(plain.front[0].device.eta.r, float(1.5046 / 1.000277));
+    EXPECT_FLOAT_EQ(plain.back[0].device.eta.r, float(1.000277 / 1.5046));
+    EXPECT_FLOAT_EQ(plain.back[0].device.alphaV, 0.1f);
+    EXPECT_NE(plain.front[0].device.scattering, SCATTER_SPECULAR) << "no delta lobe: the law decides by its width";
+    // Photons from both sides meet at the surface, so both sides must be of the same kind by the law.
+    EXPECT_EQ(plain.front[0].halfWidth, plain.back[0].halfWidth);
+    EXPECT_NEAR(std::tan(plain.front[0].halfWidth / 2), 0.1 * std::sqrt(std::log(2.0)), 1e-8);
+
+    const Bsdf all = loadBsdf(
+        R"(<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><float name="alpha_u" value="0.02"/>
+        <float name="alpha_v" value="0.3"/><string name="int_ior" value="water"/><float name="ext_ior" value="1.5"/>
+        <boolean name="sample_visible" value="true"/><rgb name="specular_reflectance" value="0.9,0.8,0.7"/>
+        <rgb name="specular_transmittance" value="0.6,0.5,0.4"/></bsdf>)");
+    const LobeDescription& lobe = all.front.at(0);
+    EXPECT_EQ(lobe.device.type, unsigned(LOBE_GGXDIELECTRIC));
+    EXPECT_EQ(lobe.name, "specular");
+    EXPECT_FLOAT_EQ(lobe.device.eta.r, 1.333f / 1.5f);
+    EXPECT_FLOAT_EQ(lobe.device.alphaU, 0.02f);
+    EXPECT_FLOAT_EQ(lobe.device.alphaV, 0.3f);
+    EXPECT_NEAR(std::tan(lobe.halfWidth / 2), 0.3, 1e-7);
+    expectRgb(lobe.device.reflectance, 0.9f, 0.8f, 0.7f);
+    expectRgb(lobe.device.transmittance, 0.6f, 0.5f, 0.4f);
+    expectRgb(all.back.at(0).device.transmittance, 0.6f, 0.5f, 0.4f);
+}
+
 TEST(BlendBsdf, WeightsTheSecondAndDropsWhatIsLeftBlack) {
     const std::string parts =
         R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.4"/></bsdf><bsdf type="dielectric"/></bsdf>)";

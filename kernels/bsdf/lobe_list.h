@@ -11,9 +11,17 @@
     X(BECKMANN, argument)                                                                                              \
     X(CONDUCTOR, argument)                                                                                             \
     X(DIELECTRIC, argument)                                                                                            \
-    X(THINDIELECTRIC, argument)
+    X(THINDIELECTRIC, argument)                                                                                        \
+    X(GGXDIELECTRIC, argument)                                                                                         \
+    X(BECKMANNDIELECTRIC, argument)
 
 #define LOBE_ENUMERATOR(ID, argument) LOBE_##ID,
 enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
+
+/* Lobes that transmit without being delta: light from both sides of a surface counts (LOBE_TRANSMITS). */
+#if defined(HAS_LOBE_GGXDIELECTRIC) || defined(HAS_LOBE_BECKMANNDIELECTRIC)
+#define HAS_TRANSMITTING_LOBE
+#endif
+#define LOBE_TRANSMITS(type) ((type) == LOBE_GGXDIELECTRIC || (type) == LOBE_BECKMANNDIELECTRIC)
 
 #endif

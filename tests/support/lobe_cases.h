@@ -11,7 +11,8 @@ namespace quasilux {
 
 /// Compiles every lobe.
 inline const std::string allLobes = "-DHAS_LOBE_LAMBERT -DHAS_LOBE_PHONG -DHAS_LOBE_GGX -DHAS_LOBE_BECKMANN "
-                                    "-DHAS_LOBE_CONDUCTOR -DHAS_LOBE_DIELECTRIC -DHAS_LOBE_THINDIELECTRIC";
+                                    "-DHAS_LOBE_CONDUCTOR -DHAS_LOBE_DIELECTRIC -DHAS_LOBE_THINDIELECTRIC "
+                                    "-DHAS_LOBE_GGXDIELECTRIC -DHAS_LOBE_BECKMANNDIELECTRIC";
 
 struct LobeCase {
     std::string name;

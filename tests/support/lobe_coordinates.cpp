@@ -47,18 +47,25 @@ double smithBeckmann(double scaledTan) {
     return a >= 1.6 ? 1 : (3.535 * a + 2.181 * a * a) / (1 + 2.276 * a + 2.577 * a * a);
 }
 
+bool isGgx(const shared::Lobe& lobe) { return lobe.type == LOBE_GGX || lobe.type == LOBE_GGXDIELECTRIC; }
+
 double microfacetFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
-    const dvec3 h = glm::normalize(wo + wi);
-    const double area = pi * lobe.alphaU * lobe.alphaV * std::pow(h.z, 4);
-    const double q = (std::pow(h.x / lobe.alphaU, 2) + std::pow(h.y / lobe.alphaV, 2)) / (h.z * h.z);
-    const auto scaledTan = [&](dvec3 v) { return std::hypot(lobe.alphaU * v.x, lobe.alphaV * v.y) / v.z; };
-    const double cosines = 4 * wo.z * wi.z;
-    if (lobe.type == LOBE_GGX)
-        return smithGgx(scaledTan(wo)) * smithGgx(scaledTan(wi)) / (area * (1 + q) * (1 + q) * cosines);
-    return smithBeckmann(scaledTan(wo)) * smithBeckmann(scaledTan(wi)) * std::exp(-q) / (area * cosines);
+    return microfacetDistribution(lobe, glm::normalize(wo + wi)) * microfacetShadowing(lobe, wo) *
+           microfacetShadowing(lobe, wi) / (4 * wo.z * wi.z);
 }
 
 } // namespace
+
+double microfacetDistribution(const shared::Lobe& lobe, dvec3 h) {
+    const double area = pi * lobe.alphaU * lobe.alphaV * std::pow(h.z, 4);
+    const double q = (std::pow(h.x / lobe.alphaU, 2) + std::pow(h.y / lobe.alphaV, 2)) / (h.z * h.z);
+    return isGgx(lobe) ? 1 / (area * (1 + q) * (1 + q)) : std::exp(-q) / area;
+}
+
+double microfacetShadowing(const shared::Lobe& lobe, dvec3 v) {
+    const double scaledTan = std::hypot(lobe.alphaU * v.x, lobe.alphaV * v.y) / std::abs(v.z);
+    return isGgx(lobe) ? smithGgx(scaledTan) : smithBeckmann(scaledTan);
+}
 
 LobeDirection lobeDirection(const shared::Lobe& lobe, dvec3 wo, double s, double phi) {
     if (lobe.type == LOBE_LAMBERT) return {polar(1 - s, phi), 1};

@@ -27,4 +27,8 @@ LobeCoordinates lobeCoordinates(const shared::Lobe& lobe, glm::dvec3 wo, glm::dv
 /// f of the lobe in double, written down independently of the kernels (grey reflectance 1 and Fresnel factor 1).
 double lobeFormula(const shared::Lobe& lobe, glm::dvec3 wo, glm::dvec3 wi);
 
+/// D(h) and Smith's G1(v) of microfacet lobes, in double.
+double microfacetDistribution(const shared::Lobe& lobe, glm::dvec3 h);
+double microfacetShadowing(const shared::Lobe& lobe, glm::dvec3 v);
+
 } // namespace quasilux

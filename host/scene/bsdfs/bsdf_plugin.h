@@ -29,6 +29,7 @@ int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
     X(roughconductor, readRoughConductor)                                                                              \
     X(dielectric, readDielectric)                                                                                      \
     X(thindielectric, readThinDielectric)                                                                              \
+    X(roughdielectric, readRoughDielectric)                                                                            \
     X(blendbsdf, readBlend)                                                                                            \
     X(twosided, readTwoSided)                                                                                          \
     X(null, readNull)
@@ -49,6 +50,16 @@ double beckmannHalfWidth(double alpha); ///< tan² = alpha² ln 2
 
 /// Index of refraction `name`: a number, or a material of Mitsuba's list.
 double readRefractiveIndex(Properties& properties, const std::string& name, const std::string& missing);
+
+/// Microfacets of <bsdf type="roughconductor|roughdielectric">.
+struct Roughness {
+    bool ggx = false; ///< else Beckmann
+    float alphaU = 0, alphaV = 0;
+
+    double halfWidth() const; ///< of what is reflected, radians
+};
+/// `distribution`, and `alpha` or `alpha_u` and `alpha_v`. `smooth` is the bsdf to use without roughness.
+Roughness readRoughness(Properties& properties, const std::string& smooth);
 
 /// eta and k of <bsdf type="conductor|roughconductor">: `material`, or `eta` and `k`. Without Fresnel reflection
 /// (material "none") they are 0 and 1, which makes the Fresnel factor |(eta - 1 - ik)/(eta + 1 - ik)|² exactly 1.
