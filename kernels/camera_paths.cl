@@ -333,7 +333,11 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
     for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = 0;
     uint event = 0;
     while (event < PATH_EVENTS_MAX && followCameraPath(&world, &path, &rng, components)) ++event;
-    if (event == PATH_EVENTS_MAX) atomic_inc(&counters->cutPaths);
+    if (event == PATH_EVENTS_MAX) {
+        atomic_inc(&counters->cutPaths);
+        const float mean = (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
+        atomic_add(&counters->cutThroughput, (uint)(min(mean, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
+    }
     float3 total = 0;
     for (uint k = 0; k < FILM_COMPONENTS; ++k) total += components[k];
     if (all(isfinite(total)))

@@ -83,7 +83,9 @@ typedef struct {
 typedef struct {
     unsigned int nonFinite;
     unsigned int cutPaths;
+    unsigned int cutThroughput; /* of those paths, mean of R, G, B, summed in steps of 1 / CUT_THROUGHPUT_STEPS */
 } CameraCounters;
+#define CUT_THROUGHPUT_STEPS 1024u
 
 #define LOBES_MAX 8u /* lobes on one side of a surface; the host refuses more */
 

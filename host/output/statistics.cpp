@@ -25,7 +25,8 @@ json countersJson(const RenderCounters& counters) {
             {"nonFinite", counters.nonFinite},
             {"cutPaths", counters.cutPaths},
             {"fluxEmitted", counters.fluxEmitted},
-            {"fluxCut", counters.fluxCut}};
+            {"fluxCut", counters.fluxCut},
+            {"throughputCut", counters.throughputCut}};
 }
 
 json kernelsJson(const std::map<std::string, KernelTiming>& kernels) {
@@ -70,11 +71,17 @@ json settingsJson(const RenderSettings& settings) {
 }
 
 json sceneReportJson(const SceneReport& report) {
-    json emitters = json::array(), lobes = json::array();
+    json emitters = json::array(), lobes = json::array(), media = json::array();
     for (const auto& row : report.emitters)
         emitters.push_back({{"id", row.id}, {"type", row.type}, {"power", row.power}});
     for (const auto& row : report.lobes)
         lobes.push_back({{"bsdf", row.bsdf}, {"lobe", row.lobe}, {"scattering", row.scattering}, {"why", row.why}});
+    for (const auto& row : report.media)
+        media.push_back({{"medium", row.medium},
+                         {"level", row.level}, // infinity, all of it genuine diffuse, becomes null
+                         {"why", row.why},
+                         {"kernelRadius", row.kernelRadius},
+                         {"kernelHalfHeight", row.kernelHalfHeight}});
     return {{"triangles", report.triangles},
             {"spheres", report.spheres},
             {"patches", report.patches},
@@ -82,6 +89,7 @@ json sceneReportJson(const SceneReport& report) {
             {"features", report.features},
             {"emitters", emitters},
             {"lobes", lobes},
+            {"media", media},
             {"photonClasses", report.photonClasses},
             {"bufferBytes", report.bufferBytes},
             {"photonsPerPass", report.photonsPerPass},

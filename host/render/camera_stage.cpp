@@ -42,7 +42,7 @@ CameraStage::CameraStage(Device& device, const std::string& options, const Geome
       film_(device, pixelFloats * params.camera.width * params.camera.height, "film"),
       counters_(device, 1, "camera counters") {
     film_.fill(0);
-    counters_.write({shared::CameraCounters{0, 0}});
+    counters_.write({shared::CameraCounters{0, 0, 0}});
 }
 
 void CameraStage::run(unsigned pass, const PhotonStage& photons) {

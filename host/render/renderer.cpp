@@ -153,6 +153,7 @@ struct Renderer::Stages {
     CameraStage camera;
     SceneReport report;
     RenderCounters counters;
+    uint64_t photonCutPaths = 0, photonNonFinite = 0; // shares of the photons in the counters
 };
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings) {
@@ -179,8 +180,12 @@ void Renderer::renderPass(unsigned pass) {
     for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
         if (photons.stored[slot] > 0) counters.photonsStored[slotName(slot)] += photons.stored[slot];
     counters.cameraPaths += uint64_t(s.flat.camera.width) * s.flat.camera.height;
-    counters.cutPaths += photons.cutPaths;
-    counters.nonFinite += photons.nonFinite;
+    s.photonCutPaths += photons.cutPaths;
+    s.photonNonFinite += photons.nonFinite;
+    const auto camera = s.camera.counters();
+    counters.cutPaths = s.photonCutPaths + camera.cutPaths;
+    counters.nonFinite = s.photonNonFinite + camera.nonFinite;
+    counters.throughputCut = double(camera.cutThroughput) / CUT_THROUGHPUT_STEPS;
     counters.fluxCut += photons.fluxCut;
     counters.fluxEmitted += s.flat.emittedFlux;
     const double seconds = since(start);
