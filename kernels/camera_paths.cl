@@ -26,7 +26,7 @@ typedef struct {
     int specularSoFar; /* nothing but specular events: emission counts in full */
     float directPdf;  /* > 0: emission counts by its share against emitter sampling; density of the sampled direction */
     int onlyEmission; /* the path goes on just for that share */
-    float firstChoice; /* in [0,1): chooses at the first surface, evenly over the passes; < 0 after it */
+    float firstChoice; /* in [0,1): decides the first event, evenly over the passes; < 0 after it */
 #ifdef HAS_MEDIA
     uint medium; /* index or MEDIUM_NONE */
 #endif
@@ -264,8 +264,11 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
 #ifdef HAS_MEDIA
     if (inMedium(path->medium)) {
         __global const Medium* medium = SCENE_TABLE(world->tables, &params->scene, Medium, media) + path->medium;
-        const MediumSegment segment = followMedium(medium, path->throughput, &path->ray, 0, rngNext2(rng), world->nodes,
+        float2 u = rngNext2(rng);
+        if (path->firstChoice >= 0) u.x = path->firstChoice;
+        const MediumSegment segment = followMedium(medium, path->throughput, &path->ray, 0, u, world->nodes,
                                                    world->blocks, world->tables, &params->scene);
+        path->firstChoice = path->firstChoice < 0 ? -1 : numberLeft(medium, &segment.flight, u.x);
         if (segment.flight.collided) return collideCameraPath(world, path, &segment.flight, medium, rng, components);
         path->throughput *= segment.flight.weight;
         hit = segment.hit;
