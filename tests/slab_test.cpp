@@ -39,8 +39,9 @@ double allowed(const Case& c, const MeanAndError& result) {
 }
 
 std::string describe(const Case& c) {
-    return fmt::format("{}, {}, {}, {}, bdd {}", c.slab, c.side == R ? "R" : "T", c.method.split,
-                       name(c.method.variant), c.method.bdd);
+    return fmt::format("{}, {}, {}, {}, bdd {}{}", c.slab, c.side == R ? "R" : "T", c.method.split,
+                       name(c.method.variant), c.method.bdd,
+                       c.method.direct == DirectLight::photons ? ", direct photons" : "");
 }
 
 // What GoogleTest shows of a case that fails.
@@ -73,6 +74,7 @@ std::vector<Case> chosenCases() {
     return {
         {"van de Hulst", R, {"all", alternative}, 4},
         {"van de Hulst", T, {"level:0.1", mainVariant}, 2},
+        {"van de Hulst", R, {"none", mainVariant, 0, DirectLight::photons}, 10},
         {"Giovanelli", R, {"none", mainVariant, 1}, 2},
         {"plate glass", R, {"level:0.1", mainVariant}, 1},
         {"plate glass", T, {"level:0.1", alternative, 1}, 1},
@@ -96,7 +98,9 @@ TEST_P(SlabRender, IsRight) {
     fmt::print("{}: {:.6f} instead of {:.6f}, off by {:+.2f} %, standard error {:.2f} %\n", describe(c), result.mean,
                exact, 100 * (result.mean / exact - 1), 100 * result.standardError / exact);
     EXPECT_NEAR(result.mean, exact, allowed(c, result));
-    EXPECT_LT(result.standardError, 0.02 * exact) << "too noisy to tell anything";
+    if (!std::getenv("QUASILUX_SLAB_TABLE")) {
+        EXPECT_LT(result.standardError, 0.02 * exact) << "too noisy to tell anything";
+    }
 }
 INSTANTIATE_TEST_SUITE_P(Slab, SlabRender, testing::ValuesIn(chosenCases()), label);
 

@@ -72,6 +72,7 @@ RenderSettings settingsOf(const SlabMethod& method) {
     RenderSettings settings;
     settings.bdd = method.bdd;
     settings.variant = method.variant;
+    settings.direct = method.direct;
     settings.quasiSpecular = method.split;
     settings.quasiSpecularFromCommandLine = true;
     settings.photonsPerPass = 10000;

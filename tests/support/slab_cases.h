@@ -27,6 +27,7 @@ struct SlabMethod {
     std::string split; ///< all | level:NUMBER | none
     Variant variant = Variant::main;
     unsigned bdd = 0;
+    DirectLight direct = DirectLight::emitters;
 };
 
 /// What a render says, with its standard error from `batches` independent batches of `passes`. In a wide tube little of
