@@ -64,7 +64,7 @@ MediumDecision byLevel(const MediumDescription& medium, double level, const std:
 
 /// The level that `auto` chooses, unless so little lies above it that following it would not pay.
 MediumDecision byAuto(const MediumDescription& medium) {
-    const MediumDecision decision = byLevel(medium, autoPhaseLevel, "auto");
+    MediumDecision decision = byLevel(medium, autoPhaseLevel, "auto");
     if (decision.genuineDiffuseShare > autoDiffuseShare)
         return {infinity, 1,
                 fmt::format("auto: all of it is genuine diffuse, less than {:.3g} % of the scattering lies "
