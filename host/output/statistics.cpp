@@ -21,9 +21,13 @@ json countersJson(const RenderCounters& counters) {
     return {{"passes", counters.passes},
             {"photonsEmitted", counters.photonsEmitted},
             {"photonsStored", counters.photonsStored},
+            {"cameraPointsStored", counters.cameraPointsStored},
+            {"storedPoints", counters.storedPoints},
+            {"storedBytes", counters.storedBytes},
             {"cameraPaths", counters.cameraPaths},
             {"nonFinite", counters.nonFinite},
             {"cutPaths", counters.cutPaths},
+            {"overflows", counters.overflows},
             {"fluxEmitted", counters.fluxEmitted},
             {"fluxCut", counters.fluxCut}};
 }
@@ -61,6 +65,7 @@ json settingsJson(const RenderSettings& settings) {
     return {{"bdd", settings.bdd},
             {"variant", name(settings.variant)},
             {"direct", name(settings.direct)},
+            {"map", name(settings.map)},
             {"quasiSpecular", settings.quasiSpecular},
             {"quasiSpecularFromCommandLine", settings.quasiSpecularFromCommandLine},
             {"photonsPerPass", settings.photonsPerPass},
