@@ -30,7 +30,7 @@ typedef struct {
     int specularSoFar; /* nothing but specular events: emission counts in full */
     float directPdf;  /* > 0: emission counts by its share against emitter sampling; density of the sampled direction */
     int onlyEmission; /* the path goes on just for that share */
-    float firstChoice; /* in [0,1): chooses at the first surface, evenly over the passes; < 0 after it */
+    float firstChoice; /* in [0,1): decides the first event, evenly over the passes; < 0 after it */
 #ifdef HAS_MEDIA
     uint medium; /* index or MEDIUM_NONE */
 #endif
@@ -284,8 +284,11 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
 #ifdef HAS_MEDIA
     if (inMedium(path->medium)) {
         __global const Medium* medium = SCENE_TABLE(world->tables, &params->scene, Medium, media) + path->medium;
-        const MediumSegment segment = followMedium(medium, path->throughput, &path->ray, 0, rngNext2(rng), world->nodes,
+        float2 u = rngNext2(rng);
+        if (path->firstChoice >= 0) u.x = path->firstChoice;
+        const MediumSegment segment = followMedium(medium, path->throughput, &path->ray, 0, u, world->nodes,
                                                    world->blocks, world->tables, &params->scene);
+        path->firstChoice = path->firstChoice < 0 ? -1 : numberLeft(medium, &segment.flight, u.x);
         if (segment.flight.collided) return collideCameraPath(world, path, &segment.flight, medium, rng, components);
         path->throughput *= segment.flight.weight;
         hit = segment.hit;
@@ -327,8 +330,9 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
     return scatterCameraPath(world, path, &s, &frame, wo, lobes, &choice, rng);
 }
 
-/* Light that the path of a pixel takes, by component; 0 where it was cut. */
-inline int traceCameraPath(const World* world, uint pixel, float3* components) {
+/* Light that the path of a pixel takes, by component. Returns the throughput, mean of R, G, B, with which it was cut, or
+ * -1 where it ended by itself. */
+inline float traceCameraPath(const World* world, uint pixel, float3* components) {
     const CameraParams* params = world->params;
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, params->pass, STREAM_CAMERA, pixel);
@@ -349,7 +353,7 @@ inline int traceCameraPath(const World* world, uint pixel, float3* components) {
     for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = 0;
     uint event = 0;
     while (event < PATH_EVENTS_MAX && followCameraPath(world, &path, &rng, components)) ++event;
-    return event < PATH_EVENTS_MAX;
+    return event < PATH_EVENTS_MAX ? -1 : (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
 }
 
 inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel,
@@ -370,7 +374,11 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
     if (pixel >= params.camera.width * params.camera.height) return;
     const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
     float3 components[FILM_COMPONENTS];
-    if (!traceCameraPath(&world, pixel, components)) atomic_inc(&counters->cutPaths);
+    const float cut = traceCameraPath(&world, pixel, components);
+    if (cut >= 0) {
+        atomic_inc(&counters->cutPaths);
+        atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
+    }
     addFiniteSample(film, counters, pixel, components);
 }
 #else
@@ -391,13 +399,18 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
     own.capacity = store.map.regionCapacity;
     own.borderCapacity = store.borderCapacity;
     own.count.stored = own.count.wanted = own.count.storedBorders = own.count.wantedBorders = own.count.cutPaths = 0;
+    own.count.cutThroughput = 0;
     const World world = {nodes, blocks, tables, &own, &params};
     const uint first = region * store.pixelsPerRegion;
     const uint last = min(first + store.pixelsPerRegion, params.camera.width * params.camera.height);
     for (uint pixel = first; pixel < last; ++pixel) {
         own.pixel = pixel;
         float3 components[FILM_COMPONENTS];
-        if (!traceCameraPath(&world, pixel, components)) ++own.count.cutPaths;
+        const float cut = traceCameraPath(&world, pixel, components);
+        if (cut >= 0) {
+            ++own.count.cutPaths;
+            own.count.cutThroughput += cut;
+        }
         vstore3(components[LIGHT_DIRECT], 0, samples + (size_t)pixel * SAMPLE_FLOATS);
         vstore3(components[FILM_EMISSION], 1, samples + (size_t)pixel * SAMPLE_FLOATS);
     }

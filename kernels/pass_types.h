@@ -110,6 +110,7 @@ typedef struct {
     unsigned int stored, wanted;               /* camera points, as in RegionCount */
     unsigned int storedBorders, wantedBorders; /* PointBorder records */
     unsigned int cutPaths;
+    float cutThroughput; /* of those paths, mean of R, G, B */
 } PointRegionCount;
 
 typedef struct {
@@ -123,7 +124,9 @@ typedef struct {
 typedef struct {
     unsigned int nonFinite;
     unsigned int cutPaths;
+    unsigned int cutThroughput; /* of those paths, mean of R, G, B, summed in steps of 1 / CUT_THROUGHPUT_STEPS */
 } CameraCounters;
+#define CUT_THROUGHPUT_STEPS 1024u
 
 #define LOBES_MAX 8u /* lobes on one side of a surface; the host refuses more */
 

@@ -3,24 +3,16 @@
 
 Called by scripts/figure1.sh, which builds the program first. Renders go to out/figure1/, pictures to docs/figures/.
 """
-import argparse
-import json
 import os
-import pathlib
-import subprocess
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-import numpy as np
 
-from relmse import SURFACES, Reference, read_channels
+from figures import FIGURES, Renders, argument_parser, measured_on, tone_map
+from relmse import SURFACES, box_reference
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-SCENE = ROOT / "scenes" / "cornell_phong.xml"
-RENDERS = ROOT / "out" / "figure1"
-FIGURES = ROOT / "docs" / "figures"
 EXPOSURE = 1.34  # factor on radiance, the same for all pictures
 METHODS = {
     "standard, BDD 0": ["--quasi-specular", "none", "--bdd", "0"],
@@ -30,34 +22,10 @@ METHODS = {
 CONVERGENCE_SHARES = [1 / 15, 2 / 15, 4 / 15, 1 / 2, 1]  # of the full time: 2, 4, 8, 15, 30 of 30 s
 
 
-def render(program, method, seconds):
-    """Renders and returns the image and its statistics."""
-    RENDERS.mkdir(parents=True, exist_ok=True)
-    stem = method.replace(", ", "_").replace(" ", "") + f"_{seconds:g}s"
-    image, statistics = RENDERS / f"{stem}.exr", RENDERS / f"{stem}.json"
-    files = ["--output", image, "--stats", statistics]
-    subprocess.run([program, "render", SCENE, "--quiet", "--time", f"{seconds:g}", *files, *METHODS[method]], check=True)
-    return read_channels(image, ["R", "G", "B"]), json.loads(statistics.read_text())
-
-
-def warm_up(program):
-    """Compiles the kernels of every method, so that no picture pays for it: the OpenCL runtime keeps them."""
-    RENDERS.mkdir(parents=True, exist_ok=True)
-    for options in METHODS.values():
-        command = [program, "render", SCENE, "--quiet", "--passes", "1", "--output", RENDERS / "warm-up.exr", *options]
-        subprocess.run(command, check=True)
-
-
-def tone_map(radiance):
-    """sRGB in 0 .. 1: radiance scaled and clamped, then the curve of IEC 61966-2-1."""
-    x = np.clip(EXPOSURE * radiance, 0, 1)
-    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
-
-
 def draw_pictures(runs, seconds):
     figure, axes = plt.subplots(1, len(runs), figsize=(4.1 * len(runs), 4.9), layout="constrained")
     for axis, (method, (image, statistics, errors)) in zip(axes, runs.items()):
-        axis.imshow(tone_map(image), interpolation="nearest")
+        axis.imshow(tone_map(image, EXPOSURE), interpolation="nearest")
         axis.set_axis_off()
         axis.set_title(f"{method}: {statistics['counters']['passes']} passes in {seconds:g} s", fontsize=11)
         net = [f"{name} {errors[name].net:.1e}" for name in ("all", "walls", "boxes")]
@@ -66,11 +34,11 @@ def draw_pictures(runs, seconds):
     plt.close(figure)
 
 
-def draw_convergence(program, reference, seconds):
+def draw_convergence(renders, reference, seconds):
     figure, axes = plt.subplots(1, 3, figsize=(12.5, 4), sharey=True, layout="constrained")
     times = [seconds * share for share in CONVERGENCE_SHARES]
     for method in METHODS:
-        runs = [render(program, method, time) for time in times]
+        runs = [renders.render(method, time) for time in times]
         spent = [statistics["phases"]["render"] for _, statistics in runs]
         errors = [reference.errors(image) for image, _ in runs]
         for axis, region in zip(axes, ("all", "walls", "boxes")):
@@ -85,9 +53,7 @@ def draw_convergence(program, reference, seconds):
 
 
 def print_table(runs, seconds, load):
-    some = next(iter(runs.values()))[1]
-    device = f"{some['device']['name']}, {some['device']['computeUnits']} compute units"
-    print(f"{seconds:g} s each on {device}; load average {load[0]:.1f} before, {os.getloadavg()[0]:.1f} after\n")
+    print(measured_on(next(iter(runs.values()))[1], seconds, load) + "\n")
     print("| method | passes | relMSE all | walls | boxes |")
     print("|---|---|---|---|---|")
     for method, (_, statistics, errors) in runs.items():
@@ -101,23 +67,22 @@ def print_table(runs, seconds, load):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("seconds", nargs="?", type=float, default=30, help="rendering time of each picture (default 30)")
+    parser = argument_parser(__doc__, 30)
     parser.add_argument("--convergence", action="store_true", help="draw docs/figures/convergence.png too, up to that time")
-    parser.add_argument("--program", default=str(ROOT / "build" / "release" / "quasilux"), help="the built program")
     options = parser.parse_args()
     FIGURES.mkdir(parents=True, exist_ok=True)
-    reference = Reference()
-    warm_up(options.program)
+    reference = box_reference()
+    renders = Renders(options.program, "figure1", "cornell_phong.xml", METHODS)
+    renders.warm_up()
     load = os.getloadavg()
     runs = {}
     for method in METHODS:
-        image, statistics = render(options.program, method, options.seconds)
+        image, statistics = renders.render(method, options.seconds)
         runs[method] = image, statistics, reference.errors(image)
     draw_pictures(runs, options.seconds)
     print_table(runs, options.seconds, load)
     if options.convergence:
-        draw_convergence(options.program, reference, options.seconds)
+        draw_convergence(renders, reference, options.seconds)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Error of an image of scenes/cornell_phong.xml against its reference, by region of the scene.
+"""Error of an image of a scene in scenes/ against its reference, by region of the scene.
 
-    scripts/relmse.py IMAGE.exr
+    scripts/relmse.py IMAGE.exr [SCENE, cornell_phong (default) or plate_checker]
 
 relMSE is the mean over pixels and channels of (I - R)^2 / (R^2 + 0.01 mean(R)^2), on linear RGB; no pixel is dropped.
 The reference is noisy too and its noise adds to the relMSE of any image, so it is subtracted ("net"). "mean" is the
@@ -23,6 +23,10 @@ SURFACES = {"floor": 1, "ceiling": 2, "back": 3, "left": 4, "right": 5, "short b
 SEEN_THROUGH_LIGHT = 8  # ceiling seen through the light
 WALLS = [1, 2, 3, 4, 5, SEEN_THROUGH_LIGHT]
 BOXES = [6, 7]
+
+# Camera and plate of scenes/plate_checker.xml, mm and degrees.
+PLATE_EYE, PLATE_TARGET, PLATE_FIELD = np.array([0.0, -180.0, 183.0]), np.array([0.0, 0.0, 3.0]), 35.0
+PLATE_INSIDE = 55.0  # half the side of its top, 5 mm inside its border
 
 
 @dataclass
@@ -57,29 +61,22 @@ def read_regions():
     return np.rint(gray / REGION_STEP).astype(int)
 
 
+def relmse_weight(pixels):
+    """What squared differences from the reference `pixels` are multiplied with."""
+    return 1 / (pixels**2 + 0.01 * pixels.mean() ** 2)
+
+
 class Reference:
-    """The converged image, its regions and the share of its own noise in the relMSE of each region."""
+    """The converged image, its regions and the share of its own noise in the relMSE of each pixel."""
 
-    def __init__(self):
-        self.pixels = read_channels(REFERENCES / "cornell_phong_reference.exr", ["R", "G", "B"])
-        self.weight = 1 / (self.pixels**2 + 0.01 * self.pixels.mean() ** 2)
-        ids = read_regions()
-        self.masks = {"all": np.ones(ids.shape, bool), "walls": np.isin(ids, WALLS), "boxes": np.isin(ids, BOXES)}
-        self.masks |= {name: ids == number for name, number in SURFACES.items()}
-        self.noise = self._own_noise(ids)
-
-    def _own_noise(self, ids):
-        """Known for the whole image and for the boxes; what is outside the boxes has the rest."""
-        own = json.loads((REFERENCES / "cornell_phong_reference.json").read_text())["own_relMSE"]
-        boxes = np.isin(ids, BOXES)
-        rest = (own["all"] - own["boxes"] * boxes.mean()) / (1 - boxes.mean())
-        return np.where(boxes, own["boxes"], rest)
+    def __init__(self, pixels, masks, noise):
+        self.pixels, self.masks, self.noise = pixels, masks, noise
 
     def errors(self, image):
         """Error by region name of an image of the reference's size."""
         if image.shape != self.pixels.shape:
             sys.exit(f"the image has {image.shape[1]}x{image.shape[0]} pixels, expected {self.pixels.shape[1]}x{self.pixels.shape[0]}")
-        squares = ((image - self.pixels) ** 2 * self.weight).mean(axis=2)
+        squares = ((image - self.pixels) ** 2 * relmse_weight(self.pixels)).mean(axis=2)
         result = {}
         for name, mask in self.masks.items():
             relmse = squares[mask].mean()
@@ -88,12 +85,56 @@ class Reference:
         return result
 
 
+def box_noise(ids):
+    """Known for the whole image and for the boxes; what is outside the boxes has the rest."""
+    own = json.loads((REFERENCES / "cornell_phong_reference.json").read_text())["own_relMSE"]
+    boxes = np.isin(ids, BOXES)
+    rest = (own["all"] - own["boxes"] * boxes.mean()) / (1 - boxes.mean())
+    return np.where(boxes, own["boxes"], rest)
+
+
+def box_reference():
+    """Of scenes/cornell_phong.xml."""
+    ids = read_regions()
+    masks = {"all": np.ones(ids.shape, bool), "walls": np.isin(ids, WALLS), "boxes": np.isin(ids, BOXES)}
+    masks |= {name: ids == number for name, number in SURFACES.items()}
+    return Reference(read_channels(REFERENCES / "cornell_phong_reference.exr", ["R", "G", "B"]), masks, box_noise(ids))
+
+
+def plate_mask(height, width):
+    """Pixels whose centre sees the top of the plate, away from its border."""
+    forward = (PLATE_TARGET - PLATE_EYE) / np.linalg.norm(PLATE_TARGET - PLATE_EYE)
+    right = np.cross(forward, [0, 0, 1])
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    half = np.tan(np.deg2rad(PLATE_FIELD / 2))  # of the image's width at distance 1
+    row, column = np.mgrid[0:height, 0:width]
+    x = ((column + 0.5) / width * 2 - 1) * half
+    y = (1 - (row + 0.5) / height * 2) * half * height / width
+    ray = forward + x[..., None] * right + y[..., None] * up
+    seen = PLATE_EYE + ray * ((PLATE_TARGET[2] - PLATE_EYE[2]) / ray[..., 2])[..., None]
+    return (abs(seen[..., 0]) < PLATE_INSIDE) & (abs(seen[..., 1]) < PLATE_INSIDE)
+
+
+def plate_reference():
+    """Of scenes/plate_checker.xml, which is grey."""
+    pixels = np.repeat(read_channels(REFERENCES / "plate_checker_reference.exr", ["Y"]), 3, axis=2)
+    stderr = np.repeat(read_channels(REFERENCES / "plate_checker_reference_stderr.exr", ["Y"]), 3, axis=2)
+    masks = {"all": np.ones(pixels.shape[:2], bool), "plate": plate_mask(*pixels.shape[:2])}
+    return Reference(pixels, masks, (stderr**2 * relmse_weight(pixels)).mean(axis=2))
+
+
+REFERENCE_OF = {"cornell_phong": box_reference, "plate_checker": plate_reference}
+
+
 def main():
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+    arguments = sys.argv[1:]
+    scene = arguments[1] if len(arguments) == 2 else "cornell_phong"
+    if len(arguments) not in (1, 2) or arguments[0].startswith("-") or scene not in REFERENCE_OF:
         sys.exit(__doc__)
-    image = read_channels(sys.argv[1], ["R", "G", "B"])
+    image = read_channels(arguments[0], ["R", "G", "B"])
     print(f"samples that are not finite: {int((~np.isfinite(image)).sum())}")
-    for name, error in Reference().errors(image).items():
+    for name, error in REFERENCE_OF[scene]().errors(image).items():
         print(f"{name:10s} relMSE {error.relmse:.3e}  net {error.net:.3e}  mean {100 * error.mean:+.2f} %")
 
 

@@ -124,6 +124,7 @@ TEST_P(MapOrders, Agree) {
     const Scene scene = GetParam().scene();
     const auto photons = render(scene, settings(), MapOrder::photons);
     const auto camera = render(scene, settings(), MapOrder::camera);
+
     ASSERT_FALSE(photons.counters.photonsStored.empty()) << "nothing was taken by density estimation";
     EXPECT_LT(difference(photons.image.radiance, camera.image.radiance), tolerance);
     EXPECT_LT(difference(photons.image.standardError, camera.image.standardError), 2 * tolerance);

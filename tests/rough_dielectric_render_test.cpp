@@ -196,12 +196,9 @@ TEST(RoughGlassOverAFloor, IsTheSameForwardBackwardAndSplit) {
                                  Method{"split, further", 2, Variant::alternative, "glass", photons}}) {
         const auto other = renderFloor(method);
         EXPECT_NEAR(other.mean, backward.mean, bound(other)) << method.name;
-        std::printf("%s %f +- %f, backward %f +- %f\n", method.name, other.mean, other.standardError, backward.mean,
-                    backward.standardError);
         EXPECT_LT(other.standardError, 0.015 * other.mean) << method.name << ": too noisy to tell anything";
     }
     const auto darker = renderFloor({"", 0, Variant::main, "none", emitters}, 0.8f);
-
     EXPECT_GT(std::abs(darker.mean - backward.mean), bound(darker)) << "light through the ball must matter";
 }
 

@@ -6,6 +6,7 @@
 #include "output/progress_line.h"
 #include "output/statistics.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -35,6 +36,23 @@ void printEmitters(const SceneReport& report) {
 void printLobes(const SceneReport& report) {
     TextTable table({"bsdf", "lobe", "scattering", "why"});
     for (const auto& row : report.lobes) table.add({row.bsdf, row.lobe, row.scattering, row.why});
+    fmt::print("\n{}", table.text());
+}
+
+std::string splitText(double level) {
+    if (level == 0) return "quasi-specular";
+    return std::isinf(level) ? "genuine diffuse" : fmt::format("level {:.3g} per sr", level);
+}
+
+void printMedia(const SceneReport& report) {
+    if (report.media.empty()) return;
+    TextTable table({"medium", "phase function", "first kernel (scene units)", "why"});
+    for (const auto& row : report.media) {
+        const std::string kernel =
+            row.kernelHalfHeight > 0 ? fmt::format("{:.3g}, half height {:.3g}", row.kernelRadius, row.kernelHalfHeight)
+                                     : fmt::format("ball of {:.3g}", row.kernelRadius);
+        table.add({row.medium, splitText(row.level), kernel, row.why});
+    }
     fmt::print("\n{}", table.text());
 }
 
@@ -88,6 +106,7 @@ void infoCommand(const SceneOptions& options) {
     printGeometry(report);
     printEmitters(report);
     printLobes(report);
+    printMedia(report);
     printRadii(report);
     printBuffers(report.bufferBytes);
 }

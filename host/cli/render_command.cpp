@@ -83,10 +83,17 @@ void warnOfCounters(const RenderOptions& options, const RenderCounters& counters
     if (counters.nonFinite > 0)
         warn(options, fmt::format("{} samples were not finite and were dropped, the image lacks their light",
                                   counters.nonFinite));
+    if (counters.overflows > 0)
+        warn(options, fmt::format("{} sums of splats left their range: the image is wrong there, use --map photons",
+                                  counters.overflows));
     if (counters.cutPaths > 0)
         warn(options,
-             fmt::format("{} paths were cut by the limit on events, with {:.3g} % of the flux", counters.cutPaths,
-                         counters.fluxEmitted > 0 ? 100 * counters.fluxCut / counters.fluxEmitted : 0.0));
+             fmt::format(
+                 "{} paths were cut by the limit on events, with {:.3g} % of the flux and {:.3g} % of the camera "
+                 "paths' throughput",
+                 counters.cutPaths, counters.fluxEmitted > 0 ? 100 * counters.fluxCut / counters.fluxEmitted : 0.0,
+                 counters.cameraPaths > 0 ? 100 * counters.throughputCut / static_cast<double>(counters.cameraPaths)
+                                          : 0.0));
 }
 
 RenderRecord makeRecord(const RenderOptions& options, const RenderSettings& settings, Device& device,

@@ -29,7 +29,8 @@ json countersJson(const RenderCounters& counters) {
             {"cutPaths", counters.cutPaths},
             {"overflows", counters.overflows},
             {"fluxEmitted", counters.fluxEmitted},
-            {"fluxCut", counters.fluxCut}};
+            {"fluxCut", counters.fluxCut},
+            {"throughputCut", counters.throughputCut}};
 }
 
 json kernelsJson(const std::map<std::string, KernelTiming>& kernels) {
@@ -75,11 +76,17 @@ json settingsJson(const RenderSettings& settings) {
 }
 
 json sceneReportJson(const SceneReport& report) {
-    json emitters = json::array(), lobes = json::array();
+    json emitters = json::array(), lobes = json::array(), media = json::array();
     for (const auto& row : report.emitters)
         emitters.push_back({{"id", row.id}, {"type", row.type}, {"power", row.power}});
     for (const auto& row : report.lobes)
         lobes.push_back({{"bsdf", row.bsdf}, {"lobe", row.lobe}, {"scattering", row.scattering}, {"why", row.why}});
+    for (const auto& row : report.media)
+        media.push_back({{"medium", row.medium},
+                         {"level", row.level}, // infinity, all of it genuine diffuse, becomes null
+                         {"why", row.why},
+                         {"kernelRadius", row.kernelRadius},
+                         {"kernelHalfHeight", row.kernelHalfHeight}});
     return {{"triangles", report.triangles},
             {"spheres", report.spheres},
             {"patches", report.patches},
@@ -87,6 +94,7 @@ json sceneReportJson(const SceneReport& report) {
             {"features", report.features},
             {"emitters", emitters},
             {"lobes", lobes},
+            {"media", media},
             {"photonClasses", report.photonClasses},
             {"bufferBytes", report.bufferBytes},
             {"photonsPerPass", report.photonsPerPass},

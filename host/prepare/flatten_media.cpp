@@ -13,7 +13,8 @@ constexpr double pi = 3.141592653589793;
 
 // Photons that a ball is to hold in pass 0, were the collisions of a pass spread evenly.
 constexpr double photonsInBall = 200;
-constexpr double largestBall = 0.1; // of the extent
+constexpr double largestBall = 0.05;  // of the extent
+constexpr double causticFactor = 0.5; // on it: focused light varies faster
 // Of a flat kernel. Light in a plate varies over its thickness along it; across it, that which has not scattered yet
 // varies over a mean free path, the rest over a transport mean free path or the thickness.
 constexpr double flatRadius = 1.0;            // of the thickness
@@ -35,11 +36,13 @@ KernelSize flatKernel(const MediumDescription& medium, const MediumShape& shape,
     return {flatRadius * shape.thickness, std::min(height, flatHeightOfThickness * shape.thickness)};
 }
 
-KernelSize ballKernel(const MediumDescription& medium, const MediumShape& shape, unsigned photons) {
+KernelSize ballKernel(const MediumDescription& medium, const MediumShape& shape, unsigned photons,
+                      unsigned lightClass) {
     const double opticalDepth = mean(medium.sigmaT) * shape.extent;
     const double collisions = photons * std::max(opticalDepth, 1e-3);
     const double radius = std::cbrt(photonsInBall * shape.volume / (4.0 / 3 * pi * collisions));
-    return {std::min(radius, largestBall * shape.extent), 0};
+    const double factor = lightClass == LIGHT_CAUSTIC ? causticFactor : 1.0;
+    return {factor * std::min(radius, largestBall * shape.extent), 0};
 }
 
 } // namespace
@@ -60,7 +63,7 @@ MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>&
                              static_cast<float>(shape.axis.z)};
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
             const KernelSize size =
-                shape.isPlate ? flatKernel(description, shape, c) : ballKernel(description, shape, photons);
+                shape.isPlate ? flatKernel(description, shape, c) : ballKernel(description, shape, photons, c);
             medium.kernelRadius[c] = static_cast<float>(size.radius);
             medium.kernelHalfHeight[c] = static_cast<float>(size.halfHeight);
         }

@@ -144,6 +144,7 @@ CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LI
         stored += count.stored;
         total.borders += count.storedBorders;
         total.cutPaths += count.cutPaths;
+        total.throughputCut += count.cutThroughput;
     }
     if (classes_ != 0) {
         index(stored);

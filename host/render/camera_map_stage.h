@@ -12,7 +12,7 @@ struct CameraMapPassCount {
     uint64_t borders = 0;                        ///< PointBorder records
     uint64_t cutPaths = 0, nonFinite = 0;        ///< of photons and camera paths
     uint64_t overflows = 0;                      ///< sums of splats that left the range of their fixed point
-    double fluxCut = 0;
+    double fluxCut = 0, throughputCut = 0;       ///< of cut photons, W; of cut camera paths
 };
 
 class CameraMapStage {

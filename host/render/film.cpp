@@ -39,7 +39,7 @@ Film::Film(Device& device, unsigned width, unsigned height)
     : width_(width), height_(height), sums_(device, pixelFloats * width * height, "film"),
       counters_(device, 1, "camera counters") {
     sums_.fill(0);
-    counters_.write({shared::CameraCounters{0, 0}});
+    counters_.write({shared::CameraCounters{0, 0, 0}});
 }
 
 FilmImage Film::develop(unsigned passes) const {

@@ -191,6 +191,7 @@ struct Renderer::Stages {
         counters.nonFinite += count.nonFinite;
         counters.overflows += count.overflows;
         counters.fluxCut += count.fluxCut;
+        counters.throughputCut += count.throughputCut;
     }
 
     Device& device;
@@ -232,6 +233,7 @@ void Renderer::renderPass(unsigned pass) {
     const auto dropped = s.film.counters();
     counters.nonFinite += dropped.nonFinite - s.dropped.nonFinite;
     counters.cutPaths += dropped.cutPaths - s.dropped.cutPaths;
+    counters.throughputCut += double(dropped.cutThroughput - s.dropped.cutThroughput) / CUT_THROUGHPUT_STEPS;
     s.dropped = dropped;
     counters.cameraPaths += s.film.pixels();
     counters.fluxEmitted += s.flat.emittedFlux;

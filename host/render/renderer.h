@@ -52,6 +52,7 @@ struct RenderCounters {
     uint64_t cutPaths = 0;               ///< paths ended by the hard limit on events
     uint64_t overflows = 0;              ///< sums of splats that left their range (camera map); a right render has none
     double fluxEmitted = 0, fluxCut = 0; ///< W, mean of R, G, B
+    double throughputCut = 0;            ///< of camera paths, mean of R, G, B; each begins with 1
     double prepareSeconds = 0, compileSeconds = 0, firstPassSeconds = 0, renderSeconds = 0;
 };
 

@@ -72,13 +72,16 @@ RenderSettings settingsOf(const SlabMethod& method) {
     RenderSettings settings;
     settings.bdd = method.bdd;
     settings.variant = method.variant;
+    settings.direct = method.direct;
     settings.quasiSpecular = method.split;
     settings.quasiSpecularFromCommandLine = true;
+    settings.photonsPerPass = 10000;
+    settings.radiusScale = 0.3; // light is even across the plate, so a wide kernel would help nothing and cost much
     return settings;
 }
 
 MeanAndError measureSlab(const Slab& slab, SlabSide side, const RenderSettings& settings, unsigned batches,
-                         unsigned passes) {
+                         unsigned passes, bool wideTube) {
     constexpr unsigned resolution = 32;
     const bool below = side == SlabSide::transmittance;
     const Scene scene = projectScene("slab.xml", {{"sigma_t", fmt::format("{}", slab.opticalDepth / thickness)},
@@ -89,6 +92,7 @@ MeanAndError measureSlab(const Slab& slab, SlabSide side, const RenderSettings& 
                                                   {"window", slab.oblique ? "0.5" : "1.2"},
                                                   {"light_z", below ? "-3.5" : "2.4"},
                                                   {"light_tilt", below ? "0" : "180"},
+                                                  {"half_width", wideTube ? "15" : "1.25"},
                                                   {"resolution", std::to_string(resolution)}});
     return renderGroups(scene, settings, std::vector<int>(resolution * resolution, 0), batches, passes).front();
 }

@@ -24,15 +24,16 @@ const Slab& slab(const std::string& name);
 enum class SlabSide { reflectance, transmittance };
 
 struct SlabMethod {
-    std::string name;
-    unsigned bdd = 0;
+    std::string split; ///< all | level:NUMBER | none
     Variant variant = Variant::main;
-    std::string split = "all"; ///< all | level:NUMBER | none
+    unsigned bdd = 0;
+    DirectLight direct = DirectLight::emitters;
 };
 
-/// What a render says, with its standard error from `batches` independent batches of `passes`.
+/// What a render says, with its standard error from `batches` independent batches of `passes`. In a wide tube little of
+/// the light comes by way of its mirrors, which make photons of it; in a narrow one no photon is lost beside the image.
 MeanAndError measureSlab(const Slab& slab, SlabSide side, const RenderSettings& settings, unsigned batches,
-                         unsigned passes);
+                         unsigned passes, bool wideTube = false);
 
 RenderSettings settingsOf(const SlabMethod& method);
 
