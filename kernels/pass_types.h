@@ -42,7 +42,7 @@ typedef struct {
     unsigned int wanted;   /* photons that it would have kept with room for all */
     unsigned int cutPaths; /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
-    float fluxCut; /* W, mean of R, G, B, of those paths */
+    float fluxCut;          /* W, mean of R, G, B, of those paths */
     unsigned int overflows; /* sums of splats that left the range of their fixed point (camera map) */
 } RegionCount;
 
@@ -86,14 +86,14 @@ typedef struct {
  * by a medium. */
 typedef struct {
     Packed3 position;
-    Rgb weight;          /* of (flux * kernel * f) in the pixel; f of Lambert lobes and tints of others included */
-    unsigned int place;  /* Photon::patchSide of the photons that it takes */
+    Rgb weight;             /* of (flux * kernel * f) in the pixel; f of Lambert lobes and tints of others included */
+    unsigned int place;     /* Photon::patchSide of the photons that it takes */
     unsigned int slotDepth; /* segments that such a photon may have behind it << 3 | map slot */
     unsigned int pixel;
     unsigned int scatterer; /* surface: POINT_LAMBERT, or lobe index << 1 | 1 where it transmits; medium: SCATTER_* */
     unsigned int wo;        /* towards the camera path, octahedral */
-    unsigned int normal;    /* surface: shading normal, octahedral; medium: slope of the kernel's weight, a float's bits */
-    unsigned int border;    /* index of its PointBorder, or QL_NONE */
+    unsigned int normal; /* surface: shading normal, octahedral; medium: slope of the kernel's weight, a float's bits */
+    unsigned int border; /* index of its PointBorder, or QL_NONE */
 } CameraPoint;
 #define POINT_LAMBERT QL_NONE
 
@@ -116,8 +116,8 @@ typedef struct {
 typedef struct {
     MapParams map; /* of camera points: regions and regionCapacity are theirs */
     unsigned int pixelsPerRegion;
-    unsigned int borderCapacity;  /* of a region */
-    float quantaPerRadiance;      /* splats are summed in fixed point: units per W sr^-1 m^-2, a power of two */
+    unsigned int borderCapacity; /* of a region */
+    float quantaPerRadiance;     /* splats are summed in fixed point: units per W sr^-1 m^-2, a power of two */
 } PointParams;
 
 /* Counted over a camera pass. */

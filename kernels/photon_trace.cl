@@ -32,8 +32,7 @@ typedef SplatTarget PhotonSink;
 inline void deliverPhoton(const PhotonSink* target, RegionCount* count, const PhotonPath* path, float3 position,
                           float3 flux, uint place, uint slot) {
     ++count->wanted;
-    const ArrivedPhoton photon = {
-        position, path->direction, flux, min(path->depth, PHOTON_DEPTH_MAX), place, slot};
+    const ArrivedPhoton photon = {position, path->direction, flux, min(path->depth, PHOTON_DEPTH_MAX), place, slot};
     splatPhoton(target, &photon, count);
 }
 #else
@@ -157,8 +156,8 @@ inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* pa
 }
 
 inline void tracePhotonPath(uint index, const Lattice* lattice, __global const BvhNode* nodes,
-                            __global const PrimitiveBlock* blocks, __global const uint* tables,
-                            const PhotonSink* sink, const PhotonParams* params, RegionCount* count) {
+                            __global const PrimitiveBlock* blocks, __global const uint* tables, const PhotonSink* sink,
+                            const PhotonParams* params, RegionCount* count) {
     const SceneTables* scene = &params->scene;
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, params->pass, STREAM_PHOTON, index);
@@ -229,9 +228,8 @@ inline void traceRegion(uint region, __global const BvhNode* nodes, __global con
 #ifdef MAP_CAMERA
 __kernel void splatPhotons(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                            __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
-                           __global const CameraPoint* points, __global const PointBorder* borders,
-                           __global uint* sums, __global RegionCount* counts, const PhotonParams params,
-                           const PointParams store) {
+                           __global const CameraPoint* points, __global const PointBorder* borders, __global uint* sums,
+                           __global RegionCount* counts, const PhotonParams params, const PointParams store) {
     const uint region = get_global_id(0);
     if (region >= params.regions) return;
     const SplatTarget target = {{sorted, cellStart, &store.map}, points, borders, sums, tables, &params.scene,

@@ -74,7 +74,7 @@ Scene fromXml(const std::string& shapes, const std::string& more = "") {
         <transform name="to_uv"><scale x="4" y="4"/></transform></texture></bsdf>
         <transform name="to_world"><scale value="1.5"/><rotate x="1" angle="-90"/><translate y="-0.7"/></transform></shape>
         {}</scene>)",
-                                                                more, shapes)));
+                                                          more, shapes)));
 }
 
 std::string ball(const std::string& bsdf) {
@@ -118,7 +118,7 @@ protected:
     }
 };
 
-constexpr double tolerance = 5e-4;
+constexpr double tolerance = 1e-4; // found: at most 4e-5, and 2e-4 of the standard error
 
 TEST_P(MapOrders, Agree) {
     const Scene scene = GetParam().scene();
@@ -127,9 +127,9 @@ TEST_P(MapOrders, Agree) {
 
     ASSERT_FALSE(photons.counters.photonsStored.empty()) << "nothing was taken by density estimation";
     EXPECT_LT(difference(photons.image.radiance, camera.image.radiance), tolerance);
-    EXPECT_LT(difference(photons.image.standardError, camera.image.standardError), 2 * tolerance);
+    EXPECT_LT(difference(photons.image.standardError, camera.image.standardError), 4 * tolerance);
     for (size_t k = 0; k < FILM_COMPONENTS; ++k)
-        EXPECT_LT(difference(photons.image.components[k], camera.image.components[k]), 2 * tolerance)
+        EXPECT_LT(difference(photons.image.components[k], camera.image.components[k]), 4 * tolerance)
             << componentName(unsigned(k));
     EXPECT_TRUE(camera.counters.photonsStored.empty());
     EXPECT_FALSE(camera.counters.cameraPointsStored.empty());
@@ -167,7 +167,7 @@ TEST(MapOrdersDiffer, UnderAWrongLaw) {
         wrong.lawRule = LawRule::diffuseAtEveryHit;
         EXPECT_GT(difference(render(scene, settings, MapOrder::photons).image.radiance,
                              render(scene, wrong, MapOrder::camera).image.radiance),
-                  20 * tolerance);
+                  50 * tolerance);
     }
 }
 
@@ -177,7 +177,7 @@ TEST(MapOrdersDiffer, WithAnotherSeed) {
     other.seed = 2;
     EXPECT_GT(difference(render(cornell(), settings, MapOrder::photons).image.radiance,
                          render(cornell(), other, MapOrder::camera).image.radiance),
-              20 * tolerance);
+              50 * tolerance);
 }
 
 // Bits, not values: a NaN must show.

@@ -34,8 +34,8 @@ public:
 
 private:
     std::vector<shared::PointRegionCount> traceCameraPoints();
-    void makeIndex();                // for the capacity of the regions
-    void makeRoom(uint64_t points);  // in the sorted arrays
+    void makeIndex();               // for the capacity of the regions
+    void makeRoom(uint64_t points); // in the sorted arrays
     void index(uint64_t points);
     std::array<uint64_t, PHOTON_SLOTS> pointsBySlot() const;
     void splatPhotons(CameraMapPassCount& total);

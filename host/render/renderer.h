@@ -43,7 +43,7 @@ struct SceneReport {
 struct RenderCounters {
     uint64_t passes = 0;
     uint64_t photonsEmitted = 0;
-    std::map<std::string, uint64_t> photonsStored; ///< by class; in media "volume " and the class
+    std::map<std::string, uint64_t> photonsStored;      ///< by class; in media "volume " and the class
     std::map<std::string, uint64_t> cameraPointsStored; ///< the same for the camera map
     uint64_t storedPoints = 0; ///< photons or camera points in the map of one pass, the most of all passes
     uint64_t storedBytes = 0;  ///< that they take, as traced and in the index
