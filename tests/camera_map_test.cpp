@@ -55,7 +55,11 @@ RenderSettings settingsOf(unsigned bdd, Variant variant, const std::string& quas
 
 Scene cornell() { return projectScene("cornell_phong.xml", {{"resolution", "24"}}); }
 
-/// Thin enough that the photon map keeps all photons.
+/// So thick that photons are thinned.
+Scene thickSlab() {
+    return projectScene("slab.xml", {{"sigma_t", "7.5"}, {"albedo", "1"}, {"g", "0.6"}, {"resolution", "12"}});
+}
+
 Scene thinSlab() {
     return projectScene("slab.xml", {{"sigma_t", "0.7"}, {"albedo", "0.9"}, {"g", "0.6"}, {"resolution", "24"}});
 }
@@ -156,6 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"SlabQuasiSpecular", thinSlab, 0, mainVariant, "all"},
                     Case{"SlabAlternative", thinSlab, 0, alternative, "all"},
                     Case{"SlabLevel", thinSlab, 1, mainVariant, "level:0.1"},
+                    Case{"ThickSlab", thickSlab, 0, mainVariant, "level:0.1"},
                     Case{"SlabGeneric", thinSlab, 0, mainVariant, "level:0.1", DirectLight::emitters, true}),
     [](const auto& row) { return std::string(row.param.name); });
 

@@ -67,6 +67,10 @@ CameraMapStage::CameraMapStage(Device& device, const std::string& options, const
 
 size_t CameraMapStage::pointBytes() { return sizeof(shared::CameraPoint) + pointFields * sizeof(uint32_t); }
 
+void CameraMapStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability) {
+    std::copy(keepProbability.begin(), keepProbability.end(), photonParams_.keepProbability);
+}
+
 void CameraMapStage::makeIndex() {
     auto& map = points_.map;
     const uint64_t capacity = uint64_t(map.regions) * map.regionCapacity;

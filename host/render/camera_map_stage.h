@@ -26,6 +26,9 @@ public:
     /// takes them. Buffers that prove too small are enlarged and the camera paths traced again, so no point is lost.
     CameraMapPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
 
+    /// From now on photons in media are splatted with these probabilities, by class, and weigh accordingly more.
+    void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
+
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : photonParams_.paths; }
     /// Bytes of a camera point, as traced and in the index, and of the border record that some have.

@@ -126,26 +126,41 @@ struct Renderer::Stages {
         const unsigned classes = photonClasses(flat.features, settings);
         if (settings.map == MapOrder::camera) {
             cameraMap.emplace(device, options, geometry, film, path, photon, classes, meanRadiance(flat));
+            if (!flat.media.empty()) cameraMap->thinVolume(pilot(photon, classes).keepProbability);
             return;
         }
         photons.emplace(device, options, geometry, photon, classes, compiledFeatures(flat, settings).depthLimit);
         camera.emplace(device, options, geometry, film, path);
-        if (!flat.media.empty()) thinVolume();
+        if (flat.media.empty()) return;
+        const Thinning thinning = thinningBy(*photons);
+        photons->thinVolume(thinning.keepProbability, thinning.expectedPhotons);
     }
 
     // Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
-    void thinVolume() {
+    struct Thinning {
+        std::array<float, LIGHT_CLASSES> keepProbability{};
+        double expectedPhotons = 0;
+    };
+
+    // For the camera map, which has no photon stage: the orders are to keep the same photons.
+    Thinning pilot(shared::PhotonParams params, unsigned classes) {
+        params.paths = std::min(pilotPaths, params.paths);
+        PhotonStage stage(device, options, geometry, params, classes, compiledFeatures(flat, settings).depthLimit);
+        return thinningBy(stage);
+    }
+
+    Thinning thinningBy(PhotonStage& stage) const {
         const unsigned paths = std::min(pilotPaths, report.photonsPerPass);
-        const auto counted = photons->pilot(paths, radii(0));
-        std::array<float, LIGHT_CLASSES> keep{};
-        double stored = 0;
+        const auto counted = stage.pilot(paths, radii(0));
+        Thinning thinning;
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
             const double expected = double(counted[VOLUME_SLOT(c)]) * report.photonsPerPass / paths;
             const double wanted = volumePhotonsPerPath * report.photonsPerPass;
-            keep[c] = static_cast<float>(std::min(1.0, wanted / std::max(expected, 1.0)));
-            stored += keep[c] * expected + double(counted[c]) * report.photonsPerPass / paths;
+            thinning.keepProbability[c] = static_cast<float>(std::min(1.0, wanted / std::max(expected, 1.0)));
+            thinning.expectedPhotons +=
+                thinning.keepProbability[c] * expected + double(counted[c]) * report.photonsPerPass / paths;
         }
-        photons->thinVolume(keep, stored);
+        return thinning;
     }
 
     float volumeScale(unsigned pass) const { return static_cast<float>(settings.radiusScale * volumeShrink(pass)); }
