@@ -205,7 +205,7 @@ inline void takeLightInMedium(const World* world, const CameraPath* path, float3
     const uint quasi =
         kinds & SCATTER_QUASI_SPECULAR ? lawLightTaken(SCATTER_QUASI_SPECULAR, path->d, path->q, params->bdd) : 0u;
     const Geometry geometry = {world->nodes, world->blocks, world->tables, &params->scene};
-#ifdef HAS_DIRECT_IN_MEDIA
+#ifdef DIRECT_IN_MEDIA
     const uint direct = takers(diffuse, quasi, LIGHT_DIRECT);
     if (direct) {
         const float uSelect = rngNext(rng);
@@ -245,7 +245,7 @@ inline int collideCameraPath(const World* world, CameraPath* path, const FreeFli
     takeLightInMedium(world, path, position, medium, rng, components);
 
     int quasiOnly = !lawMayScatter(SCATTER_GENUINE_DIFFUSE, path->d, params->bdd);
-#ifdef HAS_DIRECT_IN_MEDIA
+#ifdef DIRECT_IN_MEDIA
     quasiOnly = quasiOnly && !phaseSharesDirect(medium, SCATTER_GENUINE_DIFFUSE);
     const float directSurvival = phaseSurvival(path->throughput); /* as takeLightInMedium weighs with */
 #endif
@@ -257,7 +257,7 @@ inline int collideCameraPath(const World* world, CameraPath* path, const FreeFli
     if (rngNext(rng) >= survival) return 0;
     path->throughput /= survival;
     path->directPdf = 0;
-#ifdef HAS_DIRECT_IN_MEDIA
+#ifdef DIRECT_IN_MEDIA
     if (lawLightTaken(scattering, path->d, path->q, params->bdd) >> LIGHT_DIRECT & 1 &&
         phaseSharesDirect(medium, scattering))
         path->directPdf = directSurvival * phasePart(medium, scattering, sample.p);

@@ -104,7 +104,10 @@ void Device::finish() {
     }
 }
 
-void Device::addTiming(const std::string& kernel, const cl::Event& event) { pending_.emplace_back(kernel, event); }
+void Device::addTiming(const std::string& kernel, uint64_t privateBytes, const cl::Event& event) {
+    timings_[kernel].privateBytes = privateBytes;
+    pending_.emplace_back(kernel, event);
+}
 
 const std::map<std::string, KernelTiming>& Device::timings() {
     finish();

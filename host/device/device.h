@@ -26,6 +26,7 @@ std::vector<DeviceInfo> listDevices();
 struct KernelTiming {
     uint64_t launches = 0;
     double seconds = 0;
+    uint64_t privateBytes = 0; ///< private memory of a work-item, as the runtime tells; 0 where it does not
 };
 
 class Device {
@@ -36,6 +37,7 @@ public:
     const DeviceInfo& info() const { return info_; }
     cl::Context& context() { return context_; }
     cl::CommandQueue& queue() { return queue_; }
+    const cl::Device& device() const { return device_; }
     unsigned workGroupSize() const { return workGroupSize_; }
 
     /// Allocates, or throws DeviceError that names `label`, the bytes asked for and the device's limit.
@@ -47,7 +49,7 @@ public:
     /// Waits for all work.
     void finish();
 
-    void addTiming(const std::string& kernel, const cl::Event& event);
+    void addTiming(const std::string& kernel, uint64_t privateBytes, const cl::Event& event);
     /// Waits, then sums what addTiming collected.
     const std::map<std::string, KernelTiming>& timings();
 

@@ -59,6 +59,13 @@ std::string joinKernelSource(const std::string& file, const Sources& extra) {
     return out;
 }
 
+Kernel::Kernel(Device& device, cl::Kernel kernel, std::string name)
+    : device_(&device), kernel_(std::move(kernel)), name_(std::move(name)) {
+    cl_ulong bytes = 0;
+    if (kernel_.getWorkGroupInfo(device.device(), CL_KERNEL_PRIVATE_MEM_SIZE, &bytes) == CL_SUCCESS)
+        privateBytes_ = bytes;
+}
+
 void Kernel::check(cl_int status, cl_uint index) {
     if (status != CL_SUCCESS)
         throw DeviceError(fmt::format("kernel {}: argument {} was refused (OpenCL error {})", name_, index, status));
@@ -71,7 +78,7 @@ void Kernel::enqueue(size_t count, size_t group) {
         cl::Event event;
         device_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global), cl::NDRange(group), nullptr,
                                               &event);
-        device_->addTiming(name_, event);
+        device_->addTiming(name_, privateBytes_, event);
     } catch (const cl::Error& error) {
         throw DeviceError(
             fmt::format("kernel {} over {} work-items in groups of {} failed on device {} (OpenCL error {})", name_,

@@ -15,8 +15,7 @@ std::string joinKernelSource(const std::string& file, const std::map<std::string
 class Kernel {
 public:
     Kernel() = default;
-    Kernel(Device& device, cl::Kernel kernel, std::string name)
-        : device_(&device), kernel_(std::move(kernel)), name_(std::move(name)) {}
+    Kernel(Device& device, cl::Kernel kernel, std::string name);
 
     /// Runs `count` work-items (rounded up to whole groups; the kernel must check its index against its count).
     template <typename... Args>
@@ -49,6 +48,7 @@ private:
     Device* device_ = nullptr;
     cl::Kernel kernel_;
     std::string name_;
+    uint64_t privateBytes_ = 0;
 };
 
 class Program {

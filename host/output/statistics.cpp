@@ -36,7 +36,8 @@ json countersJson(const RenderCounters& counters) {
 json kernelsJson(const std::map<std::string, KernelTiming>& kernels) {
     json rows = json::object();
     for (const auto& [kernel, timing] : kernels)
-        rows[kernel] = {{"launches", timing.launches}, {"seconds", timing.seconds}};
+        rows[kernel] = {
+            {"launches", timing.launches}, {"seconds", timing.seconds}, {"privateBytes", timing.privateBytes}};
     return rows;
 }
 

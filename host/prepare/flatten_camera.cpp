@@ -1,13 +1,10 @@
 // Sensor into the kernels' camera. Mitsuba's camera looks along its +z with +y up and +x to the left of the image.
 #include "prepare/device_scene.h"
+#include "prepare/pack.h"
 
 namespace quasilux {
 
 namespace {
-
-shared::Packed3 pack(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 void placePerspective(const Sensor& sensor, shared::Camera& camera) {
     const glm::dmat3 rotation(sensor.toWorld);

@@ -1,6 +1,7 @@
 // Emitting shapes, points and surroundings into the emitter table, with selection in proportion to power.
 #include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
+#include "prepare/pack.h"
 
 namespace quasilux {
 
@@ -8,7 +9,6 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-shared::Packed3 pack(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 double mean(const Rgb& c) { return (double(c.r) + c.g + c.b) / 3; }
 
 void addTriangles(const Mesh& mesh, shared::Emitter& emitter, std::vector<shared::EmitterTriangle>& triangles) {

@@ -1,11 +1,10 @@
 // Shapes into primitives, their records and corner normals.
 #include "prepare/device_scene.h"
+#include "prepare/pack.h"
 
 namespace quasilux {
 
 namespace {
-
-shared::Packed3 pack(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
 bool isNull(const Scene& scene, const ShapeDescription& shape) {
     return shape.bsdf >= 0 && scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull;

@@ -1,6 +1,7 @@
 // Media into the kernels' table, with the first size of their density kernels (docs/density.md).
 #include "prepare/device_scene.h"
 #include "prepare/medium_shape.h"
+#include "prepare/pack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +60,7 @@ MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>&
         medium.albedo = description.albedo;
         medium.level = split[k].level;
         medium.genuineDiffuseShare = static_cast<float>(split[k].genuineDiffuseShare);
-        medium.kernelAxis = {static_cast<float>(shape.axis.x), static_cast<float>(shape.axis.y),
-                             static_cast<float>(shape.axis.z)};
+        medium.kernelAxis = pack(shape.axis);
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
             const KernelSize size =
                 shape.isPlate ? flatKernel(description, shape, c) : ballKernel(description, shape, photons, c);

@@ -1,6 +1,7 @@
 #include "prepare/medium_shape.h"
 
 #include "prepare/bounding_sphere.h"
+#include "prepare/pack.h"
 
 #include <algorithm>
 #include <cmath>

@@ -36,6 +36,8 @@ struct MediumDecision {
 
 /// The level of phase function that `auto` chooses: 5/4 of an isotropic one's value, 1/(4 pi).
 inline constexpr double autoPhaseLevel = 0.1;
+/// Where more than this share of the scattering lies below that level, `auto` takes all of it as genuine diffuse.
+inline constexpr double autoDiffuseShare = 0.95;
 
 /// Decisions for Scene::media. `setting` as above: none is level infinity, all is level 0, `level:0.1` that level for
 /// every medium; a list makes all of the phase function quasi-specular where it names the medium, and is auto for the

@@ -62,6 +62,17 @@ MediumDecision byLevel(const MediumDescription& medium, double level, const std:
         fmt::format("{}: level {:.3g} per sr: {:.3g} % of the scattering is genuine diffuse", by, level, 100 * share)};
 }
 
+/// The level that `auto` chooses, unless so little lies above it that following it would not pay.
+MediumDecision byAuto(const MediumDescription& medium) {
+    const MediumDecision decision = byLevel(medium, autoPhaseLevel, "auto");
+    if (decision.genuineDiffuseShare > autoDiffuseShare)
+        return {infinity, 1,
+                fmt::format("auto: all of it is genuine diffuse, less than {:.3g} % of the scattering lies "
+                            "above {:.3g} per sr",
+                            100 * (1 - autoDiffuseShare), autoPhaseLevel)};
+    return decision;
+}
+
 MediumDecision byScene(const MediumDescription& medium) {
     switch (medium.quasiSpecular.kind) {
     case QuasiSpecularChoice::Kind::yes:
@@ -74,7 +85,7 @@ MediumDecision byScene(const MediumDescription& medium) {
     case QuasiSpecularChoice::Kind::lobes: // the loader gives lists to bsdfs only
         break;
     }
-    return byLevel(medium, autoPhaseLevel, "auto");
+    return byAuto(medium);
 }
 
 MediumDecision decide(const MediumDescription& medium, const std::string& setting, const std::vector<std::string>& list,
@@ -84,7 +95,7 @@ MediumDecision decide(const MediumDescription& medium, const std::string& settin
     if (setting == "all") return allQuasiSpecular("all asked for");
     if (isPhaseLevel(setting)) return byLevel(medium, parsePhaseLevel(setting, {}), "asked for");
     if (std::find(list.begin(), list.end(), medium.id) != list.end()) return allQuasiSpecular("listed");
-    return byLevel(medium, autoPhaseLevel, "auto");
+    return byAuto(medium);
 }
 
 } // namespace

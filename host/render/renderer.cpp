@@ -14,7 +14,7 @@ namespace quasilux {
 namespace {
 
 constexpr unsigned pilotPaths = 2048;
-const double volumePhotonsPerPath = getenv("VP") ? atof(getenv("VP")) : 8; // kept of a class, per photon emitted
+constexpr double volumePhotonsPerPath = 8; // kept of a class, per photon emitted
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }

@@ -51,6 +51,17 @@ double beckmannHalfWidth(double alpha); ///< tan² = alpha² ln 2
 /// Index of refraction `name`: a number, or a material of Mitsuba's list.
 double readRefractiveIndex(Properties& properties, const std::string& name, const std::string& missing);
 
+/// A border between two dielectrics: their indices, and its lobe as far as both sides share it.
+struct DielectricBorder {
+    double inside = 1, outside = 1;
+    LobeDescription lobe;
+
+    /// The lobe with the index of the far side relative to the one on the side that light is seen from.
+    LobeDescription seenFrom(double near, double far) const;
+    BsdfLobes bothSides() const;
+};
+DielectricBorder readDielectricBorder(Properties& properties, unsigned lobeType, double halfWidth);
+
 /// Microfacets of <bsdf type="roughconductor|roughdielectric">.
 struct Roughness {
     bool ggx = false; ///< else Beckmann

@@ -1,5 +1,6 @@
 // The table of bsdf plugins, and what is common to reading any of them.
 #include "scene/bsdfs/bsdf_plugin.h"
+#include "scene/plugin_lookup.h"
 #include "scene/quasi_specular.h"
 
 #include <algorithm>
@@ -17,16 +18,6 @@ struct BsdfPlugin {
 #define QUASILUX_BSDF_ENTRY(name, read) {#name, read},
 constexpr BsdfPlugin plugins[] = {QUASILUX_BSDF_PLUGINS(QUASILUX_BSDF_ENTRY)};
 #undef QUASILUX_BSDF_ENTRY
-
-const BsdfPlugin& findPlugin(const Element& element) {
-    Names known;
-    for (const BsdfPlugin& plugin : plugins) {
-        if (plugin.name == element.get("type")) return plugin;
-        known.push_back(plugin.name);
-    }
-    throw InputError(element.where, fmt::format("unknown bsdf plugin '{}'.{}", element.get("type"),
-                                                knownNames(element.get("type"), known)));
-}
 
 /// Lobes that scatter nothing cost time and noise.
 void dropBlackLobes(std::vector<LobeDescription>& lobes) {
@@ -57,7 +48,7 @@ BsdfLobes readBsdfLobes(const Element& element, LoadContext& context) {
     if (std::find(open.begin(), open.end(), &element) != open.end())
         throw InputError(element.where, fmt::format("bsdf '{}' contains itself; remove one <ref>.", idOf(element)));
     open.push_back(&element);
-    const BsdfPlugin& plugin = findPlugin(element);
+    const BsdfPlugin& plugin = findPlugin(plugins, element);
     Properties properties(element, context);
     BsdfLobes lobes = plugin.read(properties);
     properties.finish();

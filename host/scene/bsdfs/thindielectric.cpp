@@ -4,19 +4,11 @@
 namespace quasilux {
 
 BsdfLobes readThinDielectric(Properties& properties) {
-    const double inside = readRefractiveIndex(properties, "int_ior", "bk7");
-    const double outside = readRefractiveIndex(properties, "ext_ior", "air");
-    LobeDescription lobe =
-        makeLobe(LOBE_THINDIELECTRIC, "specular", readReflectance(properties, "specular_reflectance", 1), 0);
-    const Reflectance transmittance = readReflectance(properties, "specular_transmittance", 1);
-    lobe.device.transmittance = transmittance.scale;
-    lobe.device.transmittanceTexture = transmittance.texture;
-    lobe.device.scattering = SCATTER_SPECULAR;
-    const float eta = static_cast<float>(inside / outside);
-    lobe.device.eta = {eta, eta, eta};
+    DielectricBorder border = readDielectricBorder(properties, LOBE_THINDIELECTRIC, 0);
+    border.lobe.device.scattering = SCATTER_SPECULAR;
     BsdfLobes lobes;
-    lobes.front.push_back(lobe);
-    lobes.back.push_back(lobe);
+    lobes.front.push_back(border.seenFrom(border.outside, border.inside)); // the same pane from either side
+    lobes.back.push_back(border.seenFrom(border.outside, border.inside));
     return lobes;
 }
 

@@ -1,5 +1,6 @@
 // The table of medium plugins, and what is common to reading any of them.
 #include "scene/media/medium_plugin.h"
+#include "scene/plugin_lookup.h"
 
 #include "scene/phases/phase_plugin.h"
 #include "scene/quasi_specular.h"
@@ -17,20 +18,10 @@ struct MediumPlugin {
 
 constexpr MediumPlugin plugins[] = {{"homogeneous", readHomogeneous}};
 
-const MediumPlugin& findPlugin(const Element& element) {
-    Names known;
-    for (const MediumPlugin& plugin : plugins) {
-        if (plugin.name == element.get("type")) return plugin;
-        known.push_back(plugin.name);
-    }
-    throw InputError(element.where, fmt::format("unknown medium plugin '{}'.{}", element.get("type"),
-                                                knownNames(element.get("type"), known)));
-}
-
 } // namespace
 
 MediumDescription readMedium(const Element& element, LoadContext& context) {
-    const MediumPlugin& plugin = findPlugin(element);
+    const MediumPlugin& plugin = findPlugin(plugins, element);
     Properties properties(element, context);
     MediumDescription medium;
     medium.id = idOf(element);

@@ -1,5 +1,6 @@
 // The table of phase function plugins, and what is common to reading any of them.
 #include "scene/phases/phase_plugin.h"
+#include "scene/plugin_lookup.h"
 
 #include <fmt/format.h>
 
@@ -15,20 +16,10 @@ struct PhasePlugin {
 constexpr PhasePlugin plugins[] = {
     {"isotropic", readIsotropic}, {"hg", readHenyeyGreenstein}, {"rayleigh", readRayleigh}};
 
-const PhasePlugin& findPlugin(const Element& element) {
-    Names known;
-    for (const PhasePlugin& plugin : plugins) {
-        if (plugin.name == element.get("type")) return plugin;
-        known.push_back(plugin.name);
-    }
-    throw InputError(element.where, fmt::format("unknown phase plugin '{}'.{}", element.get("type"),
-                                                knownNames(element.get("type"), known)));
-}
-
 } // namespace
 
 void readPhase(const Element& element, LoadContext& context, MediumDescription& medium) {
-    const PhasePlugin& plugin = findPlugin(element);
+    const PhasePlugin& plugin = findPlugin(plugins, element);
     Properties properties(element, context);
     plugin.read(properties, medium);
     properties.finish();

@@ -1,4 +1,5 @@
 // The table of shape plugins, and what is common to reading any of them.
+#include "scene/plugin_lookup.h"
 #include "scene/shapes/shape_plugin.h"
 
 #include "scene/bsdfs/bsdf_plugin.h"
@@ -20,16 +21,6 @@ constexpr ShapePlugin plugins[] = {
     {"rectangle", readRectangle}, {"cube", readCube}, {"sphere", readSphere}, {"obj", readObj}, {"ply", readPly},
 };
 
-const ShapePlugin& findPlugin(const Element& element) {
-    Names known;
-    for (const ShapePlugin& plugin : plugins) {
-        if (plugin.name == element.get("type")) return plugin;
-        known.push_back(plugin.name);
-    }
-    throw InputError(element.where, fmt::format("unknown shape plugin '{}'.{}", element.get("type"),
-                                                knownNames(element.get("type"), known)));
-}
-
 double areaOf(const ShapeDescription& shape) {
     if (shape.sphere) return 4 * 3.14159265358979324 * shape.sphere->radius * shape.sphere->radius;
     double area = 0;
@@ -44,7 +35,7 @@ double areaOf(const ShapeDescription& shape) {
 } // namespace
 
 ShapeDescription readShape(const Element& element, LoadContext& context) {
-    const ShapePlugin& plugin = findPlugin(element);
+    const ShapePlugin& plugin = findPlugin(plugins, element);
     Properties properties(element, context);
     ShapeDescription shape;
     shape.id = idOf(element);

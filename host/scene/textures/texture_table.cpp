@@ -1,4 +1,5 @@
 // The table of texture plugins, and what is common to reading any of them.
+#include "scene/plugin_lookup.h"
 #include "scene/textures/texture_plugin.h"
 #include "scene/transform.h"
 
@@ -14,16 +15,6 @@ struct TexturePlugin {
 };
 
 constexpr TexturePlugin plugins[] = {{"checkerboard", readCheckerboard}, {"bitmap", readBitmap}};
-
-const TexturePlugin& findPlugin(const Element& element) {
-    Names known;
-    for (const TexturePlugin& plugin : plugins) {
-        if (plugin.name == element.get("type")) return plugin;
-        known.push_back(plugin.name);
-    }
-    throw InputError(element.where, fmt::format("unknown texture plugin '{}'.{}", element.get("type"),
-                                                knownNames(element.get("type"), known)));
-}
 
 /// As in Mitsuba, what the transform does within the plane of x and y.
 void readToUv(Properties& properties, shared::Texture& texture) {
@@ -56,7 +47,7 @@ int useTexture(const Element& element, LoadContext& context) {
 } // namespace
 
 TextureDescription readTexture(const Element& element, LoadContext& context) {
-    const TexturePlugin& plugin = findPlugin(element);
+    const TexturePlugin& plugin = findPlugin(plugins, element);
     Properties properties(element, context);
     TextureDescription texture;
     texture.where = element.where;

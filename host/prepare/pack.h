@@ -1,0 +1,14 @@
+// Vectors as the kernels store them.
+#pragma once
+
+#include "shared_types.h"
+
+#include <glm/glm.hpp>
+
+namespace quasilux {
+
+inline shared::Packed3 pack(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+} // namespace quasilux

@@ -1,0 +1,24 @@
+// Finds the plugin that an element names in the table of its kind.
+#pragma once
+
+#include "scene/xml/element.h"
+#include "scene/xml/names.h"
+
+#include <cstddef>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+/// The row of `plugins` whose `name` is the element's type. Throws InputError with the nearest name if there is none.
+template <typename Plugin, size_t count>
+const Plugin& findPlugin(const Plugin (&plugins)[count], const Element& element) {
+    Names known;
+    for (const Plugin& plugin : plugins) {
+        if (plugin.name == element.get("type")) return plugin;
+        known.push_back(plugin.name);
+    }
+    throw InputError(element.where, fmt::format("unknown {} plugin '{}'.{}", element.tag, element.get("type"),
+                                                knownNames(element.get("type"), known)));
+}
+
+} // namespace quasilux

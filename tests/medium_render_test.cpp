@@ -1,0 +1,165 @@
+// Media in balance with a uniform sky (scenes/furnace_medium.xml): radiance 1 outside and n^2 within, whatever scatters;
+// Beer's law; and paths of very many collisions.
+//
+// A right render passes within 0.5 % or 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case); the seeds
+// are fixed. A render with a standard error above 1.5 % tells nothing and fails.
+#include "support/render_statistics.h"
+#include "support/scene_files.h"
+#include "support/test_kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace quasilux {
+namespace {
+
+constexpr unsigned batches = 10;
+constexpr double glassRadiance = 1.5 * 1.5;
+
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+struct Case {
+    const char* name;
+    Parameters parameters;
+    std::string split;
+    double radiance; ///< that the camera must see
+    unsigned passes; ///< per batch
+    Variant variant = Variant::main;
+    unsigned bdd = 0;
+    MediumRule rule = MediumRule::right;
+    DirectLight direct = DirectLight::emitters;
+    unsigned photons = 20000;
+};
+
+void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
+
+MeanAndError measure(const Case& c) {
+    const Scene scene = projectScene("furnace_medium.xml", c.parameters);
+    RenderSettings settings;
+    settings.quasiSpecular = c.split;
+    settings.quasiSpecularFromCommandLine = true;
+    settings.variant = c.variant;
+    settings.bdd = c.bdd;
+    settings.mediumRule = c.rule;
+    settings.direct = c.direct;
+    settings.photonsPerPass = c.photons;
+    const std::vector<int> group(size_t(scene.sensor.width) * scene.sensor.height, 0);
+    return renderGroups(scene, settings, group, batches, c.passes).front();
+}
+
+double allowed(const Case& c, const MeanAndError& result) {
+    return std::max(0.005 * c.radiance, 3 * result.standardError);
+}
+
+class MediumFurnace : public testing::TestWithParam<Case> {};
+TEST_P(MediumFurnace, IsInBalance) {
+    const Case& c = GetParam();
+    const auto result = measure(c);
+    EXPECT_NEAR(result.mean, c.radiance, allowed(c, result)) << "standard error " << result.standardError;
+    EXPECT_LT(result.standardError, 0.015 * c.radiance) << "too noisy to tell anything";
+}
+
+const Parameters inside = {{"border", "glass"}, {"eye", "0,0,0.3"}, {"fov", "60"}};
+
+INSTANTIATE_TEST_SUITE_P(
+    Render, MediumFurnace,
+    testing::Values(
+        Case{"Fog", {}, "level:0.1", 1, 20}, //
+        Case{"FogWhole", {}, "all", 1, 30, Variant::alternative},
+        Case{"FogStandard", {}, "none", 1, 30, Variant::main, 1},
+        Case{"FogDirectPhotons", {}, "level:0.1", 1, 20, Variant::main, 0, MediumRule::right, DirectLight::photons},
+        Case{"Rayleigh", {{"phase", "rayleigh"}}, "level:0.1", 1, 10},
+        Case{"Isotropic", {{"phase", "isotropic"}}, "none", 1, 10, Variant::main, 2},
+        Case{"Coloured", {{"sigma_t", "1,4,0.5"}}, "level:0.1", 1, 25},
+        Case{"OneClearChannel", {{"sigma_t", "0,2,1"}, {"phase", "isotropic"}}, "level:0.05", 1, 30},
+        Case{"Glass", {{"border", "glass"}}, "level:0.1", 1, 20},
+        Case{"WithinGlass", inside, "level:0.1", glassRadiance, 30},
+        Case{"WithinGlassAlternative", inside, "level:0.1", glassRadiance, 12, Variant::alternative}),
+    [](const auto& info) { return info.param.name; });
+
+// Negative controls: known mistakes must be seen.
+class WrongMediumFurnace : public testing::TestWithParam<Case> {};
+TEST_P(WrongMediumFurnace, IsNotInBalance) {
+    const Case& c = GetParam();
+    const auto result = measure(c);
+    EXPECT_GT(std::abs(result.mean - c.radiance), allowed(c, result)) << result.mean << " looks right";
+}
+INSTANTIATE_TEST_SUITE_P(
+    Render, WrongMediumFurnace,
+    testing::Values(Case{"MissingSigmaT", {}, "level:0.1", 1, 5, Variant::main, 0, MediumRule::missingSigmaT},
+                    Case{"MissingEtaSquared",
+                         {{"border", "glass"}},
+                         "level:0.1",
+                         1,
+                         5,
+                         Variant::main,
+                         0,
+                         MediumRule::missingEtaSquared}),
+    [](const auto& info) { return info.param.name; });
+
+// Optical depth 200 through glass: a photon collides some 2 n^2 tau = 900 times on average, the longest paths over 10^4
+// times. None is cut, and what gets out balances what came in.
+TEST(MediumRender, LosesNothingOfPathsOfManyCollisions) {
+    const Scene scene =
+        projectScene("furnace_medium.xml",
+                     {{"border", "glass"}, {"sigma_t", "100,100,100"}, {"phase", "isotropic"}, {"resolution", "4"}});
+    RenderSettings settings;
+    settings.quasiSpecular = "all"; // camera paths follow every collision
+    settings.quasiSpecularFromCommandLine = true;
+    settings.photonsPerPass = 3000;
+    const auto result = renderGroups(scene, settings, std::vector<int>(16, 0), batches, 3).front();
+    EXPECT_NEAR(result.mean, 1, std::max(0.005, 3 * result.standardError));
+    EXPECT_LT(result.standardError, 0.1);
+
+    Renderer renderer(testDevice(), scene, settings);
+    renderer.renderPass(0);
+    EXPECT_EQ(renderer.counters().cutPaths, 0u);
+    EXPECT_EQ(renderer.counters().nonFinite, 0u);
+    const auto stored = renderer.counters().photonsStored;
+    EXPECT_GT(stored.at("volume caustic") + stored.at("volume quasi_caustic"), 0u);
+}
+
+// Light through an absorbing medium, by channel: emission seen through it, and a floor that a lamp lights through it.
+TEST(MediumRender, AbsorbsByBeersLaw) {
+    test::SceneFiles files;
+    const std::string path = files.write("beer.xml", R"(<scene version="3.0.0">
+    <sensor type="orthographic">
+        <transform name="to_world"><scale x="0.1" y="0.1"/><lookat origin="0,0,5" target="0,0,0" up="0,1,0"/></transform>
+        <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/><rfilter type="box"/></film>
+    </sensor>
+    <shape type="cube">
+        <transform name="to_world"><scale x="3" y="3" z="0.5"/><translate z="2"/></transform>
+        <bsdf type="null"/>
+        <medium name="interior" type="homogeneous"><rgb name="sigma_t" value="0.5,1,2"/><float name="albedo" value="0"/></medium>
+    </shape>
+    <shape type="rectangle"><transform name="to_world"><scale value="3"/></transform>
+        <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
+        <emitter type="area"><rgb name="radiance" value="1"/></emitter>
+    </shape>
+    <emitter type="point"><point name="position" x="0" y="0" z="3"/><rgb name="intensity" value="9"/></emitter>
+</scene>)");
+    RenderSettings settings;
+    settings.photonsPerPass = 64; // no light comes by photons: the slab only absorbs, and the floor is alone
+    Renderer renderer(testDevice(), loadScene(path), settings);
+    constexpr unsigned passes = 4000;
+    for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
+    const FilmImage image = renderer.develop();
+    // The point stands 3 above the floor: irradiance 9 / 9 through the slab, reflected with 0.5 / pi.
+    const double sigma[3] = {0.5, 1, 2};
+    for (size_t channel = 0; channel < 3; ++channel) {
+        double mean = 0, variance = 0;
+        for (size_t pixel = 0; pixel < 16; ++pixel) {
+            mean += image.radiance[3 * pixel + channel] / 16;
+            variance += std::pow(image.standardError[3 * pixel + channel] / 16, 2);
+        }
+        const double transmitted = std::exp(-sigma[channel]);
+        const double expected = transmitted * (1 + transmitted * 0.5 / 3.141592653589793);
+        // Pixels are independent here. The view is 0.1 wide: cosines and distances differ by less than 0.2 %.
+        EXPECT_NEAR(mean, expected, 3.5 * std::sqrt(variance) + 2e-3 * expected) << channel; // false alarm 5e-4
+        EXPECT_LT(std::sqrt(variance), 0.02 * expected);
+    }
+}
+
+} // namespace
+} // namespace quasilux
