@@ -1,16 +1,20 @@
 /* Stage 3 of a pass: trace one camera path per pixel by the law and take light at its hits.
  * From: camera rays, photon map. To: film.
+ * With MAP_CAMERA it is stage 1: where light would be taken from the photon map, camera points are stored for the photons
+ * that come later. To: camera points, samples; at the end of the pass addSamples adds these and the splats to the film.
  *
  * At every hit: emission seen straight, through specular events, or as the share of the lobe that was sampled; then, on
  * something non-specular, the classes of light that law.clh names, by density estimation and by emitter sampling;
  * then one lobe is chosen and the path goes on. */
 #include "camera.clh"
+#include "camera_points.clh"
 #include "density.clh"
 #include "direct_light.clh"
 #include "film.clh"
 #include "law.clh"
 #include "medium_flight.clh"
 #include "medium_light.clh"
+#include "splat_sums.clh"
 #include "volume_density.clh"
 
 /* Paths whose next contribution is below this share of the first are ended by roulette. */
@@ -45,7 +49,11 @@ typedef struct {
     __global const BvhNode* nodes;
     __global const PrimitiveBlock* blocks;
     __global const uint* tables;
+#ifdef MAP_CAMERA
+    PointStore* store;
+#else
     PhotonMap photons;
+#endif
     const CameraParams* params;
 } World;
 
@@ -81,10 +89,16 @@ inline void takeSurroundings(const World* world, const CameraPath* path, float3*
     takeRadiance(path, emitters + index, INFINITY, -path->ray.direction, components);
 }
 
-/* Radiance reflected by the lobes of `mask` from the photons of one class. */
+/* Radiance reflected by the lobes of `mask` from the photons of one class; 0 where it is left to splatting. */
 inline float3 takePhotons(const World* world, const CameraPath* path, const Surface* s, const Frame* frame, float3 wo,
                           __global const Lobe* lobes, uint mask, uint lightClass) {
     const CameraParams* params = world->params;
+    const uint depthMax = params->maxDepth == QL_NONE ? QL_NONE : params->maxDepth - path->depth;
+#ifdef MAP_CAMERA
+    storeSurfacePoints(world->store, s, lobes, mask, lightClass, -path->ray.direction, path->throughput, depthMax,
+                       params->map.radius[lightClass], world->tables, &params->scene);
+    return 0;
+#else
     if (slotIsEmpty(world->photons, lightClass)) return 0;
     const DensityRegion region = densityRegionAt(s, params->map.radius[lightClass], world->tables, &params->scene);
     if (!(region.kernelIntegral > 0)) return 0;
@@ -97,10 +111,10 @@ inline float3 takePhotons(const World* world, const CameraPath* path, const Surf
         else
             directional.mask |= 1u << k;
     }
-    const uint depthMax = params->maxDepth == QL_NONE ? QL_NONE : params->maxDepth - path->depth;
     const PhotonSums sums =
         gatherPhotons(world->photons, lightClass, &region, s->patch << 1 | s->front, depthMax, &directional);
     return (lambert * sums.irradiance + sums.radiance) / region.kernelIntegral;
+#endif
 }
 
 /* Probability of going on with each lobe. A lobe that may not scatter any more still takes its share of the direct
@@ -207,10 +221,16 @@ inline void takeLightInMedium(const World* world, const CameraPath* path, float3
     const float2 u = rngNext2(rng);
     for (uint c = 0; c < LIGHT_CLASSES; ++c) {
         const uint parts = takers(diffuse, quasi, c);
-        if (!(PHOTON_CLASSES >> VOLUME_SLOT(c) & 1) || !parts || slotIsEmpty(world->photons, VOLUME_SLOT(c))) continue;
+        if (!(PHOTON_CLASSES >> VOLUME_SLOT(c) & 1) || !parts) continue;
+#ifdef MAP_CAMERA
+        const VolumeRegion region = volumeRegionAt(&geometry, medium, position, c, params->map.volumeScale, u);
+        storeVolumePoint(world->store, &region, position, path->medium, parts, c, wo, path->throughput, depthMax);
+#else
+        if (slotIsEmpty(world->photons, VOLUME_SLOT(c))) continue;
         const VolumeRegion region = volumeRegionAt(&geometry, medium, position, c, params->map.volumeScale, u);
         components[c] += path->throughput * gatherVolumePhotons(world->photons, c, medium - path->medium, path->medium,
                                                                 &region, wo, parts, depthMax);
+#endif
     }
 }
 
@@ -310,17 +330,15 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
     return scatterCameraPath(world, path, &s, &frame, wo, lobes, &choice, rng);
 }
 
-__kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
-                               __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
-                               __global float* film, __global CameraCounters* counters, const CameraParams params) {
-    const uint pixel = get_global_id(0);
-    if (pixel >= params.camera.width * params.camera.height) return;
-    const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
-    const ulong seed = (ulong)params.seedHigh << 32 | params.seedLow;
-    Rng rng = rngMake(seed, params.pass, STREAM_CAMERA, pixel);
+/* Light that the path of a pixel takes, by component. Returns the throughput, mean of R, G, B, with which it was cut, or
+ * -1 where it ended by itself. */
+inline float traceCameraPath(const World* world, uint pixel, float3* components) {
+    const CameraParams* params = world->params;
+    const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
+    Rng rng = rngMake(seed, params->pass, STREAM_CAMERA, pixel);
     CameraPath path;
-    const float3 even = pixelNumbers(pixel, params.pass, seed);
-    path.ray = cameraRay(&params.camera, pixel, even.xy);
+    const float3 even = pixelNumbers(pixel, params->pass, seed);
+    path.ray = cameraRay(&params->camera, pixel, even.xy);
     path.firstChoice = even.z;
     path.throughput = 1;
     path.d = path.q = path.depth = 0;
@@ -330,17 +348,16 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
     path.directPdf = 0;
     path.onlyEmission = 0;
 #ifdef HAS_MEDIA
-    path.medium = params.camera.medium;
+    path.medium = params->camera.medium;
 #endif
-    float3 components[FILM_COMPONENTS];
     for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = 0;
     uint event = 0;
-    while (event < PATH_EVENTS_MAX && followCameraPath(&world, &path, &rng, components)) ++event;
-    if (event == PATH_EVENTS_MAX) {
-        atomic_inc(&counters->cutPaths);
-        const float mean = (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
-        atomic_add(&counters->cutThroughput, (uint)(min(mean, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
-    }
+    while (event < PATH_EVENTS_MAX && followCameraPath(world, &path, &rng, components)) ++event;
+    return event < PATH_EVENTS_MAX ? -1 : (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
+}
+
+inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel,
+                            const float3* components) {
     float3 total = 0;
     for (uint k = 0; k < FILM_COMPONENTS; ++k) total += components[k];
     if (all(isfinite(total)))
@@ -348,3 +365,68 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
     else
         atomic_inc(&counters->nonFinite);
 }
+
+#ifndef MAP_CAMERA
+__kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                               __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
+                               __global float* film, __global CameraCounters* counters, const CameraParams params) {
+    const uint pixel = get_global_id(0);
+    if (pixel >= params.camera.width * params.camera.height) return;
+    const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
+    float3 components[FILM_COMPONENTS];
+    const float cut = traceCameraPath(&world, pixel, components);
+    if (cut >= 0) {
+        atomic_inc(&counters->cutPaths);
+        atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
+    }
+    addFiniteSample(film, counters, pixel, components);
+}
+#else
+/* Light that needs no photons is of these components only. */
+#define SAMPLE_FLOATS 6
+
+/* One work-item: the pixels of one region. */
+__kernel void traceCameraPoints(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                                __global const uint* tables, __global CameraPoint* points,
+                                __global PointBorder* borders, __global float* samples,
+                                __global PointRegionCount* counts, const CameraParams params, const PointParams store) {
+    const uint region = get_global_id(0);
+    if (region >= store.map.regions) return;
+    PointStore own;
+    own.points = points + (size_t)region * store.map.regionCapacity;
+    own.firstBorder = region * store.borderCapacity;
+    own.borders = borders + own.firstBorder;
+    own.capacity = store.map.regionCapacity;
+    own.borderCapacity = store.borderCapacity;
+    own.count.stored = own.count.wanted = own.count.storedBorders = own.count.wantedBorders = own.count.cutPaths = 0;
+    own.count.cutThroughput = 0;
+    const World world = {nodes, blocks, tables, &own, &params};
+    const uint first = region * store.pixelsPerRegion;
+    const uint last = min(first + store.pixelsPerRegion, params.camera.width * params.camera.height);
+    for (uint pixel = first; pixel < last; ++pixel) {
+        own.pixel = pixel;
+        float3 components[FILM_COMPONENTS];
+        const float cut = traceCameraPath(&world, pixel, components);
+        if (cut >= 0) {
+            ++own.count.cutPaths;
+            own.count.cutThroughput += cut;
+        }
+        vstore3(components[LIGHT_DIRECT], 0, samples + (size_t)pixel * SAMPLE_FLOATS);
+        vstore3(components[FILM_EMISSION], 1, samples + (size_t)pixel * SAMPLE_FLOATS);
+    }
+    counts[region] = own.count;
+}
+
+/* Ends the pass: the sample of a pixel is what its path took and what photons have splatted to it. */
+__kernel void addSamples(__global const float* samples, __global uint* sums, __global float* film,
+                         __global CameraCounters* counters, const uint pixels, const float quantaPerRadiance) {
+    const uint pixel = get_global_id(0);
+    if (pixel >= pixels) return;
+    float3 components[FILM_COMPONENTS];
+    for (uint c = 0; c < LIGHT_CLASSES; ++c)
+        components[c] = SPLAT_CLASSES >> c & 1 ? takeSplats(sums, pixel, c) / quantaPerRadiance : (float3)(0);
+    components[LIGHT_DIRECT] += vload3(0, samples + (size_t)pixel * SAMPLE_FLOATS);
+    components[FILM_EMISSION] = vload3(1, samples + (size_t)pixel * SAMPLE_FLOATS);
+    addFiniteSample(film, counters, pixel, components);
+}
+#endif

@@ -42,7 +42,8 @@ typedef struct {
     unsigned int wanted;   /* photons that it would have kept with room for all */
     unsigned int cutPaths; /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
-    float fluxCut; /* W, mean of R, G, B, of those paths */
+    float fluxCut;          /* W, mean of R, G, B, of those paths */
+    unsigned int overflows; /* sums of splats that left the range of their fixed point (camera map) */
 } RegionCount;
 
 typedef struct {
@@ -78,6 +79,46 @@ typedef struct {
     MapParams map;
     SceneTables scene;
 } CameraParams;
+
+/* ---- camera map: points of camera paths are stored and photons splatted to them (docs/architecture.md) ---- */
+
+/* A place where light of one class is taken by density estimation, by all Lambert lobes together, by one other lobe, or
+ * by a medium. */
+typedef struct {
+    Packed3 position;
+    Rgb weight;             /* of (flux * kernel * f) in the pixel; f of Lambert lobes and tints of others included */
+    unsigned int place;     /* Photon::patchSide of the photons that it takes */
+    unsigned int slotDepth; /* segments that such a photon may have behind it << 3 | map slot */
+    unsigned int pixel;
+    unsigned int scatterer; /* surface: POINT_LAMBERT, or lobe index << 1 | 1 where it transmits; medium: SCATTER_* */
+    unsigned int wo;        /* towards the camera path, octahedral */
+    unsigned int normal; /* surface: shading normal, octahedral; medium: slope of the kernel's weight, a float's bits */
+    unsigned int border; /* index of its PointBorder, or QL_NONE */
+} CameraPoint;
+#define POINT_LAMBERT QL_NONE
+
+#define BORDER_SECTORS 32
+/* What borders leave of the disc about a camera point: sectors as in kernels/density_region.clh. */
+typedef struct {
+    unsigned int normal;                    /* geometric normal, octahedral: its frame has the sectors */
+    float slopeX, slopeY;                   /* weight 1 + slopeX x + slopeY y in that frame */
+    unsigned int reach[BORDER_SECTORS / 2]; /* fractions of the radius, 16 bits each */
+} PointBorder;
+
+/* One work-item traces the pixels of one region in order and stores into its own parts of both buffers. */
+typedef struct {
+    unsigned int stored, wanted;               /* camera points, as in RegionCount */
+    unsigned int storedBorders, wantedBorders; /* PointBorder records */
+    unsigned int cutPaths;
+    float cutThroughput; /* of those paths, mean of R, G, B */
+} PointRegionCount;
+
+typedef struct {
+    MapParams map; /* of camera points: regions and regionCapacity are theirs */
+    unsigned int pixelsPerRegion;
+    unsigned int borderCapacity; /* of a region */
+    float quantaPerRadiance;     /* splats are summed in fixed point: units per W sr^-1 m^-2, a power of two */
+} PointParams;
 
 /* Counted over a camera pass. */
 typedef struct {

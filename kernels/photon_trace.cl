@@ -1,10 +1,14 @@
 /* Stage 1 of a pass: trace photons from the emitters and store them by class.
- * From: emitters. To: photons in regions, in the order of their paths (so the result does not depend on scheduling). */
+ * From: emitters. To: photons in regions, in the order of their paths (so the result does not depend on scheduling).
+ * With MAP_CAMERA it is stage 3 and stores nothing: photons are splatted to camera points. To: sums of splats. */
 #include "emitter.clh"
 #include "lattice.clh"
 #include "law.clh"
 #include "medium_flight.clh"
 #include "scatter.clh"
+#ifdef MAP_CAMERA
+#include "splat.clh"
+#endif
 
 /* Photon paths go on for sure down to this share of their first flux; below, roulette ends them in proportion. On the
  * Cornell box 0.5 reaches the same error in the same time, with twice the photons to keep. */
@@ -21,10 +25,27 @@ typedef struct {
 #endif
 } PhotonPath;
 
-inline void storePhoton(__global Photon* photons, RegionCount* count, uint capacity, const PhotonPath* path,
-                        float3 position, float3 flux, uint place, uint slot) {
-    if (count->wanted++ >= capacity) return;
-    __global Photon* p = photons + count->stored++;
+/* What becomes of a photon where it arrives: `place` and `slot` as in Photon. */
+#ifdef MAP_CAMERA
+typedef SplatTarget PhotonSink;
+
+inline void deliverPhoton(const PhotonSink* target, RegionCount* count, const PhotonPath* path, float3 position,
+                          float3 flux, uint place, uint slot) {
+    ++count->wanted;
+    const ArrivedPhoton photon = {position, path->direction, flux, min(path->depth, PHOTON_DEPTH_MAX), place, slot};
+    splatPhoton(target, &photon, count);
+}
+#else
+/* A region's own part of the photon buffer. */
+typedef struct {
+    __global Photon* photons;
+    uint capacity;
+} PhotonSink;
+
+inline void deliverPhoton(const PhotonSink* sink, RegionCount* count, const PhotonPath* path, float3 position,
+                          float3 flux, uint place, uint slot) {
+    if (count->wanted++ >= sink->capacity) return;
+    __global Photon* p = sink->photons + count->stored++;
     p->position.x = position.x;
     p->position.y = position.y;
     p->position.z = position.z;
@@ -35,6 +56,7 @@ inline void storePhoton(__global Photon* photons, RegionCount* count, uint capac
     p->patchSide = place;
     p->classDepth = min(path->depth, PHOTON_DEPTH_MAX) << 3 | slot;
 }
+#endif
 
 /* Classes of light that the lobes met here can ever take, restricted to those the kernels store. */
 inline uint storableClasses(__global const Lobe* lobes, uint count) {
@@ -82,9 +104,9 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
 }
 
 #ifdef HAS_MEDIA
-/* A collision in the medium that the path is in: stores the photon, thinned, and scatters it; 0 where it ends. */
+/* A collision in the medium that the path is in: delivers the photon, thinned, and scatters it; 0 where it ends. */
 inline int collidePhoton(PhotonPath* path, const FreeFlight* flight, __global const Medium* medium,
-                         __global Photon* photons, RegionCount* count, const PhotonParams* params, Rng* rng) {
+                         const PhotonSink* sink, RegionCount* count, const PhotonParams* params, Rng* rng) {
     path->origin += flight->distance * path->direction;
     path->flux *= flight->weight;
     const uint slot = VOLUME_SLOT(lawPhotonClass(path->events));
@@ -95,8 +117,8 @@ inline int collidePhoton(PhotonPath* path, const FreeFlight* flight, __global co
     if ((possible << LIGHT_CLASSES & PHOTON_CLASSES) >> slot & 1) {
         const float keep = params->keepProbability[slot - LIGHT_CLASSES];
         if (rngNext(rng) < keep)
-            storePhoton(photons, count, params->regionCapacity, path, path->origin,
-                        path->flux * inverseExtinction(medium) / keep, path->medium, slot);
+            deliverPhoton(sink, count, path, path->origin, path->flux * inverseExtinction(medium) / keep, path->medium,
+                          slot);
     }
     path->flux *= loadRgb(medium->albedo);
     const float strength = maxComponent(path->flux) / path->referenceFlux;
@@ -134,8 +156,8 @@ inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* pa
 }
 
 inline void tracePhotonPath(uint index, const Lattice* lattice, __global const BvhNode* nodes,
-                            __global const PrimitiveBlock* blocks, __global const uint* tables,
-                            __global Photon* photons, const PhotonParams* params, RegionCount* count) {
+                            __global const PrimitiveBlock* blocks, __global const uint* tables, const PhotonSink* sink,
+                            const PhotonParams* params, RegionCount* count) {
     const SceneTables* scene = &params->scene;
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, params->pass, STREAM_PHOTON, index);
@@ -159,7 +181,7 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
                 followMedium(medium, path.flux, &ray, 1, rngNext2(&rng), nodes, blocks, tables, scene);
             if (segment.flight.collided) {
                 ++path.depth;
-                if (!collidePhoton(&path, &segment.flight, medium, photons, count, params, &rng)) return;
+                if (!collidePhoton(&path, &segment.flight, medium, sink, count, params, &rng)) return;
                 continue;
             }
             path.flux *= segment.flight.weight;
@@ -181,8 +203,7 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
         __global const Lobe* lobes = SCENE_TABLE(tables, scene, Lobe, lobes) + s.firstLobe;
         const uint lightClass = lawPhotonClass(path.events);
         if (storableClasses(lobes, s.lobeCount) & (1u << lightClass))
-            storePhoton(photons, count, params->regionCapacity, &path, s.position, path.flux, s.patch << 1 | s.front,
-                        lightClass);
+            deliverPhoton(sink, count, &path, s.position, path.flux, s.patch << 1 | s.front, lightClass);
         const float2 uDirection = rngNext2(&rng);
         const float3 u = (float3)(rngNext(&rng), uDirection.x, uDirection.y);
         if (!scatterPhoton(&path, &s, lobes, shape, u)) return;
@@ -191,18 +212,37 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
     count->fluxCut += (path.flux.x + path.flux.y + path.flux.z) / 3;
 }
 
-/* One work-item: the paths of one region. */
+/* The paths of one region. */
+inline void traceRegion(uint region, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                        __global const uint* tables, const PhotonSink* sink, const PhotonParams* params,
+                        __global RegionCount* counts) {
+    RegionCount count = {0, 0, 0, 0, 0, 0};
+    const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
+    const uint first = region * params->pathsPerRegion;
+    const uint last = min(first + params->pathsPerRegion, params->paths);
+    for (uint index = first; index < last; ++index)
+        tracePhotonPath(index, &lattice, nodes, blocks, tables, sink, params, &count);
+    counts[region] = count;
+}
+
+#ifdef MAP_CAMERA
+__kernel void splatPhotons(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                           __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
+                           __global const CameraPoint* points, __global const PointBorder* borders, __global uint* sums,
+                           __global RegionCount* counts, const PhotonParams params, const PointParams store) {
+    const uint region = get_global_id(0);
+    if (region >= params.regions) return;
+    const SplatTarget target = {{sorted, cellStart, &store.map}, points, borders, sums, tables, &params.scene,
+                                store.quantaPerRadiance};
+    traceRegion(region, nodes, blocks, tables, &target, &params, counts);
+}
+#else
 __kernel void tracePhotons(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                            __global const uint* tables, __global Photon* photons, __global RegionCount* counts,
                            const PhotonParams params) {
     const uint region = get_global_id(0);
     if (region >= params.regions) return;
-    RegionCount count = {0, 0, 0, 0, 0};
-    const Lattice lattice = latticeOfPass((ulong)params.seedHigh << 32 | params.seedLow, params.pass);
-    const uint first = region * params.pathsPerRegion;
-    const uint last = min(first + params.pathsPerRegion, params.paths);
-    for (uint index = first; index < last; ++index)
-        tracePhotonPath(index, &lattice, nodes, blocks, tables, photons + (size_t)region * params.regionCapacity,
-                        &params, &count);
-    counts[region] = count;
+    const PhotonSink sink = {photons + (size_t)region * params.regionCapacity, params.regionCapacity};
+    traceRegion(region, nodes, blocks, tables, &sink, &params, counts);
 }
+#endif

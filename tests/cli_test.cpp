@@ -20,28 +20,28 @@ using testing::HasSubstr;
 
 TEST_F(CommandLineTest, HelpStatesEveryOptionWithUnitAndDefault) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> promised{
-        {"render",
-         {"-o",
-          "--png",
-          "--time",
-          "--passes",
-          "--error",
-          "--bdd",
-          "--variant",
-          "--quasi-specular",
-          "--direct",
-          "--photons",
-          "--seed",
-          "--radius-scale",
-          "--kernels",
-          "--device",
-          "--work-group-size",
-          "-D",
-          "--stats",
-          "--json",
-          "--quiet",
-          "--exposure",
-          "--exposure-scale"}},
+        {"render", {"-o",
+                    "--png",
+                    "--time",
+                    "--passes",
+                    "--error",
+                    "--bdd",
+                    "--variant",
+                    "--quasi-specular",
+                    "--direct",
+                    "--map",
+                    "--photons",
+                    "--seed",
+                    "--radius-scale",
+                    "--kernels",
+                    "--device",
+                    "--work-group-size",
+                    "-D",
+                    "--stats",
+                    "--json",
+                    "--quiet",
+                    "--exposure",
+                    "--exposure-scale"}},
         {"devices", {"--json"}},
         {"info", {"--json", "--bdd", "--device", "-D"}}};
     const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/command-line.md");
@@ -180,6 +180,8 @@ TEST(Names, OfComponentsAndSettings) {
     for (const auto variant : {Variant::main, Variant::alternative}) EXPECT_EQ(parseVariant(name(variant)), variant);
     for (const auto direct : {DirectLight::emitters, DirectLight::photons})
         EXPECT_EQ(parseDirect(name(direct)), direct);
+    for (const auto map : {MapOrder::photons, MapOrder::camera}) EXPECT_EQ(parseMapOrder(name(map)), map);
+    EXPECT_THROW(parseMapOrder("cameras"), InputError);
     try {
         parseDirect("photon");
         FAIL() << "an unknown name was taken";
@@ -202,6 +204,7 @@ TEST(Settings, ComeFromTheSceneOverDefaults) {
     scene.settings.bdd = 2;
     scene.settings.variant = "alternative";
     scene.settings.direct = "photons";
+    scene.settings.map = "camera";
     scene.settings.quasiSpecular = "none";
     scene.settings.photons = 77;
     scene.settings.seed = 5;
@@ -209,6 +212,7 @@ TEST(Settings, ComeFromTheSceneOverDefaults) {
     EXPECT_EQ(settings.bdd, 2u);
     EXPECT_EQ(settings.variant, Variant::alternative);
     EXPECT_EQ(settings.direct, DirectLight::photons);
+    EXPECT_EQ(settings.map, MapOrder::camera);
     EXPECT_EQ(settings.quasiSpecular, "none");
     EXPECT_FALSE(settings.quasiSpecularFromCommandLine);
     EXPECT_EQ(settings.photonsPerPass, 77u);

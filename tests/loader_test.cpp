@@ -387,14 +387,15 @@ TEST(Documents, CommentsOtherInstructionsAndByteOrderMarkAreNoMatter) {
 TEST(Settings, OfTheScene) {
     const SceneSettings none = load("").settings;
     EXPECT_FALSE(none.bdd || none.variant || none.quasiSpecular || none.direct || none.photons || none.seed);
-    const SceneSettings all =
-        load("<?quasilux bdd=\"2\" variant='alternative' quasi-specular=\"a,b\"\n direct=\"photons\" photons=\"1000\"?>"
-             "<?quasilux seed=\"18446744073709551615\"?>")
-            .settings;
+    const SceneSettings all = load("<?quasilux bdd=\"2\" variant='alternative' quasi-specular=\"a,b\"\n "
+                                   "direct=\"photons\" map=\"camera\" photons=\"1000\"?>"
+                                   "<?quasilux seed=\"18446744073709551615\"?>")
+                                  .settings;
     EXPECT_EQ(all.bdd, 2u);
     EXPECT_EQ(all.variant, "alternative");
     EXPECT_EQ(all.quasiSpecular, "a,b");
     EXPECT_EQ(all.direct, "photons");
+    EXPECT_EQ(all.map, "camera");
     EXPECT_EQ(all.photons, 1000u);
     EXPECT_EQ(all.seed, UINT64_MAX);
 }

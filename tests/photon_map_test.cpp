@@ -28,7 +28,7 @@ Photon photonAt(float x, float y, float z, unsigned lightClass, unsigned id) {
     photon.direction = id * 2654435761u;
     photon.flux = {float(id), float(id % 1000) + 0.5f, 1};
     photon.patchSide = id % 5;
-    photon.classDepth = (1 + id % 200) << 2 | lightClass;
+    photon.classDepth = (1 + id % 200) << 3 | lightClass;
     return photon;
 }
 
@@ -53,7 +53,7 @@ std::vector<Photon> awkwardPhotons(unsigned count, float center, float cell, con
 
 /// Cell of the table by the definition in kernels/photon_grid.clh, written down again.
 unsigned expectedCell(const Photon& photon, const PhotonIndexSettings& settings) {
-    const unsigned lightClass = photon.classDepth & 3;
+    const unsigned lightClass = photon.classDepth & (PHOTON_SLOTS - 1);
     const auto coordinate = [&](float x) {
         return int64_t(std::floor(std::clamp(x / settings.radius[lightClass], -1073741824.f, 1073741824.f)));
     };
@@ -99,7 +99,7 @@ void expectSorted(const std::vector<Photon>& photons, const PhotonIndexSettings&
         const Photon& p = photons[k];
         const uint32_t values[] = {bits(p.position.x), bits(p.position.y), bits(p.position.z),
                                    bits(p.flux.r),     bits(p.flux.g),     bits(p.flux.b),
-                                   p.patchSide,        p.direction,        p.classDepth >> 2};
+                                   p.patchSide,        p.direction,        p.classDepth >> 3};
         for (size_t f = 0; f < fields.size(); ++f) fields[f].push_back(values[f]);
     }
     for (unsigned f = 0; f < fields.size(); ++f) EXPECT_EQ(index.field(f), fields[f]) << "field " << f;
@@ -199,7 +199,8 @@ struct ExactSum {
 ExactSum searchAll(const std::vector<Photon>& photons, const Query& query, const GatherSettings& what) {
     ExactSum sum;
     for (const Photon& p : photons) {
-        if ((p.classDepth & 3) != what.lightClass || p.patchSide != what.patchSide || p.classDepth >> 2 > what.depthMax)
+        if ((p.classDepth & (PHOTON_SLOTS - 1)) != what.lightClass || p.patchSide != what.patchSide ||
+            p.classDepth >> 3 > what.depthMax)
             continue;
         const double x = double(p.position.x) - query.x, y = double(p.position.y) - query.y,
                      z = double(p.position.z) - query.z;

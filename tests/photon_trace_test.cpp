@@ -30,7 +30,7 @@ std::vector<std::array<double, LIGHT_CLASSES>> storedFlux(const DeviceScene& fla
     PhotonStage stage(testDevice(), kernelOptions(flat, settings), geometry, params, classes, false);
     std::vector<std::array<double, LIGHT_CLASSES>> flux(passes);
     for (unsigned pass = 0; pass < passes; ++pass) {
-        const auto count = stage.run(pass, {0.1f, 0.1f, 0.1f, 0.1f});
+        const auto count = stage.run(pass, {0.1f, 0.1f, 0.1f, 0.1f}, 1);
         const auto sorted = stage.sorted().read();
         uint64_t photon = 0; // sorted by class
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c)

@@ -23,7 +23,7 @@ void printGeometry(const SceneReport& report) {
     fmt::print("geometry: {} triangles, {} spheres, {} smooth patches, {} border segments\n", report.triangles,
                report.spheres, report.patches, report.borderSegments);
     fmt::print("features: {}\n", orNone(report.features));
-    fmt::print("photon classes stored: {}\n", orNone(report.photonClasses));
+    fmt::print("photon classes in use: {}\n", orNone(report.photonClasses));
     fmt::print("photons per pass: {}\n", report.photonsPerPass);
 }
 
@@ -102,7 +102,7 @@ void infoCommand(const SceneOptions& options) {
         return;
     }
     if (options.quiet) return;
-    fmt::print("scene: {}\ndevice: {}\n", file, device.info().name);
+    fmt::print("scene: {}\ndevice: {}\nmap: {}\n", file, device.info().name, name(settings.map));
     printGeometry(report);
     printEmitters(report);
     printLobes(report);

@@ -43,6 +43,13 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->check(oneOf({"emitters", "photons"}))
         ->group(group);
     command
+        .add_option("--map", options.map,
+                    "What is stored and indexed in each pass: photons, found by camera paths, or camera (points of "
+                    "camera paths, found by photons) (default: the scene's, else photons)")
+        ->type_name("NAME")
+        ->check(oneOf({"photons", "camera"}))
+        ->group(group);
+    command
         .add_option("--photons", options.photons,
                     "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)")
         ->type_name("N")
@@ -161,6 +168,7 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (bdd) result.bdd = *bdd;
     if (variant) result.variant = parseVariant(*variant);
     if (direct) result.direct = parseDirect(*direct);
+    if (map) result.map = parseMapOrder(*map);
     if (photons) result.photonsPerPass = *photons;
     if (seed) result.seed = *seed;
     if (quasiSpecular) {

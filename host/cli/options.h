@@ -17,7 +17,7 @@ struct SceneOptions {
     std::vector<std::string> definitions; ///< "name=value"
     std::optional<unsigned> bdd, photons;
     std::optional<uint64_t> seed;
-    std::optional<std::string> variant, direct, quasiSpecular;
+    std::optional<std::string> variant, direct, map, quasiSpecular;
     double radiusScale = 1;
     std::string kernels = "scene";
     int device = -1;

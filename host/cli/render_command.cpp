@@ -83,6 +83,9 @@ void warnOfCounters(const RenderOptions& options, const RenderCounters& counters
     if (counters.nonFinite > 0)
         warn(options, fmt::format("{} samples were not finite and were dropped, the image lacks their light",
                                   counters.nonFinite));
+    if (counters.overflows > 0)
+        warn(options, fmt::format("{} sums of splats left their range: the image is wrong there, use --map photons",
+                                  counters.overflows));
     if (counters.cutPaths > 0)
         warn(options,
              fmt::format(

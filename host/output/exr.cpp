@@ -51,6 +51,7 @@ void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
     whole("bdd", settings.bdd);
     text("variant", name(settings.variant));
     text("direct", name(settings.direct));
+    text("map", name(settings.map));
     text("quasiSpecular", settings.quasiSpecular);
     text("kernels", settings.genericKernels ? "generic" : "scene");
     text("seed", std::to_string(settings.seed)); // 64 bits: a header holds no whole number that large

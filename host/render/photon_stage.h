@@ -37,8 +37,8 @@ public:
 
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : params_.paths; }
-    /// Bytes of a photon in the map.
-    size_t photonBytes() const { return fields() * sizeof(uint32_t); }
+    /// Bytes of a photon, as traced and in the map.
+    size_t photonBytes() const { return sizeof(shared::Photon) + fields() * sizeof(uint32_t); }
 
     const Buffer<uint32_t>& cellStart() const { return cellStart_; }
     const Buffer<uint32_t>& sorted() const { return sorted_; }

@@ -1,11 +1,13 @@
 #include "render/renderer.h"
 
+#include "render/camera_map_stage.h"
 #include "render/camera_stage.h"
 #include "render/method.h"
 #include "render/radius.h"
 
 #include <chrono>
 #include <fmt/format.h>
+#include <optional>
 
 namespace quasilux {
 
@@ -50,6 +52,12 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     params.camera = flat.camera;
     params.scene = flat.offsets;
     return params;
+}
+
+// Of the order of what the scene shows: the unit of splats need be no better.
+double meanRadiance(const DeviceScene& flat) {
+    constexpr double pi = 3.141592653589793;
+    return flat.surfaceArea > 0 ? flat.emittedFlux / (pi * flat.surfaceArea) : flat.emittedFlux;
 }
 
 std::string scatteringName(unsigned scattering) {
@@ -111,27 +119,48 @@ SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSe
 struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_)
         : device(device_), settings(settings_), flat(std::move(flat_)), options(kernelOptions(flat, settings)),
-          geometry(device, flat),
-          photons(device, options, geometry, photonParams(scene, flat, settings),
-                  photonClasses(flat.features, settings), compiledFeatures(flat, settings).depthLimit),
-          camera(device, options, geometry, cameraParams(flat, settings, photonParams(scene, flat, settings).maxDepth)),
+          geometry(device, flat), film(device, flat.camera.width, flat.camera.height),
           report(describe(scene, flat, settings)) {
-        if (!flat.media.empty()) thinVolume();
+        const auto photon = photonParams(scene, flat, settings);
+        const auto path = cameraParams(flat, settings, photon.maxDepth);
+        const unsigned classes = photonClasses(flat.features, settings);
+        if (settings.map == MapOrder::camera) {
+            cameraMap.emplace(device, options, geometry, film, path, photon, classes, meanRadiance(flat));
+            if (!flat.media.empty()) cameraMap->thinVolume(pilot(photon, classes).keepProbability);
+            return;
+        }
+        photons.emplace(device, options, geometry, photon, classes, compiledFeatures(flat, settings).depthLimit);
+        camera.emplace(device, options, geometry, film, path);
+        if (flat.media.empty()) return;
+        const Thinning thinning = thinningBy(*photons);
+        photons->thinVolume(thinning.keepProbability, thinning.expectedPhotons);
     }
 
     // Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
-    void thinVolume() {
+    struct Thinning {
+        std::array<float, LIGHT_CLASSES> keepProbability{};
+        double expectedPhotons = 0;
+    };
+
+    // For the camera map, which has no photon stage: the orders are to keep the same photons.
+    Thinning pilot(shared::PhotonParams params, unsigned classes) {
+        params.paths = std::min(pilotPaths, params.paths);
+        PhotonStage stage(device, options, geometry, params, classes, compiledFeatures(flat, settings).depthLimit);
+        return thinningBy(stage);
+    }
+
+    Thinning thinningBy(PhotonStage& stage) const {
         const unsigned paths = std::min(pilotPaths, report.photonsPerPass);
-        const auto counted = photons.pilot(paths, radii(0));
-        std::array<float, LIGHT_CLASSES> keep{};
-        double stored = 0;
+        const auto counted = stage.pilot(paths, radii(0));
+        Thinning thinning;
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
             const double expected = double(counted[VOLUME_SLOT(c)]) * report.photonsPerPass / paths;
             const double wanted = volumePhotonsPerPath * report.photonsPerPass;
-            keep[c] = static_cast<float>(std::min(1.0, wanted / std::max(expected, 1.0)));
-            stored += keep[c] * expected + double(counted[c]) * report.photonsPerPass / paths;
+            thinning.keepProbability[c] = static_cast<float>(std::min(1.0, wanted / std::max(expected, 1.0)));
+            thinning.expectedPhotons +=
+                thinning.keepProbability[c] * expected + double(counted[c]) * report.photonsPerPass / paths;
         }
-        photons.thinVolume(keep, stored);
+        return thinning;
     }
 
     float volumeScale(unsigned pass) const { return static_cast<float>(settings.radiusScale * volumeShrink(pass)); }
@@ -144,16 +173,54 @@ struct Renderer::Stages {
         return radius;
     }
 
+    void noteMapSize(uint64_t records, uint64_t bytes) {
+        counters.storedPoints = std::max(counters.storedPoints, records);
+        counters.storedBytes = std::max(counters.storedBytes, bytes);
+    }
+
+    void runPhotonMap(unsigned pass) {
+        const auto count = photons->run(pass, radii(pass), volumeScale(pass));
+        camera->run(pass, *photons);
+        uint64_t stored = 0;
+        for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
+            if (count.stored[slot] > 0) counters.photonsStored[slotName(slot)] += count.stored[slot];
+            stored += count.stored[slot];
+        }
+        noteMapSize(stored, stored * photons->photonBytes());
+        counters.photonsEmitted += photons->photonsPerPass();
+        counters.cutPaths += count.cutPaths;
+        counters.nonFinite += count.nonFinite;
+        counters.fluxCut += count.fluxCut;
+    }
+
+    void runCameraMap(unsigned pass) {
+        const auto count = cameraMap->run(pass, radii(pass), volumeScale(pass));
+        uint64_t stored = 0;
+        for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
+            if (count.points[slot] > 0) counters.cameraPointsStored[slotName(slot)] += count.points[slot];
+            stored += count.points[slot];
+        }
+        noteMapSize(stored, stored * CameraMapStage::pointBytes() + count.borders * CameraMapStage::borderBytes());
+        counters.photonsEmitted += cameraMap->photonsPerPass();
+        counters.cutPaths += count.cutPaths;
+        counters.nonFinite += count.nonFinite;
+        counters.overflows += count.overflows;
+        counters.fluxCut += count.fluxCut;
+        counters.throughputCut += count.throughputCut;
+    }
+
     Device& device;
     RenderSettings settings;
     DeviceScene flat;
     std::string options;
     GeometryBuffers geometry;
-    PhotonStage photons;
-    CameraStage camera;
+    Film film;
+    std::optional<PhotonStage> photons; // these two, or
+    std::optional<CameraStage> camera;
+    std::optional<CameraMapStage> cameraMap; // this
     SceneReport report;
     RenderCounters counters;
-    uint64_t photonCutPaths = 0, photonNonFinite = 0; // shares of the photons in the counters
+    shared::CameraCounters dropped{}; // by the film, so far
 };
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings) {
@@ -171,29 +238,26 @@ Renderer::~Renderer() = default;
 void Renderer::renderPass(unsigned pass) {
     auto& s = *stages_;
     const auto start = Clock::now();
-    const auto photons = s.photons.run(pass, s.radii(pass), s.volumeScale(pass));
-    s.camera.run(pass, s.photons);
+    if (s.cameraMap)
+        s.runCameraMap(pass);
+    else
+        s.runPhotonMap(pass);
     s.device.finish();
 
     auto& counters = s.counters;
-    counters.photonsEmitted += s.photons.photonsPerPass();
-    for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
-        if (photons.stored[slot] > 0) counters.photonsStored[slotName(slot)] += photons.stored[slot];
-    counters.cameraPaths += uint64_t(s.flat.camera.width) * s.flat.camera.height;
-    s.photonCutPaths += photons.cutPaths;
-    s.photonNonFinite += photons.nonFinite;
-    const auto camera = s.camera.counters();
-    counters.cutPaths = s.photonCutPaths + camera.cutPaths;
-    counters.nonFinite = s.photonNonFinite + camera.nonFinite;
-    counters.throughputCut = double(camera.cutThroughput) / CUT_THROUGHPUT_STEPS;
-    counters.fluxCut += photons.fluxCut;
+    const auto dropped = s.film.counters();
+    counters.nonFinite += dropped.nonFinite - s.dropped.nonFinite;
+    counters.cutPaths += dropped.cutPaths - s.dropped.cutPaths;
+    counters.throughputCut += double(dropped.cutThroughput - s.dropped.cutThroughput) / CUT_THROUGHPUT_STEPS;
+    s.dropped = dropped;
+    counters.cameraPaths += s.film.pixels();
     counters.fluxEmitted += s.flat.emittedFlux;
     const double seconds = since(start);
     if (counters.passes++ == 0) counters.firstPassSeconds = seconds;
     counters.renderSeconds += seconds;
 }
 
-FilmImage Renderer::develop() const { return stages_->camera.develop(static_cast<unsigned>(stages_->counters.passes)); }
+FilmImage Renderer::develop() const { return stages_->film.develop(static_cast<unsigned>(stages_->counters.passes)); }
 
 const SceneReport& Renderer::report() const {
     stages_->report.bufferBytes = stages_->device.allocations();

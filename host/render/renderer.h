@@ -43,10 +43,14 @@ struct SceneReport {
 struct RenderCounters {
     uint64_t passes = 0;
     uint64_t photonsEmitted = 0;
-    std::map<std::string, uint64_t> photonsStored; ///< by class; in media "volume " and the class
+    std::map<std::string, uint64_t> photonsStored;      ///< by class; in media "volume " and the class
+    std::map<std::string, uint64_t> cameraPointsStored; ///< the same for the camera map
+    uint64_t storedPoints = 0; ///< photons or camera points in the map of one pass, the most of all passes
+    uint64_t storedBytes = 0;  ///< that they take, as traced and in the index
     uint64_t cameraPaths = 0;
     uint64_t nonFinite = 0;              ///< samples dropped since they were not finite; a right render has none
     uint64_t cutPaths = 0;               ///< paths ended by the hard limit on events
+    uint64_t overflows = 0;              ///< sums of splats that left their range (camera map); a right render has none
     double fluxEmitted = 0, fluxCut = 0; ///< W, mean of R, G, B
     double throughputCut = 0;            ///< of camera paths, mean of R, G, B; each begins with 1
     double prepareSeconds = 0, compileSeconds = 0, firstPassSeconds = 0, renderSeconds = 0;

@@ -12,6 +12,7 @@ RenderSettings settingsFromScene(const Scene& scene) {
         if (said.bdd) settings.bdd = *said.bdd;
         if (said.variant) settings.variant = parseVariant(*said.variant);
         if (said.direct) settings.direct = parseDirect(*said.direct);
+        if (said.map) settings.map = parseMapOrder(*said.map);
         if (said.quasiSpecular) settings.quasiSpecular = *said.quasiSpecular;
         if (said.photons) settings.photonsPerPass = *said.photons;
         if (said.seed) settings.seed = *said.seed;
@@ -25,6 +26,8 @@ const char* name(Variant variant) { return variant == Variant::main ? "main" : "
 
 const char* name(DirectLight direct) { return direct == DirectLight::emitters ? "emitters" : "photons"; }
 
+const char* name(MapOrder map) { return map == MapOrder::photons ? "photons" : "camera"; }
+
 Variant parseVariant(const std::string& text) {
     if (text == "main") return Variant::main;
     if (text == "alternative") return Variant::alternative;
@@ -36,6 +39,12 @@ DirectLight parseDirect(const std::string& text) {
     if (text == "photons") return DirectLight::photons;
     throw InputError("unknown way to estimate direct light '" + text + "', " +
                      expectedNames(text, {"emitters", "photons"}));
+}
+
+MapOrder parseMapOrder(const std::string& text) {
+    if (text == "photons") return MapOrder::photons;
+    if (text == "camera") return MapOrder::camera;
+    throw InputError("unknown map '" + text + "', " + expectedNames(text, {"photons", "camera"}));
 }
 
 } // namespace quasilux

@@ -11,6 +11,7 @@ namespace quasilux {
 
 enum class Variant { main, alternative };     ///< of the law, kernels/law.clh
 enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
+enum class MapOrder { photons, camera };      ///< what is stored and indexed, for the other to find
 
 /// The law, or one of its known wrong readings, which tests switch on as negative controls (kernels/law.clh).
 enum class LawRule { right, quasiSpecularUntilFirst, diffuseAtEveryHit, fullAlongChain };
@@ -24,6 +25,7 @@ struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
     Variant variant = Variant::main;
     DirectLight direct = DirectLight::emitters;
+    MapOrder map = MapOrder::photons;
     std::string quasiSpecular = "auto";        ///< auto | none | all | ID,ID,…
     bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
     unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
@@ -46,8 +48,10 @@ RenderSettings settingsFromScene(const Scene& scene);
 
 const char* name(Variant variant);
 const char* name(DirectLight direct);
+const char* name(MapOrder map);
 /// Throw InputError that lists the known names.
 Variant parseVariant(const std::string& text);
 DirectLight parseDirect(const std::string& text);
+MapOrder parseMapOrder(const std::string& text);
 
 } // namespace quasilux

@@ -14,7 +14,7 @@ namespace quasilux {
 
 namespace {
 
-const Names keys = {"bdd", "variant", "quasi-specular", "direct", "photons", "seed"};
+const Names keys = {"bdd", "variant", "quasi-specular", "direct", "map", "photons", "seed"};
 
 std::string oneOf(const Attribute& entry, const Names& known, const SourceLocation& where) {
     if (std::find(known.begin(), known.end(), entry.value) == known.end())
@@ -43,6 +43,8 @@ void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& s
         settings.quasiSpecular = parseQuasiSpecular(entry, where);
     else if (entry.name == "direct")
         settings.direct = oneOf(entry, {"emitters", "photons"}, where);
+    else if (entry.name == "map")
+        settings.map = oneOf(entry, {"photons", "camera"}, where);
     else if (entry.name == "photons")
         settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, maximumPhotons, where, "photons"));
     else if (entry.name == "seed")

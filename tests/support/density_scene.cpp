@@ -127,7 +127,7 @@ UniformPhotons DensityScene::lightUp(unsigned count, const Hidden& hidden, std::
         photon.position = {float(p.x), float(p.y), float(p.z)};
         photon.flux = {flux, flux * float(5 + p.x), flux};
         photon.patchSide = patchOf(piece.primitive) << 1 | 1;
-        photon.classDepth = 1 << 2 | LIGHT_DIFFUSE;
+        photon.classDepth = 1 << 3 | LIGHT_DIFFUSE;
         out.photons.push_back(photon);
     }
     return out;

@@ -67,10 +67,12 @@ PhotonIndex indexPhotons(const std::vector<shared::Photon>& photons, const Photo
     index.cellStart = Buffer<uint32_t>(device, cells + 1, "photon cells");
     index.sorted = Buffer<uint32_t>(device, size_t(settings.storesDepth ? 9 : 8) * map.photonStride, "photons sorted");
     index.sorted.fill(0);
-    program.kernel("countPhotons").launchFew(map.chunks, tracedBuffer, regionBuffer, cellCounts, map);
+    Buffer<uint32_t> tables(device, 1, "scene tables"); // photons in media alone read them
+    program.kernel("countPhotons").launchFew(map.chunks, tracedBuffer, regionBuffer, tables, cellCounts, map);
     program.kernel("sumBlocks").launchFew(map.scanBlocks, cellCounts, blockSums, map);
     program.kernel("scanCells").launchFew(map.scanBlocks, cellCounts, blockSums, index.cellStart, map);
-    program.kernel("scatterPhotons").launchFew(map.chunks, tracedBuffer, regionBuffer, cellCounts, index.sorted, map);
+    program.kernel("scatterPhotons")
+        .launchFew(map.chunks, tracedBuffer, regionBuffer, tables, cellCounts, index.sorted, map);
     return index;
 }
 

@@ -1,0 +1,63 @@
+// A pass in the camera map's order: camera points are stored and indexed, then photons are splatted to them on the fly.
+#pragma once
+
+#include "render/film.h"
+#include "render/photon_stage.h"
+
+namespace quasilux {
+
+/// What one pass stored and dropped.
+struct CameraMapPassCount {
+    std::array<uint64_t, PHOTON_SLOTS> points{}; ///< camera points by slot of the map
+    uint64_t borders = 0;                        ///< PointBorder records
+    uint64_t cutPaths = 0, nonFinite = 0;        ///< of photons and camera paths
+    uint64_t overflows = 0;                      ///< sums of splats that left the range of their fixed point
+    double fluxCut = 0, throughputCut = 0;       ///< of cut photons, W; of cut camera paths
+};
+
+class CameraMapStage {
+public:
+    /// `classes` as PhotonStage takes them. `meanRadiance`, of the order of the scene's, W sr^-1 m^-2, decides the unit
+    /// of the sums of splats.
+    CameraMapStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
+                   shared::CameraParams camera, shared::PhotonParams photons, unsigned classes, double meanRadiance);
+
+    /// One path per pixel and all photons of the pass, into the film. `radius` and `volumeScale` as PhotonStage::run
+    /// takes them. Buffers that prove too small are enlarged and the camera paths traced again, so no point is lost.
+    CameraMapPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
+
+    /// From now on photons in media are splatted with these probabilities, by class, and weigh accordingly more.
+    void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
+
+    /// Photons emitted in a pass: none where no path can use any class.
+    unsigned photonsPerPass() const { return classes_ == 0 ? 0 : photonParams_.paths; }
+    /// Bytes of a camera point, as traced and in the index, and of the border record that some have.
+    static size_t pointBytes();
+    static size_t borderBytes() { return sizeof(shared::PointBorder); }
+
+private:
+    std::vector<shared::PointRegionCount> traceCameraPoints();
+    void makeIndex();               // for the capacity of the regions
+    void makeRoom(uint64_t points); // in the sorted arrays
+    void index(uint64_t points);
+    std::array<uint64_t, PHOTON_SLOTS> pointsBySlot() const;
+    void splatPhotons(CameraMapPassCount& total);
+
+    Device& device_;
+    const GeometryBuffers& geometry_;
+    Film& film_;
+    Program cameraTracing_, photonTracing_, indexing_;
+    Kernel traceCameraPoints_, addSamples_, splatPhotons_, countPoints_, sumBlocks_, scanCells_, scatterPoints_;
+    shared::CameraParams cameraParams_;
+    shared::PhotonParams photonParams_;
+    shared::PointParams points_{};
+    unsigned classes_; // bits 1 << slot
+    Buffer<shared::CameraPoint> traced_;
+    Buffer<shared::PointBorder> borders_;
+    Buffer<shared::PointRegionCount> regions_;
+    Buffer<shared::RegionCount> photonRegions_;
+    Buffer<float> samples_;
+    Buffer<uint32_t> sums_, counts_, blockSums_, cellStart_, sorted_;
+};
+
+} // namespace quasilux
