@@ -117,7 +117,7 @@ typedef struct {
     Rgb albedo;         /* scattering / extinction */
     float level;
     float genuineDiffuseShare; /* integral of min(p, level) over the sphere */
-    Packed3 kernelAxis; /* unit; flat density kernels are cylinders about it (kernels/volume_region.clh) */
+    Packed3 kernelAxis;        /* unit; flat density kernels are cylinders about it (kernels/volume_region.clh) */
     /* Of the density kernel in pass 0, by light class, scene units: radius across the axis and half height along it;
      * half height 0: a ball. */
     float kernelRadius[4], kernelHalfHeight[4];

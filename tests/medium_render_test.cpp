@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Glass", {{"border", "glass"}}, "level:0.1", 1, 20},
         Case{"WithinGlass", inside, "level:0.1", glassRadiance, 30},
         Case{"WithinGlassAlternative", inside, "level:0.1", glassRadiance, 12, Variant::alternative}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& tested) { return tested.param.name; });
 
 // Negative controls: known mistakes must be seen.
 class WrongMediumFurnace : public testing::TestWithParam<Case> {};
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                          Variant::main,
                          0,
                          MediumRule::missingEtaSquared}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& tested) { return tested.param.name; });
 
 // Optical depth 200 through glass: a photon collides some 2 n^2 tau = 900 times on average, the longest paths over 10^4
 // times. None is cut, and what gets out balances what came in.

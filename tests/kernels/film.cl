@@ -22,7 +22,8 @@ __kernel void latticePoints(__global float2* points, const uint count, const uin
     const uint i = get_global_id(0);
     if (i >= count) return;
     const Lattice lattice = latticeOfPass(99, mode == 1 ? 0 : i);
-    points[i] = mode == 0 ? latticePoint3(i, (float3)(shift.x, shift.y, 0.5f)).xy : latticePoint2(&lattice, mode == 1 ? i : 12345, first);
+    points[i] = mode == 0 ? latticePoint3(i, (float3)(shift.x, shift.y, 0.5f)).xy
+                          : latticePoint2(&lattice, mode == 1 ? i : 12345, first);
 }
 
 __kernel void filterOffsets(__global const float2* numbers, __global float2* offsets, const Camera camera,
