@@ -173,6 +173,21 @@ TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
     }
 }
 
+// What either order of the map keeps is told before a render: with a whole phase function as quasi-specular the main variant
+// leaves many photons and few camera points, at most one of a path in the medium; the alternative the other way round.
+TEST_F(CommandLineTest, InfoTellsWhatTheMapHolds) {
+    const auto stored = [this](const std::string& map, const std::string& variant) {
+        const Outcome outcome = run({"info", QUASILUX_SOURCE_DIR "/scenes/furnace_medium.xml", "--json", "--map", map,
+                                     "--variant", variant, "--quasi-specular", "all", "-D", "sigma_t=9,9,9"});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+        const auto pass = nlohmann::json::parse(outcome.output)["trialPass"];
+        EXPECT_GT(pass["storedBytes"], pass["storedPoints"]);
+        return pass["storedPoints"].get<double>();
+    };
+    EXPECT_GT(stored("photons", "main"), 0);
+    EXPECT_GT(stored("camera", "alternative"), 3 * stored("camera", "main"));
+}
+
 TEST(Names, OfComponentsAndSettings) {
     const std::vector<std::string> names{"direct", "caustic", "quasi_caustic", "diffuse", "emission"};
     for (unsigned i = 0; i < FILM_COMPONENTS; ++i) EXPECT_EQ(componentName(i), names[i]);

@@ -87,7 +87,9 @@ void infoCommand(const SceneOptions& options) {
     exitOnInterrupt();
     ProgressLine progress(stderr, !options.quiet);
     progress.update({.phase = "preparing"});
-    const Renderer renderer(device, scene, settings);
+    Renderer renderer(device, scene, settings);
+    progress.update({.phase = "trial pass"});
+    renderer.renderPass(0); // what the map holds shows only then
     progress.clear();
 
     const SceneReport& report = renderer.report();
@@ -97,12 +99,15 @@ void infoCommand(const SceneOptions& options) {
                                   {"scene", file},
                                   {"settings", settingsJson(settings)},
                                   {"device", deviceJson(device.info())},
-                                  {"sceneReport", sceneReportJson(report)}};
+                                  {"sceneReport", sceneReportJson(report)},
+                                  {"trialPass", countersJson(renderer.counters())}};
         fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
     }
     if (options.quiet) return;
-    fmt::print("scene: {}\ndevice: {}\nmap: {}\n", file, device.info().name, name(settings.map));
+    fmt::print("scene: {}\ndevice: {}\n", file, device.info().name);
+    fmt::print("map: {}, in a trial pass {} records, {}\n", name(settings.map), renderer.counters().storedPoints,
+               bytesText(renderer.counters().storedBytes));
     printGeometry(report);
     printEmitters(report);
     printLobes(report);

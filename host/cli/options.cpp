@@ -198,7 +198,8 @@ void declareOptions(CLI::App& app, Options& options) {
     CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices");
     devices.add_flag("--json", options.devicesJson, "The list on stdout as a JSON array (default: off, a table)");
 
-    CLI::App& info = *app.add_subcommand("info", "Say what a scene needs and what is chosen for it, without rendering");
+    CLI::App& info =
+        *app.add_subcommand("info", "Say what a scene needs and what is chosen for it, after a trial pass");
     declareScene(info, options.info);
     declareSettings(info, options.info);
     declareDevice(info, options.info);

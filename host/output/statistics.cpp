@@ -17,22 +17,6 @@ json orNull(const std::optional<T>& value) {
     return value ? json(*value) : json(nullptr);
 }
 
-json countersJson(const RenderCounters& counters) {
-    return {{"passes", counters.passes},
-            {"photonsEmitted", counters.photonsEmitted},
-            {"photonsStored", counters.photonsStored},
-            {"cameraPointsStored", counters.cameraPointsStored},
-            {"storedPoints", counters.storedPoints},
-            {"storedBytes", counters.storedBytes},
-            {"cameraPaths", counters.cameraPaths},
-            {"nonFinite", counters.nonFinite},
-            {"cutPaths", counters.cutPaths},
-            {"overflows", counters.overflows},
-            {"fluxEmitted", counters.fluxEmitted},
-            {"fluxCut", counters.fluxCut},
-            {"throughputCut", counters.throughputCut}};
-}
-
 json kernelsJson(const std::map<std::string, KernelTiming>& kernels) {
     json rows = json::object();
     for (const auto& [kernel, timing] : kernels)
@@ -51,6 +35,22 @@ json phasesJson(const RenderRecord& record) {
 }
 
 } // namespace
+
+json countersJson(const RenderCounters& counters) {
+    return {{"passes", counters.passes},
+            {"photonsEmitted", counters.photonsEmitted},
+            {"photonsStored", counters.photonsStored},
+            {"cameraPointsStored", counters.cameraPointsStored},
+            {"storedPoints", counters.storedPoints},
+            {"storedBytes", counters.storedBytes},
+            {"cameraPaths", counters.cameraPaths},
+            {"nonFinite", counters.nonFinite},
+            {"cutPaths", counters.cutPaths},
+            {"overflows", counters.overflows},
+            {"fluxEmitted", counters.fluxEmitted},
+            {"fluxCut", counters.fluxCut},
+            {"throughputCut", counters.throughputCut}};
+}
 
 json deviceJson(const DeviceInfo& device) {
     return {{"name", device.name},
