@@ -173,19 +173,19 @@ TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
     }
 }
 
-// What either order of the map keeps is told before a render: with a whole phase function as quasi-specular the main variant
-// leaves many photons and few camera points, at most one of a path in the medium; the alternative the other way round.
+// What the map holds is told before a render. With the whole phase function as quasi-specular a camera path stores one
+// point in a medium by the main variant, and one at each collision by the alternative one.
 TEST_F(CommandLineTest, InfoTellsWhatTheMapHolds) {
-    const auto stored = [this](const std::string& map, const std::string& variant) {
-        const Outcome outcome = run({"info", QUASILUX_SOURCE_DIR "/scenes/furnace_medium.xml", "--json", "--map", map,
-                                     "--variant", variant, "--quasi-specular", "all", "-D", "sigma_t=9,9,9"});
+    const auto stored = [this](const std::string& variant) {
+        const Outcome outcome =
+            run({"info", QUASILUX_SOURCE_DIR "/scenes/furnace_medium.xml", "--json", "--map", "camera", "--variant",
+                 variant, "--quasi-specular", "all", "-D", "border=glass", "-D", "sigma_t=9,9,9"});
         EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
         const auto pass = nlohmann::json::parse(outcome.output)["trialPass"];
         EXPECT_GT(pass["storedBytes"], pass["storedPoints"]);
         return pass["storedPoints"].get<double>();
     };
-    EXPECT_GT(stored("photons", "main"), 0);
-    EXPECT_GT(stored("camera", "alternative"), 3 * stored("camera", "main"));
+    EXPECT_GT(stored("alternative"), 3 * stored("main"));
 }
 
 TEST(Names, OfComponentsAndSettings) {
