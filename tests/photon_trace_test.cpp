@@ -31,13 +31,13 @@ std::vector<std::array<double, LIGHT_CLASSES>> storedFlux(const DeviceScene& fla
     std::vector<std::array<double, LIGHT_CLASSES>> flux(passes);
     for (unsigned pass = 0; pass < passes; ++pass) {
         const auto count = stage.run(pass, {0.1f, 0.1f, 0.1f, 0.1f}, 1);
-        const auto sorted = stage.sorted().read();
+        const auto sorted = stage.index().sorted().read();
         uint64_t photon = 0; // sorted by class
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
             for (uint64_t k = 0; k < count.stored[c]; ++k, ++photon)
                 for (unsigned channel = 3; channel < 6; ++channel) // PHOTON_R, G, B of kernels/photon_grid.clh
                     flux[pass][c] +=
-                        std::bit_cast<float>(sorted[channel * size_t(stage.map().photonStride) + photon]) / 3;
+                        std::bit_cast<float>(sorted[channel * size_t(stage.index().map().photonStride) + photon]) / 3;
     }
     return flux;
 }

@@ -13,8 +13,6 @@ namespace {
 
 constexpr unsigned photonsPerRegion = 256;
 constexpr unsigned pixelsPerRegion = 64;
-constexpr unsigned scanBlocksMax = 64;
-constexpr size_t vectorWidth = 8;  // points are read eight at a time: the last group may reach beyond the last point
 constexpr size_t pointFields = 5;  // POINT_FIELDS of kernels/photon_grid.clh
 constexpr size_t sampleFloats = 6; // SAMPLE_FLOATS of kernels/camera_paths.cl
 
@@ -41,11 +39,10 @@ CameraMapStage::CameraMapStage(Device& device, const std::string& options, const
     : device_(device), geometry_(geometry), film_(film),
       cameraTracing_(device, "camera_paths.cl", options + " -DMAP_CAMERA"),
       photonTracing_(device, "photon_trace.cl", options + " -DMAP_CAMERA"),
-      indexing_(device, "camera_point_map.cl", options), traceCameraPoints_(cameraTracing_.kernel("traceCameraPoints")),
-      addSamples_(cameraTracing_.kernel("addSamples")), splatPhotons_(photonTracing_.kernel("splatPhotons")),
-      countPoints_(indexing_.kernel("countPoints")), sumBlocks_(indexing_.kernel("sumBlocks")),
-      scanCells_(indexing_.kernel("scanCells")), scatterPoints_(indexing_.kernel("scatterPoints")),
-      cameraParams_(camera), photonParams_(photons), classes_(classes) {
+      traceCameraPoints_(cameraTracing_.kernel("traceCameraPoints")), addSamples_(cameraTracing_.kernel("addSamples")),
+      splatPhotons_(photonTracing_.kernel("splatPhotons")),
+      index_(device, "camera_point_map.cl", options, classes, pointFields, "camera point"), cameraParams_(camera),
+      photonParams_(photons), classes_(classes) {
     photonParams_.pathsPerRegion = photonsPerRegion;
     photonParams_.regions = divideUp(photonParams_.paths, photonsPerRegion);
     std::fill_n(photonParams_.keepProbability, LIGHT_CLASSES, 1.f);
@@ -53,26 +50,24 @@ CameraMapStage::CameraMapStage(Device& device, const std::string& options, const
 
     points_.pixelsPerRegion = pixelsPerRegion;
     points_.quantaPerRadiance = quantaPerRadiance(meanRadiance);
-    points_.map.regions = divideUp(film.pixels(), pixelsPerRegion);
-    points_.map.regionCapacity = pixelsPerRegion;
     points_.borderCapacity = pixelsPerRegion / 2;
-    points_.map.media = camera.scene.media;
-    regions_ = Buffer<shared::PointRegionCount>(device, points_.map.regions, "camera point regions");
+    index_.map().regionCapacity = pixelsPerRegion;
+    index_.map().media = camera.scene.media;
+    const unsigned regions = divideUp(film.pixels(), pixelsPerRegion);
+    index_.makeTable(static_cast<unsigned>(film.pixels()), regions);
+    regions_ = Buffer<shared::PointRegionCount>(device, regions, "camera point regions");
     samples_ = Buffer<float>(device, sampleFloats * film.pixels(), "camera samples");
     sums_ = Buffer<uint32_t>(device, 6 * splatClasses(classes) * film.pixels(), "splats");
     sums_.fill(0);
-    makeIndex();
-    makeRoom(film.pixels());
+    makeRegions();
 }
-
-size_t CameraMapStage::pointBytes() { return sizeof(shared::CameraPoint) + pointFields * sizeof(uint32_t); }
 
 void CameraMapStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability) {
     std::copy(keepProbability.begin(), keepProbability.end(), photonParams_.keepProbability);
 }
 
-void CameraMapStage::makeIndex() {
-    auto& map = points_.map;
+void CameraMapStage::makeRegions() {
+    const shared::MapParams& map = index_.map();
     const uint64_t capacity = uint64_t(map.regions) * map.regionCapacity;
     if (capacity > UINT32_MAX)
         throw DeviceError(fmt::format("room for {} camera points in one pass, at most {} can be indexed: render a "
@@ -82,21 +77,7 @@ void CameraMapStage::makeIndex() {
     traced_ = Buffer<shared::CameraPoint>(device_, capacity, "camera points as traced");
     borders_ = Buffer<shared::PointBorder>();
     borders_ = Buffer<shared::PointBorder>(device_, size_t(map.regions) * points_.borderCapacity, "camera borders");
-
-    map.cellMask = std::max(4096u, std::bit_ceil(static_cast<unsigned>(film_.pixels() / 4))) - 1;
-    map.chunks = std::min(map.regions, device_.info().isCpu ? 2 * device_.info().computeUnits : 256u);
-    const size_t cells = size_t(std::popcount(classes_)) * (map.cellMask + 1);
-    map.scanBlocks = static_cast<unsigned>(std::clamp<size_t>(cells / 256, 1, scanBlocksMax));
-    counts_ = Buffer<uint32_t>(device_, cells * map.chunks, "camera cell counts");
-    blockSums_ = Buffer<uint32_t>(device_, map.scanBlocks, "camera scan blocks");
-    cellStart_ = Buffer<uint32_t>(device_, cells + 1, "camera cells");
-}
-
-void CameraMapStage::makeRoom(uint64_t points) {
-    points_.map.photonStride = static_cast<unsigned>(points + vectorWidth);
-    sorted_ = Buffer<uint32_t>();
-    sorted_ = Buffer<uint32_t>(device_, pointFields * points_.map.photonStride, "camera points sorted");
-    sorted_.fill(0); // lanes beyond the last point are read, with weight 0: they must be finite
+    points_.map = map;
 }
 
 std::vector<shared::PointRegionCount> CameraMapStage::traceCameraPoints() {
@@ -109,25 +90,17 @@ std::vector<shared::PointRegionCount> CameraMapStage::traceCameraPoints() {
             points = std::max(points, count.wanted);
             borders = std::max(borders, count.wantedBorders);
         }
-        if (points <= points_.map.regionCapacity && borders <= points_.borderCapacity) return counts;
-        if (points > points_.map.regionCapacity) points_.map.regionCapacity = points + points / 4;
+        unsigned& capacity = index_.map().regionCapacity;
+        if (points <= capacity && borders <= points_.borderCapacity) return counts;
+        if (points > capacity) capacity = points + points / 4;
         if (borders > points_.borderCapacity) points_.borderCapacity = borders + borders / 4;
-        makeIndex();
+        makeRegions();
     }
 }
 
-void CameraMapStage::index(uint64_t points) {
-    auto& map = points_.map;
-    if (points + vectorWidth > map.photonStride) makeRoom(points + points / 4);
-    countPoints_.launchFew(map.chunks, traced_, regions_, geometry_.tables, counts_, map);
-    sumBlocks_.launchFew(map.scanBlocks, counts_, blockSums_, map);
-    scanCells_.launchFew(map.scanBlocks, counts_, blockSums_, cellStart_, map);
-    scatterPoints_.launchFew(map.chunks, traced_, regions_, geometry_.tables, counts_, sorted_, map);
-}
-
 void CameraMapStage::splatPhotons(CameraMapPassCount& total) {
-    splatPhotons_.launch(photonParams_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, cellStart_,
-                         sorted_, traced_, borders_, sums_, photonRegions_, photonParams_, points_);
+    splatPhotons_.launch(photonParams_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, index_.cellStart(),
+                         index_.sorted(), traced_, borders_, sums_, photonRegions_, photonParams_, points_);
     for (const auto& count : photonRegions_.read()) {
         total.cutPaths += count.cutPaths;
         total.nonFinite += count.nonFinite;
@@ -138,10 +111,10 @@ void CameraMapStage::splatPhotons(CameraMapPassCount& total) {
 
 CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius,
                                        float volumeScale) {
-    std::copy(radius.begin(), radius.end(), points_.map.radius);
-    points_.map.volumeScale = volumeScale;
+    std::copy(radius.begin(), radius.end(), index_.map().radius);
+    index_.map().volumeScale = volumeScale;
     cameraParams_.pass = photonParams_.pass = pass;
-    cameraParams_.map = points_.map;
+    cameraParams_.map = points_.map = index_.map();
     CameraMapPassCount total;
     uint64_t stored = 0;
     for (const auto& count : traceCameraPoints()) {
@@ -151,25 +124,14 @@ CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LI
         total.throughputCut += count.cutThroughput;
     }
     if (classes_ != 0) {
-        index(stored);
-        total.points = pointsBySlot();
+        index_.sort(traced_, regions_, geometry_, stored);
+        total.points = index_.countBySlot();
+        points_.map = index_.map();
         splatPhotons(total);
     }
     addSamples_.launch(film_.pixels(), samples_, sums_, film_.sums(), film_.counterBuffer(),
                        static_cast<unsigned>(film_.pixels()), points_.quantaPerRadiance);
     return total;
-}
-
-std::array<uint64_t, PHOTON_SLOTS> CameraMapStage::pointsBySlot() const {
-    std::array<uint64_t, PHOTON_SLOTS> points{};
-    size_t first = 0; // cell where the slot begins; its points stand between the starts of two slots
-    for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
-        if (!(classes_ >> slot & 1)) continue;
-        const size_t end = first + points_.map.cellMask + 1;
-        points[slot] = cellStart_.read(end, 1).front() - cellStart_.read(first, 1).front();
-        first = end;
-    }
-    return points;
 }
 
 } // namespace quasilux

@@ -1,8 +1,8 @@
 // A pass in the camera map's order: camera points are stored and indexed, then photons are splatted to them on the fly.
 #pragma once
 
+#include "render/cell_index.h"
 #include "render/film.h"
-#include "render/photon_stage.h"
 
 namespace quasilux {
 
@@ -32,32 +32,30 @@ public:
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : photonParams_.paths; }
     /// Bytes of a camera point, as traced and in the index, and of the border record that some have.
-    static size_t pointBytes();
+    size_t pointBytes() const { return sizeof(shared::CameraPoint) + index_.recordBytes(); }
     static size_t borderBytes() { return sizeof(shared::PointBorder); }
 
 private:
     std::vector<shared::PointRegionCount> traceCameraPoints();
-    void makeIndex();               // for the capacity of the regions
-    void makeRoom(uint64_t points); // in the sorted arrays
-    void index(uint64_t points);
-    std::array<uint64_t, PHOTON_SLOTS> pointsBySlot() const;
+    void makeRegions(); // of points as traced, for the capacity of the regions
     void splatPhotons(CameraMapPassCount& total);
 
     Device& device_;
     const GeometryBuffers& geometry_;
     Film& film_;
-    Program cameraTracing_, photonTracing_, indexing_;
-    Kernel traceCameraPoints_, addSamples_, splatPhotons_, countPoints_, sumBlocks_, scanCells_, scatterPoints_;
+    Program cameraTracing_, photonTracing_;
+    Kernel traceCameraPoints_, addSamples_, splatPhotons_;
+    CellIndex index_;
     shared::CameraParams cameraParams_;
     shared::PhotonParams photonParams_;
-    shared::PointParams points_{};
-    unsigned classes_; // bits 1 << slot
+    shared::PointParams points_{}; // with a copy of the index's map
+    unsigned classes_;             // bits 1 << slot
     Buffer<shared::CameraPoint> traced_;
     Buffer<shared::PointBorder> borders_;
     Buffer<shared::PointRegionCount> regions_;
     Buffer<shared::RegionCount> photonRegions_;
     Buffer<float> samples_;
-    Buffer<uint32_t> sums_, counts_, blockSums_, cellStart_, sorted_;
+    Buffer<uint32_t> sums_;
 };
 
 } // namespace quasilux

@@ -9,9 +9,10 @@ CameraStage::CameraStage(Device& device, const std::string& options, const Geome
 
 void CameraStage::run(unsigned pass, const PhotonStage& photons) {
     params_.pass = pass;
-    params_.map = photons.map();
-    traceCameraPaths_.launch(film_.pixels(), geometry_.nodes, geometry_.blocks, geometry_.tables, photons.cellStart(),
-                             photons.sorted(), film_.sums(), film_.counterBuffer(), params_);
+    params_.map = photons.index().map();
+    traceCameraPaths_.launch(film_.pixels(), geometry_.nodes, geometry_.blocks, geometry_.tables,
+                             photons.index().cellStart(), photons.index().sorted(), film_.sums(), film_.counterBuffer(),
+                             params_);
 }
 
 } // namespace quasilux

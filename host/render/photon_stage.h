@@ -1,9 +1,7 @@
 // Stages 1 and 2 of a pass: trace photons by kernels/photon_trace.cl, index them by kernels/photon_map.cl.
 #pragma once
 
-#include "device/program.h"
-#include "pass_types.h"
-#include "render/geometry_buffers.h"
+#include "render/cell_index.h"
 
 #include <array>
 #include <cstdint>
@@ -28,9 +26,6 @@ public:
     /// size.
     PhotonPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
 
-    /// Photons by slot that `paths` emitted ones leave: a pilot, traced apart from all passes.
-    std::array<uint64_t, PHOTON_SLOTS> pilot(unsigned paths, const std::array<float, LIGHT_CLASSES>& radius);
-
     /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more;
     /// about `expectedPhotons` are then stored in a pass.
     void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability, double expectedPhotons);
@@ -38,33 +33,24 @@ public:
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : params_.paths; }
     /// Bytes of a photon, as traced and in the map.
-    size_t photonBytes() const { return sizeof(shared::Photon) + fields() * sizeof(uint32_t); }
+    size_t photonBytes() const { return sizeof(shared::Photon) + index_.recordBytes(); }
 
-    const Buffer<uint32_t>& cellStart() const { return cellStart_; }
-    const Buffer<uint32_t>& sorted() const { return sorted_; }
-    const shared::MapParams& map() const { return map_; }
-    double buildSeconds() const { return tracing_.buildSeconds() + indexing_.buildSeconds(); }
+    const CellIndex& index() const { return index_; }
+    double buildSeconds() const { return tracing_.buildSeconds() + index_.buildSeconds(); }
 
 private:
     std::vector<shared::RegionCount> trace();
-    size_t fields() const { return storesDepth_ ? 9 : 8; }
     void makeRegions(unsigned capacity); // of photons as traced
-    void makeRoom(uint64_t photons);     // in the sorted arrays
-    void index(uint64_t photons);
-    std::array<uint64_t, PHOTON_SLOTS> storedBySlot() const;
 
     Device& device_;
     const GeometryBuffers& geometry_;
-    Program tracing_, indexing_;
-    Kernel tracePhotons_, countPhotons_, sumBlocks_, scanCells_, scatterPhotons_;
+    Program tracing_;
+    Kernel tracePhotons_;
+    CellIndex index_;
     shared::PhotonParams params_;
-    shared::MapParams map_{};
     unsigned classes_; // bits 1 << slot
-    unsigned classSlots_;
-    bool storesDepth_;
     Buffer<shared::Photon> photons_;
     Buffer<shared::RegionCount> regions_;
-    Buffer<uint32_t> counts_, blockSums_, cellStart_, sorted_;
 };
 
 } // namespace quasilux

@@ -14,6 +14,7 @@ namespace quasilux {
 namespace {
 
 constexpr unsigned pilotPaths = 2048;
+constexpr unsigned pilotPass = UINT32_MAX; // no render gets there
 constexpr double volumePhotonsPerPath = 8; // kept of a class, per photon emitted
 
 using Clock = std::chrono::steady_clock;
@@ -124,41 +125,35 @@ struct Renderer::Stages {
         const auto photon = photonParams(scene, flat, settings);
         const auto path = cameraParams(flat, settings, photon.maxDepth);
         const unsigned classes = photonClasses(flat.features, settings);
+        const Thinning thinning = flat.media.empty() ? Thinning{} : pilot(photon, classes);
         if (settings.map == MapOrder::camera) {
             cameraMap.emplace(device, options, geometry, film, path, photon, classes, meanRadiance(flat));
-            if (!flat.media.empty()) cameraMap->thinVolume(pilot(photon, classes).keepProbability);
+            cameraMap->thinVolume(thinning.keepProbability);
             return;
         }
         photons.emplace(device, options, geometry, photon, classes, compiledFeatures(flat, settings).depthLimit);
-        camera.emplace(device, options, geometry, film, path);
-        if (flat.media.empty()) return;
-        const Thinning thinning = thinningBy(*photons);
         photons->thinVolume(thinning.keepProbability, thinning.expectedPhotons);
+        camera.emplace(device, options, geometry, film, path);
     }
 
     // Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
     struct Thinning {
-        std::array<float, LIGHT_CLASSES> keepProbability{};
+        std::array<float, LIGHT_CLASSES> keepProbability{1, 1, 1, 1};
         double expectedPhotons = 0;
     };
 
-    // For the camera map, which has no photon stage: the orders are to keep the same photons.
-    Thinning pilot(shared::PhotonParams params, unsigned classes) {
+    // Traces a few photons apart from all passes and counts what they leave.
+    Thinning pilot(shared::PhotonParams params, unsigned classes) const {
         params.paths = std::min(pilotPaths, params.paths);
         PhotonStage stage(device, options, geometry, params, classes, compiledFeatures(flat, settings).depthLimit);
-        return thinningBy(stage);
-    }
-
-    Thinning thinningBy(PhotonStage& stage) const {
-        const unsigned paths = std::min(pilotPaths, report.photonsPerPass);
-        const auto counted = stage.pilot(paths, radii(0));
+        const auto counted = stage.run(pilotPass, radii(0), volumeScale(0)).stored;
+        const double passesOverPilot = double(report.photonsPerPass) / params.paths;
         Thinning thinning;
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
-            const double expected = double(counted[VOLUME_SLOT(c)]) * report.photonsPerPass / paths;
+            const double expected = passesOverPilot * double(counted[VOLUME_SLOT(c)]);
             const double wanted = volumePhotonsPerPath * report.photonsPerPass;
             thinning.keepProbability[c] = static_cast<float>(std::min(1.0, wanted / std::max(expected, 1.0)));
-            thinning.expectedPhotons +=
-                thinning.keepProbability[c] * expected + double(counted[c]) * report.photonsPerPass / paths;
+            thinning.expectedPhotons += thinning.keepProbability[c] * expected + passesOverPilot * double(counted[c]);
         }
         return thinning;
     }
@@ -200,7 +195,7 @@ struct Renderer::Stages {
             if (count.points[slot] > 0) counters.cameraPointsStored[slotName(slot)] += count.points[slot];
             stored += count.points[slot];
         }
-        noteMapSize(stored, stored * CameraMapStage::pointBytes() + count.borders * CameraMapStage::borderBytes());
+        noteMapSize(stored, stored * cameraMap->pointBytes() + count.borders * CameraMapStage::borderBytes());
         counters.photonsEmitted += cameraMap->photonsPerPass();
         counters.cutPaths += count.cutPaths;
         counters.nonFinite += count.nonFinite;

@@ -68,10 +68,10 @@ PhotonIndex indexPhotons(const std::vector<shared::Photon>& photons, const Photo
     index.sorted = Buffer<uint32_t>(device, size_t(settings.storesDepth ? 9 : 8) * map.photonStride, "photons sorted");
     index.sorted.fill(0);
     Buffer<uint32_t> tables(device, 1, "scene tables"); // photons in media alone read them
-    program.kernel("countPhotons").launchFew(map.chunks, tracedBuffer, regionBuffer, tables, cellCounts, map);
+    program.kernel("countRecords").launchFew(map.chunks, tracedBuffer, regionBuffer, tables, cellCounts, map);
     program.kernel("sumBlocks").launchFew(map.scanBlocks, cellCounts, blockSums, map);
     program.kernel("scanCells").launchFew(map.scanBlocks, cellCounts, blockSums, index.cellStart, map);
-    program.kernel("scatterPhotons")
+    program.kernel("scatterRecords")
         .launchFew(map.chunks, tracedBuffer, regionBuffer, tables, cellCounts, index.sorted, map);
     return index;
 }
