@@ -58,7 +58,8 @@ double meanReference(const Pair& pair) {
         for (size_t c = 0; c < 3; ++c) sum += pair.reference.radiance[3 * pixel + c];
         count += 3;
     }
-    return sum / static_cast<double>(count);
+    const double mean = sum / static_cast<double>(count);
+    return std::isfinite(mean) ? mean : std::nan(""); // an infinite floor would make every error 0
 }
 
 /// Share of an image's noise in relMSE.

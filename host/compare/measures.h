@@ -12,7 +12,7 @@ namespace quasilux {
 
 struct CompareSettings {
     /// relMSE of the reference's noise where it has no standard errors: by region name, "" for those not named.
-    std::map<std::string, double> referenceNoise;
+    std::map<std::string, double> referenceNoise = {};
     bool netOfImageNoise = false; ///< subtract the image's own noise too
     size_t maximumNonFinite = 0;  ///< up to so many pixels that are not finite are left out instead of spoiling sums
     size_t worstPixels = 5;
