@@ -42,6 +42,9 @@ TEST_F(CommandLineTest, HelpStatesEveryOptionWithUnitAndDefault) {
                     "--quiet",
                     "--exposure",
                     "--exposure-scale"}},
+        {"compare",
+         {"--mask", "--region", "--html", "--reference-stderr", "--max-relmse", "--max-bias", "--max-nonfinite",
+          "--json"}},
         {"devices", {"--json"}},
         {"info", {"--json", "--bdd", "--device", "-D"}}};
     const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/command-line.md");
@@ -70,7 +73,7 @@ TEST_F(CommandLineTest, HelpStatesEveryOptionWithUnitAndDefault) {
 TEST_F(CommandLineTest, TopLevelHelpAndVersion) {
     const Outcome help = run({"--help"});
     EXPECT_EQ(help.exitCode, 0);
-    for (const char* command : {"render", "devices", "info"}) EXPECT_THAT(help.output, HasSubstr(command));
+    for (const char* command : {"render", "compare", "devices", "info"}) EXPECT_THAT(help.output, HasSubstr(command));
     const Outcome version = run({"--version"});
     EXPECT_EQ(version.exitCode, 0);
     EXPECT_EQ(version.output, "quasilux " QUASILUX_VERSION "\n");
@@ -92,7 +95,7 @@ TEST_F(CommandLineTest, DevicesAreListedAsTableAndJson) {
 }
 
 TEST_F(CommandLineTest, UnknownCommandsAndArgumentsAreRefused) {
-    expectRefused({}, "no command given, expected render, devices or info");
+    expectRefused({}, "no command given, expected render, compare, devices or info");
     expectRefused({"rendr"}, "unknown argument 'rendr', did you mean 'render'?");
     expectRefused({"render"}, "SCENE is required");
     expectRefused({"render", "scene.xml", "--sed", "4"}, "did you mean '--seed'?");

@@ -45,11 +45,13 @@ std::vector<std::string> commandsOf(const std::string& markdown, const std::stri
     return commands;
 }
 
-/// The same command at a hundredth of its work: one pass of a small image, no stop rule of its own.
+/// The same command at a hundredth of its work: one pass of a small image, no stop rule of its own. An image that is
+/// compared with a reference keeps its size.
 std::string shortened(const std::string& command) {
     if (command.rfind("quasilux render", 0) != 0) return command;
     const std::regex stopRule(" --(time|passes|error)[ =][^ ]+");
-    return std::regex_replace(command, stopRule, "") + " --passes 1 -D resolution=16";
+    const bool compared = command.find("out/compared.exr") != std::string::npos;
+    return std::regex_replace(command, stopRule, "") + " --passes 1" + (compared ? "" : " -D resolution=16");
 }
 
 /// Runs a command in a folder that has the scenes and an empty out/; the exit code.

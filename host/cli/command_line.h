@@ -1,9 +1,10 @@
-// The program's commands: render, devices, info.
+// The program's commands: render, compare, devices, info.
 #pragma once
 
 namespace quasilux {
 
-/// Exit code: 0 done, 1 the device or the program failed, 2 bad input, 130 interrupted before the first pass.
+/// Exit code: 0 done, 1 the device or the program failed or a comparison
+/// exceeded a threshold, 2 bad input, 130 interrupted before the first pass.
 int runCommandLine(int argc, char** argv);
 
 } // namespace quasilux

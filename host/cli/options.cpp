@@ -195,6 +195,8 @@ void declareOptions(CLI::App& app, Options& options) {
     declareSettings(render, options.render);
     declareDevice(render, options.render);
 
+    declareCompare(app, options.compare);
+
     CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices");
     devices.add_flag("--json", options.devicesJson, "The list on stdout as a JSON array (default: off, a table)");
 

@@ -1,6 +1,7 @@
 // What the command line can say: the one source of --help.
 #pragma once
 
+#include "cli/compare_options.h"
 #include "output/png.h"
 #include "render/settings.h"
 
@@ -42,6 +43,7 @@ struct RenderOptions : SceneOptions {
 struct Options {
     RenderOptions render;
     SceneOptions info;
+    CompareOptions compare;
     bool devicesJson = false;
 };
 
