@@ -78,16 +78,15 @@ Picture squarePicture(const Comparison& comparison) {
 }
 
 Picture standardErrorPicture(const RadianceImage& image, const RadianceImage& reference) {
+    if (image.standardError.empty() && reference.standardError.empty()) return {};
     Picture picture;
     for (size_t i = 0; i < image.radiance.size(); i += 3) {
-        double largest = 0;
-        for (size_t c = 0; c < 3; ++c) {
-            const auto error = errorInStandardErrors(image, reference, i + c);
-            if (!error) return {};
-            if (std::abs(*error) > std::abs(largest)) largest = *error;
-        }
-        const bool finite = std::isfinite(luminance(&image.radiance[i]) - luminance(&reference.radiance[i]));
-        addSigned(picture, finite ? largest / standardErrorScale : std::nan(""));
+        // Channels of a pixel come from the same paths, so their errors add up as they are, not as squares.
+        double variance = 0;
+        for (const RadianceImage* side : {&image, &reference})
+            if (!side->standardError.empty()) variance += std::pow(luminance(&side->standardError[i]), 2);
+        const double difference = luminance(&image.radiance[i]) - luminance(&reference.radiance[i]);
+        addSigned(picture, difference == 0 ? 0 : difference / std::sqrt(variance) / standardErrorScale);
     }
     return picture;
 }

@@ -21,7 +21,7 @@ inline constexpr double standardErrorScale = 5;                    ///< standard
 Picture signedPicture(const RadianceImage& image, const RadianceImage& reference);
 /// relMSE of each pixel on a logarithmic scale from black over red and yellow to white.
 Picture squarePicture(const Comparison& comparison);
-/// Difference in standard errors, of the channel where that is largest: colours as of signedPicture(). Empty where no standard error is known.
+/// Difference of luminance in its standard errors: colours as of signedPicture(). Empty where no standard error is known.
 Picture standardErrorPicture(const RadianceImage& image, const RadianceImage& reference);
 
 /// Radiance with 8 bits to the mantissa of each channel and a common exponent (Ward 1991, Real Pixels): the upper half of

@@ -14,11 +14,11 @@ namespace {
 constexpr const char* head = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{}</title><style>
 body {{ font: 15px/1.45 system-ui, sans-serif; margin: 24px; color: #222; background: #fafafa; }}
-figure {{ display: inline-block; margin: 0 16px 16px 0; vertical-align: top; }}
+figure {{ display: inline-block; margin: 0 16px 16px 0; vertical-align: top; width: min-content; }}
 canvas, img {{ image-rendering: pixelated; width: {}px; max-width: 95vw; display: block; background: #888; }}
 canvas {{ cursor: crosshair; }}
 table {{ border-collapse: collapse; margin: 12px 0; }}
-td, th {{ padding: 3px 12px; border-bottom: 1px solid #ddd; text-align: right; font-variant-numeric: tabular-nums; }}
+td, th {{ padding: 3px 12px; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }}
 td:first-child, th:first-child {{ text-align: left; }}
 input {{ width: 320px; vertical-align: middle; }}
 output {{ font-family: monospace; }}
