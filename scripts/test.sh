@@ -13,9 +13,11 @@ passed=0
 failed=0
 failures=()
 
+phase() { echo "== $1 (after $SECONDS s)"; }
+
 # check NAME COMMAND...: one check that passes or fails as a whole.
 check() {
-    echo "== $1"
+    phase "$1"
     if "${@:2}"; then
         passed=$((passed + 1))
     else
@@ -54,19 +56,19 @@ analysisIsClean() {
 bash scripts/setup.sh
 mkdir -p "$logs"
 
-echo "== build"
+phase "build"
 cmake --preset ci
 cmake --build --preset ci
 check "layout of the sources (clang-format)" formatIsRight
 check "static analysis (clang-tidy)" analysisIsClean
 
-echo "== tests without a device, under the address and undefined-behaviour sanitizers"
+phase "tests without a device, under the address and undefined-behaviour sanitizers"
 cmake --preset asan
 cmake --build --preset asan --target "${hostTests[@]}"
 # Libraries loaded by OpenImageIO keep memory until the program ends.
 ASAN_OPTIONS=detect_leaks=0 runTests asan --tests-regex "^($(IFS='|'; echo "${hostTests[*]}"))\$"
 
-echo "== all tests"
+phase "all tests"
 runTests ci
 
 ((failed == 0)) || { cat "$logs/clang-tidy.log"; printf '== FAILED: %s\n' "${failures[@]}"; }
