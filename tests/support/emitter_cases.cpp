@@ -91,6 +91,20 @@ void setSelection(std::vector<shared::Emitter>& emitters, const std::vector<doub
     emitters.back().selectionCdf = 1;
 }
 
+shared::Emitter testRectangle(int kind) {
+    if (kind == 0) return makeRectangle({-0.25, -0.25, 1}, {0.5, 0, 0}, {0, 0.5, 0});
+    const glm::dvec3 u = glm::normalize(glm::dvec3(1, 2, -0.5)),
+                     v = glm::normalize(glm::cross(u, glm::dvec3(0.3, -1, 0.8)));
+    return makeRectangle({10, -5, 3}, 0.5 * u, 0.02 * v);
+}
+
+EmitterMixture mixedEmitters() {
+    auto [mesh, triangles] = makeTriangles({{{0, 0, 5}, {1, 0, 0}, {0, 1, 0}}, {{4, 0, 5}, {0, 2, 0}, {1, 0, 1}}});
+    EmitterMixture m{{testRectangle(0), mesh, makeSphere({-3, 0, 2}, 0.5, 1), makePoint({0, 3, 2})}, triangles};
+    setSelection(m.emitters, {0.1, 0.4, 0.3, 0.2});
+    return m;
+}
+
 std::vector<SampledEmitter> sampleDirections(const std::vector<shared::Emitter>& emitters,
                                              const std::vector<shared::EmitterTriangle>& triangles, dvec3 from,
                                              const std::vector<float>& numbers) {

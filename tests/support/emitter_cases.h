@@ -20,8 +20,19 @@ struct TriangleSpec {
 };
 std::pair<shared::Emitter, std::vector<shared::EmitterTriangle>> makeTriangles(const std::vector<TriangleSpec>& specs);
 
+/// Kind 0: a square of side 0.5 at z = 1 that shines upwards; 1: a thin rectangle, rotated in space.
+shared::Emitter testRectangle(int kind);
 /// Sets probabilities of selection and their sums.
 void setSelection(std::vector<shared::Emitter>& emitters, const std::vector<double>& probabilities);
+
+struct EmitterMixture {
+    std::vector<shared::Emitter> emitters;
+    std::vector<shared::EmitterTriangle> triangles;
+};
+/// One emitter of each kind, chosen with unequal probabilities.
+EmitterMixture mixedEmitters();
+
+inline glm::dvec3 wide(const shared::Packed3& p) { return {p.x, p.y, p.z}; }
 
 struct SampledEmitter {
     glm::dvec3 direction, radianceOverPdf;
