@@ -239,16 +239,5 @@ TEST(Settings, OfTheScene) {
     EXPECT_EQ(all.seed, UINT64_MAX);
 }
 
-TEST(Settings, TheInnermostBsdfDecides) {
-    using Kind = QuasiSpecularChoice::Kind;
-    const Bsdf bsdf = loadBsdf(R"(<bsdf type="blendbsdf"><?quasilux quasi-specular="no"?><bsdf type="diffuse"/>
-        <bsdf type="roughconductor"><?quasilux quasi-specular="auto"?></bsdf></bsdf>)");
-    EXPECT_EQ(bsdf.front.at(0).quasiSpecular.kind, Kind::no);
-    EXPECT_EQ(bsdf.front.at(1).quasiSpecular.kind, Kind::automatic);
-    EXPECT_TRUE(bsdf.front.at(1).quasiSpecular.stated);
-    const Bsdf listed = loadBsdf(R"(<bsdf type="phong"><?quasilux quasi-specular="specular, diffuse"?></bsdf>)");
-    EXPECT_THAT(listed.front.at(0).quasiSpecular.lobes, testing::ElementsAre("specular", "diffuse"));
-}
-
 } // namespace
 } // namespace quasilux
