@@ -58,6 +58,11 @@ typedef struct {
     SceneTables scene;
 } PhotonParams;
 
+/* Compiler option, 1: camera paths estimate the bias of what they take from photons too (docs/accuracy.md). */
+#ifndef ESTIMATE_BIAS
+#define ESTIMATE_BIAS 0
+#endif
+
 /* One indexed map per photon class, all in one cell table and one sorted set of photons (kernels/photon_grid.clh). */
 typedef struct {
     float radius[LIGHT_CLASSES]; /* density radius of this pass on surfaces = cell size */

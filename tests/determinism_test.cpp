@@ -34,6 +34,8 @@ void expectSameBits(const FilmImage& a, const FilmImage& b) {
     };
     EXPECT_TRUE(same(a.radiance, b.radiance));
     EXPECT_TRUE(same(a.standardError, b.standardError));
+    EXPECT_TRUE(same(a.bias, b.bias));
+    EXPECT_TRUE(same(a.biasError, b.biasError));
     for (size_t k = 0; k < a.components.size(); ++k) EXPECT_TRUE(same(a.components[k], b.components[k]));
 }
 
@@ -77,6 +79,8 @@ TEST(Determinism, MergedHalvesAreTheWholeToOneUnitInTheLastPlace) {
         EXPECT_LE(std::abs(merged.radiance[k] - whole.radiance[k]), unit) << "value " << k;
         EXPECT_NEAR(merged.standardError[k], whole.standardError[k], 1e-4f * whole.radiance[k] + 1e-7f)
             << "value " << k;
+        EXPECT_NEAR(merged.bias[k], whole.bias[k], 1e-5f * whole.radiance[k] + 1e-7f) << "value " << k;
+        EXPECT_NEAR(merged.biasError[k], whole.biasError[k], 1e-4f * whole.biasError[k] + 1e-7f) << "value " << k;
     }
 }
 

@@ -9,9 +9,10 @@ namespace quasilux {
 
 class Film {
 public:
-    Film(Device& device, unsigned width, unsigned height);
+    /// `estimatesBias`: the kernels were compiled with ESTIMATE_BIAS.
+    Film(Device& device, unsigned width, unsigned height, bool estimatesBias);
 
-    /// Means over `passes` and their standard errors.
+    /// Means over `passes`, their standard errors and bias.
     FilmImage develop(unsigned passes) const;
     /// Samples dropped and paths cut since the beginning.
     shared::CameraCounters counters() const { return counters_.read().front(); }
@@ -22,6 +23,8 @@ public:
 
 private:
     unsigned width_, height_;
+    bool estimatesBias_;
+    size_t pixelFloats_;
     Buffer<float> sums_;
     Buffer<shared::CameraCounters> counters_;
 };
