@@ -90,11 +90,11 @@ inline float traceCameraPath(const World* world, uint pixel, float3* components)
 }
 
 inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel,
-                            const float3* components) {
+                            const float3* components, float batchWeight) {
     float3 total = 0;
     for (uint k = 0; k < FILM_COMPONENTS; ++k) total += components[k];
     if (all(isfinite(total)))
-        addSample(film, pixel, components);
+        addSample(film, pixel, components, batchWeight);
     else
         atomic_inc(&counters->nonFinite);
 }
@@ -112,7 +112,7 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
         atomic_inc(&counters->cutPaths);
         atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
     }
-    addFiniteSample(film, counters, pixel, components);
+    addFiniteSample(film, counters, pixel, components, params.batchWeight);
 }
 #else
 /* Light that needs no photons is of these components only. */
@@ -152,7 +152,8 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
 
 /* Ends the pass: the sample of a pixel is what its path took and what photons have splatted to it. */
 __kernel void addSamples(__global const float* samples, __global uint* sums, __global float* film,
-                         __global CameraCounters* counters, const uint pixels, const float quantaPerRadiance) {
+                         __global CameraCounters* counters, const uint pixels, const float quantaPerRadiance,
+                         const float batchWeight) {
     const uint pixel = get_global_id(0);
     if (pixel >= pixels) return;
     float3 components[FILM_SAMPLES];
@@ -160,6 +161,6 @@ __kernel void addSamples(__global const float* samples, __global uint* sums, __g
         components[c] = SPLAT_CLASSES >> c & 1 ? takeSplats(sums, pixel, c) / quantaPerRadiance : (float3)(0);
     components[LIGHT_DIRECT] += vload3(0, samples + (size_t)pixel * SAMPLE_FLOATS);
     components[FILM_EMISSION] = vload3(1, samples + (size_t)pixel * SAMPLE_FLOATS);
-    addFiniteSample(film, counters, pixel, components);
+    addFiniteSample(film, counters, pixel, components, batchWeight);
 }
 #endif

@@ -73,6 +73,7 @@ typedef struct {
     unsigned int regions, regionCapacity;
     unsigned int photonStride; /* capacity of the sorted arrays, photons */
     unsigned int scanBlocks;
+    float biasWeight; /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
 } MapParams;
 
 typedef struct {
@@ -80,6 +81,7 @@ typedef struct {
     unsigned int pass;
     unsigned int bdd;
     unsigned int maxDepth;
+    float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
     Camera camera;
     MapParams map;
     SceneTables scene;

@@ -1,17 +1,17 @@
 #!/usr/bin/python3
 """Do renders tell their own error truly? Draws docs/figures/calibration.png and prints the table of docs/accuracy.md.
 
-    scripts/calibration.py [--scenes box plate] [--passes 4 16 64 256] [--seeds 8] [--program PROGRAM]
+    scripts/calibration.py [--scenes box plate] [--program PROGRAM]
 
 Each scene is rendered from several seeds for each number of passes. Predicted: the figures that each render writes into
 its statistics, averaged over the seeds as root mean squares. True: noise from the scatter between the seeds; bias from
 the difference between their mean and the reference, net of the noise of both. All relative, with the weights of relMSE.
-The box is rendered at 64 x 64 pixels, the plate at 160 x 120. Needs Debian's python3-numpy, python3-openimageio and
+The box is rendered at 64 x 64 pixels, the plate, whose reference is too noisy to tell its bias in single pixels, at
+160 x 120. What is in out/calibration already is not rendered again. Needs Debian's python3-numpy, python3-openimageio and
 python3-matplotlib.
 """
 import argparse
 import json
-import os
 import pathlib
 import subprocess
 from dataclasses import dataclass
@@ -36,6 +36,8 @@ class Scene:
     options: list
     reference: np.ndarray
     noise: float
+    passes: list
+    seeds: int
 
 
 @dataclass
@@ -54,14 +56,14 @@ def box():
     reference = box_reference()
     blocks = reference.pixels.reshape(BOX_PIXELS, 4, BOX_PIXELS, 4, 3).mean(axis=(1, 3))
     options = [ROOT / "scenes" / "cornell_phong.xml", "-D", f"resolution={BOX_PIXELS}"]
-    return Scene("modified Cornell box, 64 x 64", options, blocks, reference.noise.mean() / 16)
+    return Scene("modified Cornell box, 64 x 64", options, blocks, reference.noise.mean() / 16, [4, 16, 64, 256], 8)
 
 
 def plate():
     """The turbid plate on checkered paper, its phase function split by a level."""
     reference = plate_reference()
     options = [ROOT / "scenes" / "plate_checker.xml", "--quasi-specular", "level:0.1"]
-    return Scene("turbid plate, 160 x 120", options, reference.pixels, reference.noise.mean())
+    return Scene("turbid plate, 160 x 120", options, reference.pixels, reference.noise.mean(), [4, 16], 4)
 
 
 SCENES = {"box": box, "plate": plate}
@@ -82,7 +84,8 @@ def unbiased_square(samples, weight, offset):
     return ((mean - offset) ** 2 * weight).mean() - (samples.var(axis=0, ddof=1) / n * weight).mean()
 
 
-def calibrate(program, name, scene, passes, seeds, folder):
+def calibrate(program, name, scene, passes, folder):
+    seeds = scene.seeds
     renders = [render(program, scene, passes, seed, folder / f"{name}_{passes}_{seed}") for seed in range(1, seeds + 1)]
     images, biases = (np.array([r[k] for r in renders]) for k in (0, 1))
     told = [r[2]["error"]["total"] for r in renders]
@@ -126,8 +129,6 @@ def draw(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
-    parser.add_argument("--passes", nargs="+", type=int, default=[4, 16, 64, 256])
-    parser.add_argument("--seeds", type=int, default=8)
     parser.add_argument("--program", default=str(ROOT / "build" / "release" / "quasilux"))
     options = parser.parse_args()
     folder = pathlib.Path(ROOT / "out" / "calibration")
@@ -139,14 +140,13 @@ def main():
     for name in options.scenes:
         scene = SCENES[name]()
         rows = results.setdefault(scene.title, {})
-        for passes in options.passes:
-            c = rows[passes] = calibrate(options.program, name, scene, passes, options.seeds, folder)
+        for passes in scene.passes:
+            c = rows[passes] = calibrate(options.program, name, scene, passes, folder)
             cells = [f"{100 * c.noise:.2f} %", f"{100 * c.told_noise:.2f} %", f"{c.told_noise / c.noise:.2f}"]
             ratio = f"{c.told_bias / c.bias:.2f}" if c.bias > 0 else "-"
             cells += [f"{100 * c.bias:.2f} %", f"{100 * c.told_bias:.2f} %", ratio, f"{c.slope:.2f}"]
             print(f"| {scene.title} | {passes} | " + " | ".join(cells) + " |", flush=True)
     draw(results)
-    print(f"\n{options.seeds} seeds, load average {os.getloadavg()[0]:.1f}")
 
 
 if __name__ == "__main__":

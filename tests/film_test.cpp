@@ -13,7 +13,8 @@ namespace quasilux {
 namespace {
 
 // Layout of kernels/film.clh.
-constexpr unsigned sumFloats = 6, pixelFloats = (FILM_COMPONENTS + 1 + LIGHT_CLASSES) * sumFloats;
+constexpr unsigned sumFloats = 6,
+                   pixelFloats = (FILM_COMPONENTS + 1 + LIGHT_CLASSES) * sumFloats + (1 + LIGHT_CLASSES) * 3;
 constexpr unsigned classSquares = FILM_COMPONENTS + 1;
 
 constexpr int chiSquaredTests = 12; // upper bound of their number in this program
