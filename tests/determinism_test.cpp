@@ -50,6 +50,17 @@ TEST(Determinism, WorkGroupSizeDoesNotMatter) {
     for (const unsigned size : {1u, 7u, 32u, 256u}) expectSameBits(expected, renderPasses(0, 3, smallSettings(), size));
 }
 
+// Beside the image, not in it: the estimate of bias changes no bit of what was there without it.
+TEST(Determinism, EstimatingTheBiasDoesNotChangeTheImage) {
+    auto without = smallSettings();
+    without.estimateBias = false;
+    const auto plain = renderPasses(0, 3, without), estimated = renderPasses(0, 3, smallSettings());
+    EXPECT_EQ(plain.radiance, estimated.radiance);
+    EXPECT_EQ(plain.standardError, estimated.standardError);
+    EXPECT_TRUE(plain.bias.empty());
+    EXPECT_NE(estimated.bias, std::vector<float>(estimated.bias.size()));
+}
+
 // Negative control: the comparison sees another seed.
 TEST(Determinism, AnotherSeedGivesAnotherImage) {
     auto other = smallSettings();

@@ -28,11 +28,13 @@ TEST(ErrorEstimate, IsRelativeToTheValueWithAFloor) {
     EXPECT_NEAR(estimateError(image).total.noiseRms, 0.5 / scale, 1e-6);
     EXPECT_NEAR(estimateError(image).total.noiseMean, 0.5 / scale, 1e-3 * 0.5);
     EXPECT_NEAR(estimateError(image).total.noisePercentile95, 0.5 / scale, 1e-3 * 0.5);
-    // One black pixel of 20: the mean is 1.9, so it is divided by 0.19.
-    for (size_t c = 0; c < 3; ++c) image.radiance[c] = 0;
-    const double others = std::hypot(2, 0.19);
-    EXPECT_NEAR(estimateError(image).total.noiseMean, (19 * 0.5 / others + 0.5 / 0.19) / 20, 1e-3);
-    EXPECT_NEAR(estimateError(image).total.noisePercentile95, 0.5 / others, 0.01) << "rank 19 of 20";
+    // The left half black: the mean is 1, so four columns are divided by 0.1, the next by the mean over 3 x 3 pixels.
+    for (size_t k = 0; k < image.radiance.size(); ++k)
+        if (k / 3 % 10 < 5) image.radiance[k] = 0;
+    const double sum =
+        4 * 0.5 / 0.1 + 0.5 / std::hypot(2.0 / 3, 0.1) + 0.5 / std::hypot(4.0 / 3, 0.1) + 4 * 0.5 / std::hypot(2, 0.1);
+    EXPECT_NEAR(estimateError(image).total.noiseMean, 2 * sum / 20, 1e-3 * sum);
+    EXPECT_NEAR(estimateError(image).total.noisePercentile95, 5, 0.05);
     // One channel of three.
     image = uniformImage(1, 1, 1.f);
     image.standardError = {0, 0.1f, 0};

@@ -6,7 +6,8 @@
 namespace quasilux {
 
 /// Of one component, or of the whole image. The relative error of a pixel is the root mean square over R, G, B of
-/// error / sqrt(value^2 + 0.01 m^2), with the value of the whole image there and m its mean: the weight of relMSE.
+/// error / sqrt(value^2 + 0.01 m^2), with the value of the whole image in the 3 x 3 pixels about it and m its mean: the
+/// weight of relMSE, free of the pixel's own noise.
 struct ErrorPart {
     double noiseMean = 0;         ///< standard error, mean over pixels; corrected for the few passes it comes from
     double noisePercentile95 = 0; ///< its 95th percentile over pixels, corrected likewise
