@@ -63,7 +63,7 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
     return scatterCameraPath(world, path, &s, &frame, wo, lobes, &choice, rng);
 }
 
-/* Light that the path of a pixel takes, by component. Returns the throughput, mean of R, G, B, with which it was cut, or
+/* Light that the path of a pixel takes, by component, and its bias. Returns the throughput, mean of R, G, B, with which it was cut, or
  * -1 where it ended by itself. */
 inline float traceCameraPath(const World* world, uint pixel, float3* components) {
     const CameraParams* params = world->params;
@@ -83,18 +83,18 @@ inline float traceCameraPath(const World* world, uint pixel, float3* components)
 #ifdef HAS_MEDIA
     path.medium = params->camera.medium;
 #endif
-    for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = 0;
+    for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
     uint event = 0;
     while (event < PATH_EVENTS_MAX && followCameraPath(world, &path, &rng, components)) ++event;
     return event < PATH_EVENTS_MAX ? -1 : (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
 }
 
 inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel,
-                            const float3* components) {
+                            const float3* components, float batchWeight) {
     float3 total = 0;
     for (uint k = 0; k < FILM_COMPONENTS; ++k) total += components[k];
     if (all(isfinite(total)))
-        addSample(film, pixel, components);
+        addSample(film, pixel, components, batchWeight);
     else
         atomic_inc(&counters->nonFinite);
 }
@@ -106,13 +106,13 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
     const uint pixel = get_global_id(0);
     if (pixel >= params.camera.width * params.camera.height) return;
     const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
-    float3 components[FILM_COMPONENTS];
+    float3 components[FILM_SAMPLES];
     const float cut = traceCameraPath(&world, pixel, components);
     if (cut >= 0) {
         atomic_inc(&counters->cutPaths);
         atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
     }
-    addFiniteSample(film, counters, pixel, components);
+    addFiniteSample(film, counters, pixel, components, params.batchWeight);
 }
 #else
 /* Light that needs no photons is of these components only. */
@@ -138,7 +138,7 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
     const uint last = min(first + store.pixelsPerRegion, params.camera.width * params.camera.height);
     for (uint pixel = first; pixel < last; ++pixel) {
         own.pixel = pixel;
-        float3 components[FILM_COMPONENTS];
+        float3 components[FILM_SAMPLES];
         const float cut = traceCameraPath(&world, pixel, components);
         if (cut >= 0) {
             ++own.count.cutPaths;
@@ -152,14 +152,15 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
 
 /* Ends the pass: the sample of a pixel is what its path took and what photons have splatted to it. */
 __kernel void addSamples(__global const float* samples, __global uint* sums, __global float* film,
-                         __global CameraCounters* counters, const uint pixels, const float quantaPerRadiance) {
+                         __global CameraCounters* counters, const uint pixels, const float quantaPerRadiance,
+                         const float batchWeight) {
     const uint pixel = get_global_id(0);
     if (pixel >= pixels) return;
-    float3 components[FILM_COMPONENTS];
+    float3 components[FILM_SAMPLES];
     for (uint c = 0; c < LIGHT_CLASSES; ++c)
         components[c] = SPLAT_CLASSES >> c & 1 ? takeSplats(sums, pixel, c) / quantaPerRadiance : (float3)(0);
     components[LIGHT_DIRECT] += vload3(0, samples + (size_t)pixel * SAMPLE_FLOATS);
     components[FILM_EMISSION] = vload3(1, samples + (size_t)pixel * SAMPLE_FLOATS);
-    addFiniteSample(film, counters, pixel, components);
+    addFiniteSample(film, counters, pixel, components, batchWeight);
 }
 #endif

@@ -58,6 +58,11 @@ typedef struct {
     SceneTables scene;
 } PhotonParams;
 
+/* Compiler option, 1: camera paths estimate the bias of what they take from photons too (docs/accuracy.md). */
+#ifndef ESTIMATE_BIAS
+#define ESTIMATE_BIAS 0
+#endif
+
 /* One indexed map per photon class, all in one cell table and one sorted set of photons (kernels/photon_grid.clh). */
 typedef struct {
     float radius[LIGHT_CLASSES]; /* density radius of this pass on surfaces = cell size */
@@ -68,6 +73,7 @@ typedef struct {
     unsigned int regions, regionCapacity;
     unsigned int photonStride; /* capacity of the sorted arrays, photons */
     unsigned int scanBlocks;
+    float biasWeight; /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
 } MapParams;
 
 typedef struct {
@@ -75,6 +81,7 @@ typedef struct {
     unsigned int pass;
     unsigned int bdd;
     unsigned int maxDepth;
+    float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
     Camera camera;
     MapParams map;
     SceneTables scene;

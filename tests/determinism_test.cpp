@@ -34,6 +34,8 @@ void expectSameBits(const FilmImage& a, const FilmImage& b) {
     };
     EXPECT_TRUE(same(a.radiance, b.radiance));
     EXPECT_TRUE(same(a.standardError, b.standardError));
+    EXPECT_TRUE(same(a.bias, b.bias));
+    EXPECT_TRUE(same(a.biasError, b.biasError));
     for (size_t k = 0; k < a.components.size(); ++k) EXPECT_TRUE(same(a.components[k], b.components[k]));
 }
 
@@ -46,6 +48,17 @@ TEST(Determinism, TwoRunsGiveTheSameBits) {
 TEST(Determinism, WorkGroupSizeDoesNotMatter) {
     const auto expected = renderPasses(0, 3, smallSettings(), 64);
     for (const unsigned size : {1u, 7u, 32u, 256u}) expectSameBits(expected, renderPasses(0, 3, smallSettings(), size));
+}
+
+// Beside the image, not in it: the estimate of bias changes no bit of what was there without it.
+TEST(Determinism, EstimatingTheBiasDoesNotChangeTheImage) {
+    auto without = smallSettings();
+    without.estimateBias = false;
+    const auto plain = renderPasses(0, 3, without), estimated = renderPasses(0, 3, smallSettings());
+    EXPECT_EQ(plain.radiance, estimated.radiance);
+    EXPECT_EQ(plain.standardError, estimated.standardError);
+    EXPECT_TRUE(plain.bias.empty());
+    EXPECT_NE(estimated.bias, std::vector<float>(estimated.bias.size()));
 }
 
 // Negative control: the comparison sees another seed.
@@ -77,6 +90,8 @@ TEST(Determinism, MergedHalvesAreTheWholeToOneUnitInTheLastPlace) {
         EXPECT_LE(std::abs(merged.radiance[k] - whole.radiance[k]), unit) << "value " << k;
         EXPECT_NEAR(merged.standardError[k], whole.standardError[k], 1e-4f * whole.radiance[k] + 1e-7f)
             << "value " << k;
+        EXPECT_NEAR(merged.bias[k], whole.bias[k], 1e-5f * whole.radiance[k] + 1e-7f) << "value " << k;
+        EXPECT_NEAR(merged.biasError[k], whole.biasError[k], 1e-4f * whole.biasError[k] + 1e-7f) << "value " << k;
     }
 }
 

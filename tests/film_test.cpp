@@ -13,7 +13,9 @@ namespace quasilux {
 namespace {
 
 // Layout of kernels/film.clh.
-constexpr unsigned sumFloats = 6, pixelFloats = (FILM_COMPONENTS + 1) * sumFloats;
+constexpr unsigned sumFloats = 6,
+                   pixelFloats = (FILM_COMPONENTS + 1 + LIGHT_CLASSES) * sumFloats + (1 + LIGHT_CLASSES) * 3;
+constexpr unsigned classSquares = FILM_COMPONENTS + 1;
 
 constexpr int chiSquaredTests = 12; // upper bound of their number in this program
 
@@ -53,17 +55,19 @@ TEST(Film, MillionSamplesAreSummedAsInDouble) {
     const auto samples = wildSamples(1'000'000, 1);
     const auto film = addSamples(samples, 1);
     for (unsigned channel = 0; channel < 3; ++channel) {
-        double sum = 0, squares = 0;
+        double sum = 0, squares = 0, totalSquares = 0;
         float plain = 0;
         for (const Float4& s : samples) {
             const float value = (&s.x)[channel], total = value + value * 0.5f;
             sum += value;
-            squares += total * total;
+            squares += double(value) * value;
+            totalSquares += total * total;
             plain += value;
         }
         EXPECT_NEAR(sumOf(film, 0, LIGHT_DIFFUSE, channel) / sum, 1, 1e-8);
         EXPECT_NEAR(sumOf(film, 0, FILM_EMISSION, channel) / (sum / 2), 1, 1e-8);
-        EXPECT_NEAR(sumOf(film, 0, FILM_COMPONENTS, channel) / squares, 1, 1e-8);
+        EXPECT_NEAR(sumOf(film, 0, FILM_COMPONENTS, channel) / totalSquares, 1, 1e-8);
+        EXPECT_NEAR(sumOf(film, 0, classSquares + LIGHT_DIFFUSE, channel) / squares, 1, 1e-7);
         EXPECT_EQ(sumOf(film, 0, LIGHT_CAUSTIC, channel), 0);
         EXPECT_GT(std::abs(plain / sum - 1), 1e-6) << "control: floats alone would do";
     }

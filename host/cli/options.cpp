@@ -145,8 +145,8 @@ void declareStop(CLI::App& command, StopRule& stop) {
         ->group(group);
     command
         .add_option("--error", stop.relativeError,
-                    "Estimated relative standard error to reach, mean over pixels, as a ratio: 0.01 is 1 % (default: "
-                    "no limit)")
+                    "Estimated relative error to reach, noise and bias together, as a ratio: 0.01 is 1 % (default: no "
+                    "limit)")
         ->type_name("RATIO")
         ->check(numberAbove(0, 1))
         ->group(group);

@@ -2,6 +2,7 @@
 #include "cli/render_command.h"
 
 #include "cli/interrupt.h"
+#include "cli/text_table.h"
 #include "output/atomic_file.h"
 #include "output/exr.h"
 #include "output/progress_line.h"
@@ -59,7 +60,8 @@ void printJsonSummary(const RenderRecord& record, const WrittenFiles& written) {
                            {"device", record.device.name},
                            {"passes", record.counters.passes},
                            {"seconds", record.counters.renderSeconds},
-                           {"relativeError", record.error.mean},
+                           {"relativeError", record.error.sum()},
+                           {"error", errorJson(record.error)},
                            {"interrupted", record.interrupted},
                            {"nonFinite", record.counters.nonFinite},
                            {"cutPaths", record.counters.cutPaths},
@@ -68,11 +70,31 @@ void printJsonSummary(const RenderRecord& record, const WrittenFiles& written) {
     fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
+// After the passes: the estimated error, then a table by component. Docs: docs/accuracy.md.
+void printError(const ErrorEstimate& error) {
+    if (!std::isfinite(error.sum())) { // after one pass nothing is known
+        fmt::print("\n");
+        return;
+    }
+    fmt::print(", estimated relative error {:.3g} %{}\n", 100 * error.sum(),
+               error.hasBias ? "" : " (noise only: --map camera does not know its bias)");
+    TextTable table({"relative error", "noise: mean", "95 % of pixels below", "rms", "bias: rms"});
+    const auto add = [&](const std::string& name, const ErrorPart& part) {
+        const auto percent = [](double ratio) { return fmt::format("{:.3g} %", 100 * ratio); };
+        table.add({name, percent(part.noiseMean), percent(part.noisePercentile95), percent(part.noiseRms),
+                   error.hasBias ? percent(part.biasRms) : "unknown"});
+    };
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+        if (error.components[c].noiseRms > 0) add(componentName(c), error.components[c]);
+    add("total", error.total);
+    fmt::print("{}", table.text());
+}
+
 void printSummary(const RenderRecord& record, const WrittenFiles& written) {
     fmt::print("{} {}, {:.1f} s", record.counters.passes, record.counters.passes == 1 ? "pass" : "passes",
                record.counters.renderSeconds);
-    if (std::isfinite(record.error.mean)) fmt::print(", estimated relative error {:.3g} %", 100 * record.error.mean);
-    fmt::print("{}\n", record.interrupted ? ", interrupted" : "");
+    if (record.interrupted) fmt::print(", interrupted");
+    printError(record.error);
     for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
     if (written.curve)
         fmt::print("exposure scale {:.6g} per W sr^-1 m^-2, white at {:.6g}\n", written.curve->scale,
@@ -106,7 +128,7 @@ RenderRecord makeRecord(const RenderOptions& options, const RenderSettings& sett
     record.workGroupSize = device.workGroupSize();
     record.report = renderer.report();
     record.counters = renderer.counters();
-    record.error = relativeError(image);
+    record.error = estimateError(image);
     record.kernels = device.timings();
     record.peakBufferBytes = device.allocatedBytes();
     record.interrupted = interruptFlag();

@@ -22,6 +22,10 @@ std::vector<Layer> layersOf(const FilmImage& image) {
     for (unsigned i = 0; i < FILM_COMPONENTS; ++i)
         if (!image.components[i].empty()) layers.push_back({componentName(i) + ".", &image.components[i]});
     if (!image.standardError.empty()) layers.push_back({"stderr.", &image.standardError});
+    if (!image.bias.empty()) {
+        layers.push_back({"bias.", &image.bias});
+        layers.push_back({"bias_stderr.", &image.biasError});
+    }
 
     const size_t expected = size_t{image.width} * image.height * 3;
     for (const auto& layer : layers)
@@ -30,6 +34,26 @@ std::vector<Layer> layersOf(const FilmImage& image) {
                                      std::to_string(layer.rgb->size()) + " values, expected " +
                                      std::to_string(expected));
     return layers;
+}
+
+/// Keys `quasilux:noiseMean` … of the whole image, `quasilux:diffuse.noiseMean` … of its components.
+void describeError(OIIO::ImageSpec& spec, const ErrorEstimate& error) {
+    if (!std::isfinite(error.sum())) return; // after one pass nothing is known
+    const auto real = [&](const std::string& key, double value) {
+        spec.attribute("quasilux:" + key, static_cast<float>(value));
+    };
+    const auto part = [&](const std::string& prefix, const ErrorPart& values) {
+        real(prefix + "noiseMean", values.noiseMean);
+        real(prefix + "noisePercentile95", values.noisePercentile95);
+        real(prefix + "noiseRms", values.noiseRms);
+        if (!error.hasBias) return;
+        real(prefix + "biasRms", values.biasRms);
+        real(prefix + "biasNoiseRms", values.biasNoiseRms);
+    };
+    real("relativeError", error.sum());
+    part("", error.total);
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+        if (error.components[c].noiseRms > 0) part(componentName(c) + '.', error.components[c]);
 }
 
 void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
@@ -60,7 +84,7 @@ void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
     whole("passes", record.counters.passes);
     text("nonFinite", std::to_string(record.counters.nonFinite));
     real("seconds", record.counters.renderSeconds);
-    if (std::isfinite(record.error.mean)) real("relativeError", record.error.mean);
+    describeError(spec, record.error);
 }
 
 /// Interleaves the layers a few rows at a time: with all layers at once a large image would take gigabytes.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/device.h"
+#include "render/error_estimate.h"
 #include "render/renderer.h"
 
 #include <map>
@@ -18,7 +19,7 @@ struct RenderRecord {
     unsigned workGroupSize = 0;
     SceneReport report;
     RenderCounters counters;
-    RelativeError error;
+    ErrorEstimate error;
     std::map<std::string, KernelTiming> kernels;
     uint64_t peakBufferBytes = 0;             ///< buffers are allocated once and kept, so their sum is the peak
     double loadSeconds = 0, writeSeconds = 0; ///< reading the scene; writing the images

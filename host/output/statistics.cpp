@@ -52,6 +52,29 @@ json countersJson(const RenderCounters& counters) {
             {"throughputCut", counters.throughputCut}};
 }
 
+namespace {
+
+json errorPartJson(const ErrorPart& part, bool hasBias) {
+    return {{"noiseMean", part.noiseMean},
+            {"noisePercentile95", part.noisePercentile95},
+            {"noiseRms", part.noiseRms},
+            {"biasRms", hasBias ? json(part.biasRms) : json(nullptr)},
+            {"biasNoiseRms", hasBias ? json(part.biasNoiseRms) : json(nullptr)}};
+}
+
+} // namespace
+
+json errorJson(const ErrorEstimate& error) {
+    json components = json::object();
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+        if (error.components[c].noiseRms > 0)
+            components[componentName(c)] = errorPartJson(error.components[c], error.hasBias);
+    return {{"relativeError", error.sum()},
+            {"relativeMse", error.relativeMse()},
+            {"total", errorPartJson(error.total, error.hasBias)},
+            {"components", components}};
+}
+
 json deviceJson(const DeviceInfo& device) {
     return {{"name", device.name},
             {"platform", device.platform},
@@ -118,7 +141,7 @@ json statisticsJson(const RenderRecord& record, const FilmImage& image) {
             {"device", device},
             {"sceneReport", sceneReportJson(record.report)},
             {"counters", countersJson(record.counters)},
-            {"error", {{"meanRelative", record.error.mean}, {"percentile95Relative", record.error.percentile95}}},
+            {"error", errorJson(record.error)},
             {"kernels", kernelsJson(record.kernels)},
             {"phases", phasesJson(record)},
             {"peakBufferBytes", record.peakBufferBytes}};

@@ -12,6 +12,7 @@ nlohmann::json statisticsJson(const RenderRecord& record, const FilmImage& image
 nlohmann::json deviceJson(const DeviceInfo& device);
 nlohmann::json settingsJson(const RenderSettings& settings);
 nlohmann::json sceneReportJson(const SceneReport& report);
+nlohmann::json errorJson(const ErrorEstimate& error);
 nlohmann::json countersJson(const RenderCounters& counters);
 
 /// Indented; whole or not at all. Throws std::runtime_error.

@@ -130,7 +130,8 @@ CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LI
         splatPhotons(total);
     }
     addSamples_.launch(film_.pixels(), samples_, sums_, film_.sums(), film_.counterBuffer(),
-                       static_cast<unsigned>(film_.pixels()), points_.quantaPerRadiance);
+                       static_cast<unsigned>(film_.pixels()), points_.quantaPerRadiance,
+                       film_.beginPass(pass).batchWeight);
     return total;
 }
 

@@ -10,6 +10,9 @@ CameraStage::CameraStage(Device& device, const std::string& options, const Geome
 void CameraStage::run(unsigned pass, const PhotonStage& photons) {
     params_.pass = pass;
     params_.map = photons.index().map();
+    const Film::Pass onFilm = film_.beginPass(pass);
+    params_.batchWeight = onFilm.batchWeight;
+    params_.map.biasWeight = onFilm.biasWeight;
     traceCameraPaths_.launch(film_.pixels(), geometry_.nodes, geometry_.blocks, geometry_.tables,
                              photons.index().cellStart(), photons.index().sorted(), film_.sums(), film_.counterBuffer(),
                              params_);

@@ -7,39 +7,99 @@ namespace quasilux {
 
 namespace {
 
-// Layout of kernels/film.clh: components, then the squares of their total; each R, G, B high parts, then low parts.
+// Layout of kernels/film.clh: compensated sums of the components, of the total's squares, of the squares of each class of
+// light; plain sums of the open batch, of the total and by class; with an estimate of the bias plain sums of it, of its squares
+// and of the open batch by class, then of squares and open batch of its total.
 constexpr size_t sumFloats = 6;
-constexpr size_t pixelFloats = (FILM_COMPONENTS + 1) * sumFloats;
+constexpr size_t totalSquares = FILM_COMPONENTS * sumFloats;
+constexpr size_t classSquares = totalSquares + sumFloats;
+constexpr size_t totalBatch = classSquares + LIGHT_CLASSES * sumFloats;
+constexpr size_t classBatch = totalBatch + 3;
+constexpr size_t biasSums = classBatch + LIGHT_CLASSES * 3;
+constexpr size_t biasFloats = LIGHT_CLASSES * 9 + 6;
+
+// Pixel positions are spread evenly over passes in a row, so batches tell more truly how the mean varies; but of few passes
+// single ones tell more surely. Bias is estimated in the middle half of each batch of four, about whose middle
+// the radii are even, and in all passes before: half the cost, and no change of its mean.
+constexpr unsigned singlePasses = 16, batchPasses = 4;
 
 double sumOf(const float* sum, size_t channel) { return double(sum[channel]) + sum[channel + 3]; }
 
-// Standard error of the mean of n values from their sum and sum of squares.
-double standardError(double sum, double squares, double n) {
-    if (n < 2) return 0;
-    return std::sqrt(std::max(0.0, squares - sum * sum / n) / (n * (n - 1)));
+// How often the film was added to.
+struct Counts {
+    double passes, batches;
+    double openWeight; // 1 / passes of the open batch, 0 if there is none
+};
+
+// Standard error of the mean from the sum over passes, the squares of batches, each divided by its number of passes, and
+// the sum over the open batch.
+float standardError(double sum, double squares, double open, const Counts& n) {
+    if (n.batches < 2) return 0;
+    const double all = squares + open * open * n.openWeight;
+    return static_cast<float>(std::sqrt(std::max(0.0, all - sum * sum / n.passes) / (n.passes * (n.batches - 1))));
 }
 
-void developPixel(const float* pixel, size_t first, double passes, FilmImage& image) {
+void developPixel(const float* pixel, size_t first, const Counts& n, FilmImage& image) {
     for (size_t channel = 0; channel < 3; ++channel) {
+        const size_t at = first + channel;
         double total = 0;
         for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
             const double sum = sumOf(pixel + k * sumFloats, channel);
-            image.components[k][first + channel] = static_cast<float>(sum / passes);
+            image.components[k][at] = static_cast<float>(sum / n.passes);
             total += sum;
+            if (k >= LIGHT_CLASSES) continue;
+            const double squares = sumOf(pixel + classSquares + k * sumFloats, channel);
+            image.componentError[k][at] = standardError(sum, squares, pixel[classBatch + 3 * k + channel], n);
         }
-        image.radiance[first + channel] = static_cast<float>(total / passes);
-        const double squares = sumOf(pixel + FILM_COMPONENTS * sumFloats, channel);
-        image.standardError[first + channel] = static_cast<float>(standardError(total, squares, passes));
+        image.radiance[at] = static_cast<float>(total / n.passes);
+        image.standardError[at] =
+            standardError(total, sumOf(pixel + totalSquares, channel), pixel[totalBatch + channel], n);
     }
+}
+
+void developBias(const float* bias, size_t first, const Counts& n, FilmImage& image) {
+    const float* ofTotal = bias + size_t(9) * LIGHT_CLASSES;
+    for (size_t channel = 0; channel < 3; ++channel) {
+        const size_t at = first + channel;
+        double total = 0;
+        for (size_t c = 0; c < LIGHT_CLASSES; ++c) {
+            const float* sums = bias + 9 * c + channel;
+            image.componentBias[c][at] = static_cast<float>(sums[0] / n.passes);
+            image.componentBiasError[c][at] = standardError(sums[0], sums[3], sums[6], n);
+            total += sums[0];
+        }
+        image.bias[at] = static_cast<float>(total / n.passes);
+        image.biasError[at] = standardError(total, ofTotal[channel], ofTotal[3 + channel], n);
+    }
+}
+
+// Zero everywhere: no such light, or no such error.
+bool isBlack(const std::vector<float>& values) {
+    return std::all_of(values.begin(), values.end(), [](float v) { return v == 0; });
 }
 
 } // namespace
 
-Film::Film(Device& device, unsigned width, unsigned height)
-    : width_(width), height_(height), sums_(device, pixelFloats * width * height, "film"),
+Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias)
+    : width_(width), height_(height), estimatesBias_(estimatesBias),
+      pixelFloats_(biasSums + (estimatesBias ? biasFloats : 0)), sums_(device, pixelFloats_ * width * height, "film"),
       counters_(device, 1, "camera counters") {
     sums_.fill(0);
     counters_.write({shared::CameraCounters{0, 0, 0}});
+}
+
+Film::Pass Film::beginPass(unsigned pass) {
+    Pass now{0, 1};
+    const bool single = pass < singlePasses;
+    openPasses_ += 1;
+    if (single || pass % batchPasses == batchPasses - 1) {
+        now.batchWeight = static_cast<float>(1 / openPasses_);
+        batches_ += 1;
+        openPasses_ = 0;
+    }
+    if (!single) now.biasWeight = pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f;
+    biasPasses_ += now.biasWeight;
+    return now;
 }
 
 FilmImage Film::develop(unsigned passes) const {
@@ -51,11 +111,31 @@ FilmImage Film::develop(unsigned passes) const {
     image.radiance.resize(values);
     image.standardError.resize(values);
     for (auto& component : image.components) component.resize(values);
+    for (auto& error : image.componentError) error.resize(values);
+    if (estimatesBias_) {
+        image.bias.resize(values);
+        image.biasError.resize(values);
+        for (auto& bias : image.componentBias) bias.resize(values);
+        for (auto& error : image.componentBiasError) error.resize(values);
+    }
     const auto film = sums_.read();
-    for (size_t pixel = 0; pixel < values / 3; ++pixel)
-        developPixel(film.data() + pixel * pixelFloats, pixel * 3, std::max(1u, passes), image);
-    for (auto& component : image.components)
-        if (std::all_of(component.begin(), component.end(), [](float v) { return v == 0; })) component.clear();
+    const double openBatch = openPasses_ > 0 ? 1 : 0;
+    const Counts counts{double(std::max(1u, passes)), batches_ + openBatch, openBatch / std::max(openPasses_, 1.0)};
+    Counts biasCounts = counts;
+    biasCounts.passes = std::max(1.0, biasPasses_);
+    for (size_t pixel = 0; pixel < values / 3; ++pixel) {
+        const float* sums = film.data() + pixel * pixelFloats_;
+        developPixel(sums, pixel * 3, counts, image);
+        if (estimatesBias_) developBias(sums + biasSums, pixel * 3, biasCounts, image);
+    }
+    for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
+        if (!isBlack(image.components[k])) continue;
+        image.components[k].clear();
+        if (k >= LIGHT_CLASSES) continue;
+        image.componentError[k].clear();
+        image.componentBias[k].clear();
+        image.componentBiasError[k].clear();
+    }
     return image;
 }
 

@@ -9,9 +9,18 @@ namespace quasilux {
 
 class Film {
 public:
-    Film(Device& device, unsigned width, unsigned height);
+    /// `estimatesBias`: the kernels were compiled with ESTIMATE_BIAS.
+    Film(Device& device, unsigned width, unsigned height, bool estimatesBias);
 
-    /// Means over `passes` and their standard errors.
+    /// What the kernels are to know of a pass that adds to the film.
+    struct Pass {
+        float batchWeight; ///< shared::CameraParams::batchWeight
+        float biasWeight;  ///< shared::MapParams::biasWeight
+    };
+    /// To be called once before each pass is added.
+    Pass beginPass(unsigned pass);
+
+    /// Means over `passes`, their standard errors and bias.
     FilmImage develop(unsigned passes) const;
     /// Samples dropped and paths cut since the beginning.
     shared::CameraCounters counters() const { return counters_.read().front(); }
@@ -22,6 +31,10 @@ public:
 
 private:
     unsigned width_, height_;
+    bool estimatesBias_;
+    size_t pixelFloats_;
+    double batches_ = 0, openPasses_ = 0; ///< batches that are complete; passes of the one that is not
+    double biasPasses_ = 0;               ///< sum of the weights of passes in the estimate of bias
     Buffer<float> sums_;
     Buffer<shared::CameraCounters> counters_;
 };

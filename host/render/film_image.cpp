@@ -1,22 +1,11 @@
-// Component names and error summaries of a developed film.
+// Component names; images of several sets of passes as one.
 #include "render/film_image.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace quasilux {
-
-namespace {
-
-/// Luminance of linear sRGB (ITU-R BT.709). For standard errors it is an upper bound of the error of the luminance,
-/// reached where the channels rise and fall together, as they do along one light path.
-double luminanceAt(const std::vector<float>& rgb, size_t pixel) {
-    return 0.2126 * rgb[3 * pixel] + 0.7152 * rgb[3 * pixel + 1] + 0.0722 * rgb[3 * pixel + 2];
-}
-
-} // namespace
 
 std::string componentName(unsigned component) {
     switch (component) {
@@ -35,27 +24,6 @@ std::string componentName(unsigned component) {
     }
 }
 
-RelativeError relativeError(const FilmImage& image) {
-    const size_t pixels = image.radiance.size() / 3;
-    if (image.passes < 2 || pixels == 0 || image.standardError.size() != image.radiance.size())
-        return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-
-    double luminanceSum = 0;
-    for (size_t i = 0; i < pixels; ++i) luminanceSum += luminanceAt(image.radiance, i);
-    const double floor = 0.01 * luminanceSum / static_cast<double>(pixels);
-    if (!(floor > 0)) return {0, 0}; // a black image: nothing arrived, so nothing varied
-
-    std::vector<double> errors(pixels);
-    double errorSum = 0;
-    for (size_t i = 0; i < pixels; ++i) {
-        errors[i] = luminanceAt(image.standardError, i) / std::max(luminanceAt(image.radiance, i), floor);
-        errorSum += errors[i];
-    }
-    const size_t rank = static_cast<size_t>(std::ceil(0.95 * static_cast<double>(pixels))) - 1;
-    std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(rank), errors.end());
-    return {errorSum / static_cast<double>(pixels), errors[rank]};
-}
-
 namespace {
 
 std::vector<float> weightedMean(const std::vector<float>& a, double weightA, const std::vector<float>& b,
@@ -66,9 +34,28 @@ std::vector<float> weightedMean(const std::vector<float>& a, double weightA, con
     return mean;
 }
 
-// Sum of squares of the passes from their mean and its standard error: n (n - 1) s^2 + n m^2.
-double sumOfSquares(double mean, double standardError, double n) {
-    return n * (n - 1) * standardError * standardError + n * mean * mean;
+// Means over passes and their standard errors; both empty are zero.
+struct MeanAndError {
+    const std::vector<float>&mean, &error;
+    double passes;
+
+    double meanAt(size_t k) const { return mean.empty() ? 0 : mean[k]; }
+    // Sum of squares of the passes from their mean and its standard error: n (n - 1) s^2 + n m^2.
+    double squaresAt(size_t k) const {
+        const double s = error.empty() ? 0 : error[k];
+        return passes * (passes - 1) * s * s + passes * meanAt(k) * meanAt(k);
+    }
+};
+
+std::vector<float> mergedError(const MeanAndError& a, const MeanAndError& b) {
+    const double n = a.passes + b.passes;
+    std::vector<float> merged(std::max(a.mean.size(), b.mean.size()));
+    for (size_t k = 0; k < merged.size(); ++k) {
+        const double mean = (a.passes * a.meanAt(k) + b.passes * b.meanAt(k)) / n;
+        const double squares = a.squaresAt(k) + b.squaresAt(k);
+        merged[k] = static_cast<float>(std::sqrt(std::max(0.0, squares - n * mean * mean) / (n * (n - 1))));
+    }
+    return merged;
 }
 
 } // namespace
@@ -79,19 +66,23 @@ FilmImage mergePasses(const FilmImage& a, const FilmImage& b) {
     FilmImage merged = a;
     merged.passes = a.passes + b.passes;
     const double n = merged.passes, weightA = a.passes / n, weightB = b.passes / n;
-    merged.radiance = weightedMean(a.radiance, weightA, b.radiance, weightB);
-    for (size_t k = 0; k < merged.components.size(); ++k)
+    const auto merge = [&](std::vector<float> FilmImage::*mean, std::vector<float> FilmImage::*error) {
+        merged.*mean = weightedMean(a.*mean, weightA, b.*mean, weightB);
+        merged.*error = mergedError({a.*mean, a.*error, double(a.passes)}, {b.*mean, b.*error, double(b.passes)});
+    };
+    merge(&FilmImage::radiance, &FilmImage::standardError);
+    if (a.bias.empty() == b.bias.empty()) // or else it is not known of the whole
+        merge(&FilmImage::bias, &FilmImage::biasError);
+    for (size_t k = 0; k < FILM_COMPONENTS; ++k)
         merged.components[k] = weightedMean(a.components[k], weightA, b.components[k], weightB);
-    for (size_t k = 0; k < merged.standardError.size(); ++k) {
-        const double squares = sumOfSquares(a.radiance[k], a.standardError[k], a.passes) +
-                               sumOfSquares(b.radiance[k], b.standardError[k], b.passes);
-        const double mean = weightA * a.radiance[k] + weightB * b.radiance[k];
-        merged.standardError[k] =
-            static_cast<float>(std::sqrt(std::max(0.0, squares - n * mean * mean) / (n * (n - 1))));
+    for (size_t k = 0; k < LIGHT_CLASSES; ++k) {
+        merged.componentError[k] = mergedError({a.components[k], a.componentError[k], double(a.passes)},
+                                               {b.components[k], b.componentError[k], double(b.passes)});
+        merged.componentBias[k] = weightedMean(a.componentBias[k], weightA, b.componentBias[k], weightB);
+        merged.componentBiasError[k] = mergedError({a.componentBias[k], a.componentBiasError[k], double(a.passes)},
+                                                   {b.componentBias[k], b.componentBiasError[k], double(b.passes)});
     }
     return merged;
 }
-
-double meanRelativeError(const FilmImage& image) { return relativeError(image).mean; }
 
 } // namespace quasilux

@@ -16,6 +16,14 @@ struct FilmImage {
     std::vector<float> standardError; ///< width*height*3, of `radiance`, from independent passes
     /// By FILM component (LIGHT_* and FILM_EMISSION), each width*height*3, or empty where the scene has no such light.
     std::array<std::vector<float>, FILM_COMPONENTS> components;
+    /// Their standard errors, by LIGHT_*.
+    std::array<std::vector<float>, LIGHT_CLASSES> componentError;
+
+    /// Estimate of the bias that the density radius leaves in `radiance`, and the standard error of that estimate:
+    /// width*height*3, W sr^-1 m^-2; empty where it was not estimated (docs/accuracy.md).
+    std::vector<float> bias, biasError;
+    /// The same by LIGHT_*; empty, too, where the scene has no such light.
+    std::array<std::vector<float>, LIGHT_CLASSES> componentBias, componentBiasError;
 };
 
 /// Layer name of a component: "direct", "caustic", "quasi_caustic", "diffuse", "emission".
@@ -23,16 +31,5 @@ std::string componentName(unsigned component);
 
 /// The image of both sets of passes together: independent passes merge as sums. Sizes must agree.
 FilmImage mergePasses(const FilmImage& a, const FilmImage& b);
-
-/// Over pixels, of luminance standard error / luminance, each denominator at least 1 % of the mean luminance.
-/// Infinity where fewer than two passes tell nothing of the error; 0 for a black image.
-struct RelativeError {
-    double mean = 0;
-    double percentile95 = 0;
-};
-RelativeError relativeError(const FilmImage& image);
-
-/// relativeError().mean: what the stop rule looks at.
-double meanRelativeError(const FilmImage& image);
 
 } // namespace quasilux

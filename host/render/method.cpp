@@ -43,6 +43,7 @@ std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settin
     options += fmt::format(" -DPHOTON_CLASSES={}u", photonClasses(scene.features, settings));
     if (settings.direct == DirectLight::emitters) options += " -DDIRECT_BY_EMITTERS";
     if (settings.variant == Variant::alternative) options += " -DLAW_ALTERNATIVE";
+    if (estimatesBias(settings)) options += " -DESTIMATE_BIAS=1";
     if (settings.mediumRule != MediumRule::right)
         options += fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(settings.mediumRule));
     if (settings.lawRule != LawRule::right)

@@ -1,4 +1,5 @@
 // Passes until the stop rule, with progress.
+#include "render/error_estimate.h"
 #include "render/renderer.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
         progress.passes = pass + 1;
         progress.seconds = elapsed();
         if (progress.passes >= firstErrorCheck && isErrorDue(progress.seconds - lastCheck, checkCost)) {
-            progress.relativeError = meanRelativeError(renderer.develop());
+            progress.relativeError = estimateError(renderer.develop()).sum();
             lastCheck = elapsed();
             checkCost = lastCheck - progress.seconds;
         }

@@ -121,7 +121,7 @@ SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSe
 struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_)
         : device(device_), settings(settings_), flat(std::move(flat_)), options(kernelOptions(flat, settings)),
-          geometry(device, flat), film(device, flat.camera.width, flat.camera.height),
+          geometry(device, flat), film(device, flat.camera.width, flat.camera.height, estimatesBias(settings)),
           report(describe(scene, flat, settings)) {
         const auto photon = photonParams(scene, flat, settings);
         const auto path = cameraParams(flat, settings, photon.maxDepth);

@@ -32,6 +32,7 @@ struct RenderSettings {
     uint64_t seed = 1;
     double radiusScale = 1.0;    ///< factor on the initial density radius
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
+    bool estimateBias = true;    ///< beside the image; never in the camera map, which does not know it
     LawRule lawRule = LawRule::right;
     MediumRule mediumRule = MediumRule::right;
 };
@@ -40,8 +41,13 @@ struct RenderSettings {
 struct StopRule {
     std::optional<double> seconds;
     std::optional<unsigned> passes;
-    std::optional<double> relativeError; ///< estimated relative standard error, mean over pixels
+    std::optional<double> relativeError; ///< ErrorEstimate::sum()
 };
+
+/// Do the kernels for these settings estimate the bias that the density radius leaves?
+inline bool estimatesBias(const RenderSettings& settings) {
+    return settings.estimateBias && settings.map == MapOrder::photons;
+}
 
 /// Defaults, then what the scene says. The command line writes over the result.
 RenderSettings settingsFromScene(const Scene& scene);

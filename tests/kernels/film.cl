@@ -11,7 +11,7 @@ __kernel void addSamples(__global const float4* samples, __global float* film, c
         float3 components[FILM_COMPONENTS];
         for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = k == LIGHT_DIFFUSE ? value : (float3)0;
         components[FILM_EMISSION] = value * 0.5f;
-        addSample(film, pixel, components);
+        addSample(film, pixel, components, 1);
     }
 }
 

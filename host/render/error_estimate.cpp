@@ -1,0 +1,132 @@
+#include "render/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quasilux {
+
+namespace {
+
+// Mean of a channel over the 3 x 3 pixels about one, as far as they are in the image.
+double meanAbout(const FilmImage& image, size_t pixel, size_t channel) {
+    const size_t x = pixel % image.width, y = pixel / image.width;
+    double sum = 0, count = 0;
+    for (size_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < image.height; ++v)
+        for (size_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < image.width; ++u) {
+            sum += image.radiance[3 * (v * image.width + u) + channel];
+            count += 1;
+        }
+    return sum / count;
+}
+
+// 1 / (value^2 + 0.01 m^2) of each channel of each pixel, a third of it: squares of errors are averaged over channels.
+// After few passes a pixel that is too bright has a large standard error, too, and would divide it by too much: so the
+// value is that of the neighbourhood.
+std::vector<double> channelWeights(const FilmImage& image) {
+    double sum = 0;
+    for (const float value : image.radiance) sum += value;
+    const double mean = sum / static_cast<double>(image.radiance.size());
+    std::vector<double> weights(image.radiance.size());
+    for (size_t k = 0; k < weights.size(); ++k) {
+        const double value = meanAbout(image, k / 3, k % 3), scale = value * value + 0.01 * mean * mean;
+        weights[k] = scale > 0 ? 1 / (3 * scale) : 0;
+    }
+    return weights;
+}
+
+std::vector<double> squaredByPixel(const std::vector<float>& errors, const std::vector<double>& weights) {
+    std::vector<double> squares(weights.size() / 3);
+    for (size_t k = 0; k < errors.size(); ++k) squares[k / 3] += weights[k] * errors[k] * errors[k];
+    return squares;
+}
+
+double mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+// Expected ratio of the standard deviation of a normal sample of n to the true one, c4.
+double meanOfSampleDeviation(double n) {
+    return std::sqrt(2 / (n - 1)) * std::exp(std::lgamma(n / 2) - std::lgamma((n - 1) / 2));
+}
+
+// Derivative of log gamma, and its derivative: recurrence, then the asymptotic series (Abramowitz & Stegun 6.3.18, 6.4.12).
+double digamma(double x) {
+    double sum = 0;
+    for (; x < 10; x += 1) sum -= 1 / x;
+    const double y = 1 / (x * x);
+    return sum + std::log(x) - 1 / (2 * x) - y * (1.0 / 12 - y * (1.0 / 120 - y / 252));
+}
+
+double trigamma(double x) {
+    double sum = 0;
+    for (; x < 10; x += 1) sum += 1 / (x * x);
+    const double y = 1 / (x * x);
+    return sum + 1 / x + y / 2 + y / x * (1.0 / 6 - y * (1.0 / 30 - y / 42));
+}
+
+// 95th percentile of the true variances, given their estimates from n normal values each, of which the scatter of the
+// estimates would make too much. Logarithms: log s^2 = log sigma^2 + log (chi^2 / nu), and mean and variance of the latter
+// are known, so those of log sigma^2 follow and the estimates are drawn together to have them.
+double percentile95(std::vector<double> variances, double n) {
+    const size_t rank = static_cast<size_t>(std::ceil(0.95 * static_cast<double>(variances.size()))) - 1;
+    std::nth_element(variances.begin(), variances.begin() + static_cast<std::ptrdiff_t>(rank), variances.end());
+    const double found = variances[rank];
+    if (!(found > 0)) return 0;
+    double sum = 0, squares = 0, count = 0;
+    for (const double variance : variances) {
+        if (!(variance > 0)) continue;
+        sum += std::log(variance);
+        squares += std::log(variance) * std::log(variance);
+        count += 1;
+    }
+    const double middle = sum / count, spread = squares / count - middle * middle;
+    const double half = (n - 1) / 2, ofEstimates = trigamma(half);
+    const double share = spread > ofEstimates ? std::sqrt(1 - ofEstimates / spread) : 0;
+    // Estimates that scatter less than independent ones have their deviation in common, and it is not known.
+    const double offset = (digamma(half) - std::log(half)) * std::min(1.0, spread / ofEstimates);
+    return std::exp(middle - offset + share * (std::log(found) - middle));
+}
+
+ErrorPart partOf(const std::vector<float>& noise, const std::vector<float>& bias, const std::vector<float>& biasNoise,
+                 const std::vector<double>& weights, double passes) {
+    ErrorPart part;
+    std::vector<double> squares = squaredByPixel(noise, weights);
+    part.noiseRms = std::sqrt(mean(squares));
+    double roots = 0;
+    for (const double square : squares) roots += std::sqrt(square);
+    part.noiseMean = roots / static_cast<double>(squares.size()) / meanOfSampleDeviation(passes);
+    part.noisePercentile95 = std::sqrt(percentile95(std::move(squares), passes));
+    const double noiseOfBias = mean(squaredByPixel(biasNoise, weights));
+    part.biasRms = std::sqrt(std::max(0.0, mean(squaredByPixel(bias, weights)) - noiseOfBias));
+    part.biasNoiseRms = std::sqrt(noiseOfBias);
+    return part;
+}
+
+ErrorPart unknownPart() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {infinity, infinity, infinity, infinity, infinity};
+}
+
+} // namespace
+
+ErrorEstimate estimateError(const FilmImage& image) {
+    ErrorEstimate estimate;
+    estimate.hasBias = !image.bias.empty();
+    if (image.passes < 2 || image.radiance.empty() || image.standardError.size() != image.radiance.size()) {
+        estimate.total = unknownPart();
+        estimate.components.fill(unknownPart());
+        return estimate;
+    }
+    const auto weights = channelWeights(image);
+    estimate.total = partOf(image.standardError, image.bias, image.biasError, weights, image.passes);
+    for (size_t c = 0; c < LIGHT_CLASSES; ++c)
+        if (!image.componentError[c].empty())
+            estimate.components[c] = partOf(image.componentError[c], image.componentBias[c],
+                                            image.componentBiasError[c], weights, image.passes);
+    return estimate;
+}
+
+} // namespace quasilux

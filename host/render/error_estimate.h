@@ -1,0 +1,33 @@
+// How far an image is from the truth, from its own passes: noise and the bias of the density radius (docs/accuracy.md).
+#pragma once
+
+#include "render/film_image.h"
+
+namespace quasilux {
+
+/// Of one component, or of the whole image. The relative error of a pixel is the root mean square over R, G, B of
+/// error / sqrt(value^2 + 0.01 m^2), with the value of the whole image in the 3 x 3 pixels about it and m its mean: the
+/// weight of relMSE, free of the pixel's own noise.
+struct ErrorPart {
+    double noiseMean = 0;         ///< standard error, mean over pixels; corrected for the few passes it comes from
+    double noisePercentile95 = 0; ///< its 95th percentile over pixels, corrected likewise
+    double noiseRms = 0;          ///< its root mean square over pixels; its square is unbiased for any number of passes
+    double biasRms = 0;           ///< of the density radius, root mean square over pixels, net of the estimate's noise
+    double biasNoiseRms = 0;      ///< that noise: what the bias of a single pixel is known to
+};
+
+/// All infinite where fewer than two passes tell nothing; all 0 for a black image.
+struct ErrorEstimate {
+    ErrorPart total;
+    std::array<ErrorPart, LIGHT_CLASSES> components; ///< by LIGHT_*; zeros where the image has no such light
+    bool hasBias = false;                            ///< or else the bias was not estimated and its figures are 0
+
+    /// What `--error` is compared with: the mean noise plus the bias.
+    double sum() const { return total.noiseMean + total.biasRms; }
+    /// Estimate of relMSE, the mean over pixels and channels of (I - truth)^2 / (I^2 + 0.01 m^2).
+    double relativeMse() const { return total.noiseRms * total.noiseRms + total.biasRms * total.biasRms; }
+};
+
+ErrorEstimate estimateError(const FilmImage& image);
+
+} // namespace quasilux
