@@ -115,7 +115,8 @@ void meanAndDeviation(const std::vector<FilmImage>& images, const Layer& layer, 
 /// As if each seed were a pass: noise is the deviation of one render, from as many values as there are seeds.
 FilmImage truthFromSeeds(const std::vector<FilmImage>& images) {
     FilmImage truth;
-    truth.width = truth.height = resolution;
+    truth.width = images.front().width;
+    truth.height = images.front().height;
     truth.passes = seeds;
     meanAndDeviation(
         images, [](const FilmImage& i) -> auto& { return i.radiance; }, truth.radiance, truth.standardError);
