@@ -14,7 +14,7 @@ using test::SceneFiles;
 std::string sceneAt(const std::string& offset, double scale, const std::string& extra = "") {
     return fmt::format(R"(<scene version="3.0.0">
 <sensor type="perspective"><transform name="to_world"><lookat origin="0,0,{1}" target="0,0,0" up="0,1,0"/><translate value="{0}"/></transform></sensor>
-<emitter type="point"><point name="position" x="0" y="0" z="{1}"/><transform name="to_world"><translate value="{0}"/></transform></emitter>
+<emitter type="point"><transform name="to_world"><translate z="{1}"/><translate value="{0}"/></transform></emitter>
 <shape type="cube"><transform name="to_world"><scale value="{1}"/><translate value="{0}"/></transform></shape>
 <shape type="sphere"><transform name="to_world"><scale value="{1}"/><translate value="{0}"/></transform></shape>
 {2}

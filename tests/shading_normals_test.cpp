@@ -44,9 +44,9 @@ MeanAndError measure(bool atScreen, unsigned bdd, DirectLight direct, PhotonRule
     settings.direct = direct;
     settings.photonRule = rule;
     settings.map = map;
-    settings.photonsPerPass = 20'000;
+    settings.photonsPerPass = bdd == 0 ? 40'000 : 2000;
     settings.radiusScale = 0.5;
-    return renderGroups(reflectorScene(atScreen), settings, std::vector<int>(64, 0), 10, bdd == 0 ? 3 : 20).front();
+    return renderGroups(reflectorScene(atScreen), settings, std::vector<int>(64, 0), 10, bdd == 0 ? 4 : 200).front();
 }
 
 double deviation(const MeanAndError& a, const MeanAndError& b) {
