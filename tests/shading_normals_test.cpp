@@ -46,7 +46,7 @@ MeanAndError measure(bool atScreen, unsigned bdd, DirectLight direct, PhotonRule
     settings.map = map;
     settings.photonsPerPass = bdd == 0 ? 40'000 : 2000;
     settings.radiusScale = 0.5;
-    return renderGroups(reflectorScene(atScreen), settings, std::vector<int>(64, 0), 10, bdd == 0 ? 4 : 200).front();
+    return renderGroups(reflectorScene(atScreen), settings, std::vector<int>(64, 0), 10, bdd == 0 ? 8 : 300).front();
 }
 
 double deviation(const MeanAndError& a, const MeanAndError& b) {
