@@ -50,8 +50,8 @@ typedef struct {
     unsigned int wanted;   /* photons that it would have kept with room for all */
     unsigned int cutPaths; /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
-    float fluxCut;          /* W, mean of R, G, B, of those paths */
-    unsigned int overflows; /* sums of splats that left the range of their fixed point (camera map) */
+    float fluxCut;                  /* W, mean of R, G, B, of those paths */
+    unsigned int overflows;         /* sums of splats that left the range of their fixed point (camera map) */
     float energy[6], energyRest[6]; /* W, by ENERGY_*: unevaluated sums; 0 without ENERGY_BALANCE */
 } RegionCount;
 
