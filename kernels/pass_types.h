@@ -36,14 +36,23 @@ typedef struct {
 #define PHOTON_SLOTS 8
 #define VOLUME_SLOT(lightClass) (LIGHT_CLASSES + (lightClass))
 
+/* What becomes of the flux of photons (kernels/energy_balance.clh). */
+#define ENERGY_EMITTED 0u
+#define ENERGY_ABSORBED 1u
+#define ENERGY_ESCAPED 2u
+#define ENERGY_BEYOND_DEPTH 3u
+#define ENERGY_LOST 4u
+#define ENERGY_GAINED 5u
+
 /* One work-item traces the paths of one region and stores into its own part of the photon buffer. */
 typedef struct {
     unsigned int stored;   /* photons kept, at most the capacity of the region */
     unsigned int wanted;   /* photons that it would have kept with room for all */
     unsigned int cutPaths; /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
-    float fluxCut;          /* W, mean of R, G, B, of those paths */
-    unsigned int overflows; /* sums of splats that left the range of their fixed point (camera map) */
+    float fluxCut;                  /* W, mean of R, G, B, of those paths */
+    unsigned int overflows;         /* sums of splats that left the range of their fixed point (camera map) */
+    float energy[6], energyRest[6]; /* W, by ENERGY_*: unevaluated sums; 0 without ENERGY_BALANCE */
 } RegionCount;
 
 typedef struct {

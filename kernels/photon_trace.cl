@@ -2,6 +2,7 @@
  * From: emitters. To: photons in regions, in the order of their paths (so the result does not depend on scheduling).
  * With MAP_CAMERA it is stage 3 and stores nothing: photons are splatted to camera points. To: sums of splats. */
 #include "emitter.clh"
+#include "energy_balance.clh"
 #include "lattice.clh"
 #include "law.clh"
 #include "medium_flight.clh"
@@ -68,7 +69,7 @@ inline uint storableClasses(__global const Lobe* lobes, uint count) {
 /* Flux reflected by a shading normal that disagrees with the geometry (Veach 1997, eq. 5.19):
  * |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|), where wo points to the light side that the photon came from. */
 inline float shadingNormalCorrection(const Surface* s, float3 wo, float3 wi) {
-#ifdef HAS_CORNER_NORMALS
+#if defined(HAS_CORNER_NORMALS) && PHOTON_RULE != 3
     const float denominator = dot(wo, s->geometricNormal) * dot(wi, s->shadingNormal);
     return denominator == 0 ? 0.f : fabs(dot(wo, s->shadingNormal) * dot(wi, s->geometricNormal) / denominator);
 #else
@@ -76,14 +77,30 @@ inline float shadingNormalCorrection(const Surface* s, float3 wo, float3 wi) {
 #endif
 }
 
-/* Scatters the photon with one lobe; 0 where it ends. */
+/* Factor on flux that is stored: photons arrive in proportion to |wi.ng|, and light is reflected in proportion to
+ * |wi.ns|, none of it from below the horizon of the shading normal. */
+inline float shadingNormalArrival(const Surface* s) {
+#if defined(HAS_CORNER_NORMALS) && PHOTON_RULE != 4
+    return s->arrival;
+#else
+    return 1.f;
+#endif
+}
+
+/* Scatters the photon with one lobe; 0 where it ends. *scattered is the flux that all lobes reflect in expectation. */
 inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe* lobes, __global const Shape* shape,
-                         float3 u) {
+                         float3 u, float* scattered) {
     const Frame frame = frameFromNormal(s->shadingNormal);
     const float3 wo = toLocal(&frame, -path->direction);
     LobeChoice choice;
-    for (uint k = 0; k < s->lobeCount; ++k)
-        choice.probability[k] = maxComponent(path->flux * tintedAlbedo(s, lobes, k, wo)) / path->referenceFlux;
+    *scattered = 0;
+    for (uint k = 0; k < s->lobeCount; ++k) {
+        const float3 flux = path->flux * tintedAlbedo(s, lobes, k, wo);
+        choice.probability[k] = maxComponent(flux) / path->referenceFlux;
+#ifdef ENERGY_BALANCE
+        *scattered += meanFlux(flux);
+#endif
+    }
     choiceFromStrengths(&choice, s->lobeCount, PHOTON_ROULETTE_THRESHOLD);
     float rest;
     const uint k = chooseLobe(&choice, s->lobeCount, u.x, &rest);
@@ -93,6 +110,7 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     const float3 wi = toWorld(&frame, sample.wi);
     if (!sameSides(s, wi, sample.wi.z)) return 0;
     path->flux *= sample.weight * (shadingNormalCorrection(s, -path->direction, wi) / choice.probability[k]);
+    if (PHOTON_RULE == 2) path->flux *= 1.02f;
     path->events |= lobes[k].scattering;
     path->direction = wi;
     const Ray ray = leavingRay(s, wi);
@@ -108,7 +126,6 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
 inline int collidePhoton(PhotonPath* path, const FreeFlight* flight, __global const Medium* medium,
                          const PhotonSink* sink, RegionCount* count, const PhotonParams* params, Rng* rng) {
     path->origin += flight->distance * path->direction;
-    path->flux *= flight->weight;
     const uint slot = VOLUME_SLOT(lawPhotonClass(path->events));
     uint possible = 0;
     const uint scatterings = phaseScatterings(medium);
@@ -120,11 +137,15 @@ inline int collidePhoton(PhotonPath* path, const FreeFlight* flight, __global co
             deliverPhoton(sink, count, path, path->origin, path->flux * inverseExtinction(medium) / keep, path->medium,
                           slot);
     }
+    const float arrived = meanFlux(path->flux);
     path->flux *= loadRgb(medium->albedo);
+    const float scattered = meanFlux(path->flux);
     const float strength = maxComponent(path->flux) / path->referenceFlux;
     const float survival = min(1.f, strength / PHOTON_ROULETTE_THRESHOLD);
-    if (rngNext(rng) >= survival) return 0;
+    const int goesOn = rngNext(rng) < survival;
     path->flux /= survival;
+    countScattering(count, arrived, scattered, goesOn ? path->flux : (float3)(0));
+    if (!goesOn) return 0;
     const float3 before = path->direction;
     path->direction = phaseSampleDirection(medium, before, rngNext2(rng));
     path->events |= phaseEvent(medium, phaseValue(medium, dot(before, path->direction)), rngNext(rng));
@@ -141,9 +162,7 @@ inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* pa
         SCENE_TABLE(tables, scene, Emitter, emitters), SCENE_TABLE(tables, scene, EmitterTriangle, emitterTriangles),
         scene->emitterCount, uSelect, latticePoint2(lattice, index, 0), latticePoint2(lattice, index, 2));
     PhotonPath path;
-    const float extent = sqrt(SCENE_TABLE(tables, scene, Emitter, emitters)[emitted.emitter].area);
-    path.origin = offsetRayOrigin(emitted.position, emitted.normal,
-                                  POSITION_ERROR * (maxMagnitude(emitted.position) + 2 * extent));
+    path.origin = offsetRayOrigin(emitted.position, emitted.normal, emitted.positionError);
     path.direction = emitted.direction;
     path.flux = emitted.flux / params->paths;
     path.referenceFlux = maxComponent(path.flux);
@@ -162,12 +181,16 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, params->pass, STREAM_PHOTON, index);
     PhotonPath path = emitPhoton(tables, params, lattice, index, &rng);
+    countEnergy(count, ENERGY_EMITTED, meanFlux(path.flux));
     for (uint event = 0; event < PATH_EVENTS_MAX; ++event) {
         if (!all(isfinite(path.flux)) || !all(isfinite(path.direction))) {
             ++count->nonFinite;
             return;
         }
-        if (path.depth >= params->maxDepth) return;
+        if (path.depth >= params->maxDepth) {
+            countEnergy(count, ENERGY_BEYOND_DEPTH, meanFlux(path.flux));
+            return;
+        }
         Hit hit;
         Ray ray;
         ray.origin = path.origin;
@@ -179,17 +202,22 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
             __global const Medium* medium = SCENE_TABLE(tables, scene, Medium, media) + path.medium;
             const MediumSegment segment =
                 followMedium(medium, path.flux, &ray, 1, rngNext2(&rng), nodes, blocks, tables, scene);
+            const float before = meanFlux(path.flux);
+            path.flux *= segment.flight.weight;
+            countChance(count, before, meanFlux(path.flux));
             if (segment.flight.collided) {
                 ++path.depth;
                 if (!collidePhoton(&path, &segment.flight, medium, sink, count, params, &rng)) return;
                 continue;
             }
-            path.flux *= segment.flight.weight;
             hit = segment.hit;
         } else
 #endif
             hit = intersectClosestOpaque(nodes, blocks, ray);
-        if (hit.primitive == QL_NONE) return;
+        if (hit.primitive == QL_NONE) {
+            countEnergy(count, ENERGY_ESCAPED, meanFlux(path.flux));
+            return;
+        }
         const Surface s = surfaceAt(hit, path.origin, path.direction, blocks, tables, scene);
         __global const Shape* shape = SCENE_TABLE(tables, scene, Shape, shapes) + s.shape;
 #ifdef HAS_MEDIA
@@ -203,20 +231,25 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
         __global const Lobe* lobes = SCENE_TABLE(tables, scene, Lobe, lobes) + s.firstLobe;
         const uint lightClass = lawPhotonClass(path.events);
         if (storableClasses(lobes, s.lobeCount) & (1u << lightClass))
-            deliverPhoton(sink, count, &path, s.position, path.flux, s.patch << 1 | s.front, lightClass);
+            deliverPhoton(sink, count, &path, s.position, path.flux * shadingNormalArrival(&s), s.patch << 1 | s.front,
+                          lightClass);
         const float2 uDirection = rngNext2(&rng);
         const float3 u = (float3)(rngNext(&rng), uDirection.x, uDirection.y);
-        if (!scatterPhoton(&path, &s, lobes, shape, u)) return;
+        const float arrived = meanFlux(path.flux);
+        float scattered;
+        const int goesOn = scatterPhoton(&path, &s, lobes, shape, u, &scattered);
+        countScattering(count, arrived, scattered, goesOn ? path.flux : (float3)(0));
+        if (!goesOn) return;
     }
     ++count->cutPaths;
-    count->fluxCut += (path.flux.x + path.flux.y + path.flux.z) / 3;
+    count->fluxCut += meanFlux(path.flux);
 }
 
 /* The paths of one region. */
 inline void traceRegion(uint region, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                         __global const uint* tables, const PhotonSink* sink, const PhotonParams* params,
                         __global RegionCount* counts) {
-    RegionCount count = {0, 0, 0, 0, 0, 0};
+    RegionCount count = {0, 0, 0, 0, 0, 0, {0}, {0}};
     const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
     const uint first = region * params->pathsPerRegion;
     const uint last = min(first + params->pathsPerRegion, params->paths);

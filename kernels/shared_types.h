@@ -28,7 +28,7 @@ typedef struct {
 #define BVH_LEAF_COUNT_SHIFT 27  /* 4 bits: up to 16 blocks in one leaf */
 #define BVH_LEAF_FIRST_MASK 0x07ffffffu
 #define PRIMITIVE_NULL_BIT 0x80000000u   /* primitive whose bsdf is `null`: shadow and photon rays pass through it */
-#define PRIMITIVE_SPHERE_BIT 0x40000000u /* lane holds a sphere: v0 = centre, e1x = radius, e2 = 0 */
+#define PRIMITIVE_SPHERE_BIT 0x40000000u /* lane holds a sphere: v0 = centre, v1x = radius, v2 is no number */
 #define PRIMITIVE_INDEX_MASK 0x3fffffffu
 
 /* Inner node, 224 bytes. An empty slot has lower = +inf, upper = -inf, so no ray enters it. */
@@ -38,11 +38,12 @@ typedef struct {
     unsigned int child[8];
 } BvhNode;
 
-/* Leaf block, 320 bytes: eight triangles p = v0 + u e1 + v e2. An unused lane is degenerate (all zero, primitive QL_NONE). */
+/* Leaf block, 320 bytes: the corners of eight triangles. Those of an unused lane (primitive QL_NONE) or a degenerate
+ * triangle are no numbers, so that no ray meets it. */
 typedef struct {
     float v0x[8], v0y[8], v0z[8];
-    float e1x[8], e1y[8], e1z[8];
-    float e2x[8], e2y[8], e2z[8];
+    float v1x[8], v1y[8], v1z[8];
+    float v2x[8], v2y[8], v2z[8];
     unsigned int primitive[8]; /* index | PRIMITIVE_*_BIT */
 } PrimitiveBlock;
 

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 # Tests that need no OpenCL device: they run under the sanitizers too.
 hostTests=(loader_test bsdf_loader_test scene_errors_test mesh_errors_test shapes_test borders_test border_cuts_test output_test
-    medium_loader_test media_placement_test medium_split_test compare_test)
+    medium_loader_test media_placement_test medium_split_test compare_test origin_test)
 
 logs=build/logs
 passed=0
@@ -61,6 +61,9 @@ cmake --preset ci
 cmake --build --preset ci
 check "layout of the sources (clang-format)" formatIsRight
 check "static analysis (clang-tidy)" analysisIsClean
+
+phase "kernels under Oclgrind"
+check "memory and data races of the kernels (Oclgrind)" bash scripts/oclgrind.sh build/ci/quasilux
 
 phase "tests without a device, under the address and undefined-behaviour sanitizers"
 cmake --preset asan

@@ -64,6 +64,20 @@ void printRadii(const SceneReport& report) {
     fmt::print("\n{}", table.text());
 }
 
+void printEnergy(const std::optional<EnergyBalance>& energy) {
+    if (!energy) return;
+    const double net = energy->lost - energy->gained;
+    TextTable table({"photons' flux in the trial pass", "W"});
+    table.add({"emitted", fmt::format("{:.6g}", energy->emitted)});
+    table.add({"absorbed", fmt::format("{:.6g}", energy->absorbed)});
+    table.add({"escaped", fmt::format("{:.6g}", energy->escaped)});
+    table.add({"beyond max_depth", fmt::format("{:.6g}", energy->beyondDepth)});
+    table.add({"cut", fmt::format("{:.6g}", energy->cut)});
+    table.add({"lost by chance, net", fmt::format("{:.6g}", net)});
+    table.add({"imbalance / emitted", fmt::format("{:.2g}", energy->imbalance())});
+    fmt::print("\n{}", table.text());
+}
+
 void printBuffers(const std::map<std::string, uint64_t>& buffers) {
     TextTable table({"buffer", "memory"});
     uint64_t sum = 0;
@@ -114,6 +128,7 @@ void infoCommand(const SceneOptions& options) {
     printMedia(report);
     printRadii(report);
     printBuffers(report.bufferBytes);
+    printEnergy(renderer.counters().energy);
 }
 
 } // namespace quasilux

@@ -67,6 +67,10 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->type_name("X")
         ->check(numberAbove(0, 1000))
         ->group(group);
+    command
+        .add_flag("--energy-balance", options.energyBalance,
+                  "Count what becomes of the photons' flux, for the statistics (default: off)")
+        ->group(group);
 }
 
 void declareDevice(CLI::App& command, SceneOptions& options) {
@@ -176,6 +180,7 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
         result.quasiSpecularFromCommandLine = true;
     }
     result.radiusScale = radiusScale;
+    result.energyBalance = energyBalance;
     result.genericKernels = kernels == "generic";
     return result;
 }

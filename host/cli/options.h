@@ -20,6 +20,7 @@ struct SceneOptions {
     std::optional<uint64_t> seed;
     std::optional<std::string> variant, direct, map, quasiSpecular;
     double radiusScale = 1;
+    bool energyBalance = false;
     std::string kernels = "scene";
     int device = -1;
     unsigned workGroupSize = 64;

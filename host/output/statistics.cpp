@@ -25,6 +25,14 @@ json kernelsJson(const std::map<std::string, KernelTiming>& kernels) {
     return rows;
 }
 
+json energyJson(const std::optional<EnergyBalance>& energy) {
+    if (!energy) return nullptr;
+    return {{"emitted", energy->emitted},         {"absorbed", energy->absorbed},
+            {"escaped", energy->escaped},         {"cut", energy->cut},
+            {"beyondDepth", energy->beyondDepth}, {"lostByChance", energy->lost},
+            {"gainedByChance", energy->gained},   {"imbalance", energy->imbalance()}};
+}
+
 json phasesJson(const RenderRecord& record) {
     return {{"load", record.loadSeconds},
             {"prepare", record.counters.prepareSeconds},
@@ -49,6 +57,7 @@ json countersJson(const RenderCounters& counters) {
             {"overflows", counters.overflows},
             {"fluxEmitted", counters.fluxEmitted},
             {"fluxCut", counters.fluxCut},
+            {"energyBalance", energyJson(counters.energy)},
             {"throughputCut", counters.throughputCut}};
 }
 

@@ -33,17 +33,9 @@ PrimitiveBounds sphereBounds(const glm::vec3& center, float radius) {
     return bounds;
 }
 
-/// A block keeps v0 and the rounded edges, so a corner may lie half an ulp beside the one that was given.
 PrimitiveBounds triangleBounds(const BvhPrimitive& primitive) {
-    PrimitiveBounds bounds{glm::min(glm::min(primitive.v0, primitive.v1), primitive.v2),
-                           glm::max(glm::max(primitive.v0, primitive.v1), primitive.v2)};
-    for (const glm::vec3& edge : {primitive.v1 - primitive.v0, primitive.v2 - primitive.v0})
-        for (int axis = 0; axis < 3; ++axis) {
-            const double corner = double(primitive.v0[axis]) + edge[axis];
-            bounds.lower[axis] = std::min(bounds.lower[axis], roundDown(corner));
-            bounds.upper[axis] = std::max(bounds.upper[axis], roundUp(corner));
-        }
-    return bounds;
+    return {glm::min(glm::min(primitive.v0, primitive.v1), primitive.v2),
+            glm::max(glm::max(primitive.v0, primitive.v1), primitive.v2)};
 }
 
 /// Edges that are parallel within rounding span no area: their cross product would be noise, and so would t be.
@@ -67,25 +59,33 @@ PrimitiveBounds boundsOf(const BvhPrimitive& primitive, size_t index) {
 }
 
 shared::PrimitiveBlock makeBlock(const std::vector<BvhPrimitive>& primitives, const unsigned* indices, unsigned count) {
+    const glm::vec3 nowhere(std::numeric_limits<float>::quiet_NaN());
     shared::PrimitiveBlock block{};
     std::fill_n(block.primitive, BVH_WIDTH, QL_NONE);
-    for (unsigned lane = 0; lane < count; ++lane) {
-        const BvhPrimitive& primitive = primitives[indices[lane]];
-        const bool sphere = primitive.isSphere;
-        glm::vec3 e1 = sphere ? glm::vec3(std::abs(primitive.v1.x), 0, 0) : primitive.v1 - primitive.v0;
-        glm::vec3 e2 = sphere ? glm::vec3(0) : primitive.v2 - primitive.v0;
-        if (!sphere && isDegenerate(e1, e2)) e1 = e2 = glm::vec3(0);
-        block.v0x[lane] = primitive.v0.x;
-        block.v0y[lane] = primitive.v0.y;
-        block.v0z[lane] = primitive.v0.z;
-        block.e1x[lane] = e1.x;
-        block.e1y[lane] = e1.y;
-        block.e1z[lane] = e1.z;
-        block.e2x[lane] = e2.x;
-        block.e2y[lane] = e2.y;
-        block.e2z[lane] = e2.z;
-        block.primitive[lane] =
-            indices[lane] | (sphere ? PRIMITIVE_SPHERE_BIT : 0u) | (primitive.isNull ? PRIMITIVE_NULL_BIT : 0u);
+    for (unsigned lane = 0; lane < BVH_WIDTH; ++lane) {
+        glm::vec3 v0 = nowhere, v1 = nowhere, v2 = nowhere;
+        if (lane < count) {
+            const BvhPrimitive& primitive = primitives[indices[lane]];
+            block.primitive[lane] = indices[lane] | (primitive.isSphere ? PRIMITIVE_SPHERE_BIT : 0u) |
+                                    (primitive.isNull ? PRIMITIVE_NULL_BIT : 0u);
+            if (primitive.isSphere) {
+                v0 = primitive.v0;
+                v1.x = std::abs(primitive.v1.x);
+            } else if (!isDegenerate(primitive.v1 - primitive.v0, primitive.v2 - primitive.v0)) {
+                v0 = primitive.v0;
+                v1 = primitive.v1;
+                v2 = primitive.v2;
+            }
+        }
+        block.v0x[lane] = v0.x;
+        block.v0y[lane] = v0.y;
+        block.v0z[lane] = v0.z;
+        block.v1x[lane] = v1.x;
+        block.v1y[lane] = v1.y;
+        block.v1z[lane] = v1.z;
+        block.v2x[lane] = v2.x;
+        block.v2y[lane] = v2.y;
+        block.v2z[lane] = v2.z;
     }
     return block;
 }

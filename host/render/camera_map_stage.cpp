@@ -106,6 +106,7 @@ void CameraMapStage::splatPhotons(CameraMapPassCount& total) {
         total.nonFinite += count.nonFinite;
         total.overflows += count.overflows;
         total.fluxCut += count.fluxCut;
+        total.energy.add(count);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/cell_index.h"
+#include "render/energy_balance.h"
 #include "render/film.h"
 
 namespace quasilux {
@@ -13,6 +14,7 @@ struct CameraMapPassCount {
     uint64_t cutPaths = 0, nonFinite = 0;        ///< of photons and camera paths
     uint64_t overflows = 0;                      ///< sums of splats that left the range of their fixed point
     double fluxCut = 0, throughputCut = 0;       ///< of cut photons, W; of cut camera paths
+    EnergyBalance energy;                        ///< as in PhotonPassCount
 };
 
 class CameraMapStage {

@@ -46,6 +46,9 @@ std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settin
     if (estimatesBias(settings)) options += " -DESTIMATE_BIAS=1";
     if (settings.mediumRule != MediumRule::right)
         options += fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(settings.mediumRule));
+    if (settings.energyBalance) options += " -DENERGY_BALANCE";
+    if (settings.photonRule != PhotonRule::right)
+        options += fmt::format(" -DPHOTON_RULE={}", static_cast<int>(settings.photonRule));
     if (settings.lawRule != LawRule::right)
         options += fmt::format(" -DLAW_RULE={}", static_cast<int>(settings.lawRule));
     return options;

@@ -61,6 +61,7 @@ PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CL
         total.cutPaths += count.cutPaths;
         total.nonFinite += count.nonFinite;
         total.fluxCut += count.fluxCut;
+        total.energy.add(count);
     }
     index_.map().regionCapacity = params_.regionCapacity;
     index_.sort(photons_, regions_, geometry_, stored);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/cell_index.h"
+#include "render/energy_balance.h"
 
 #include <array>
 #include <cstdint>
@@ -13,6 +14,7 @@ struct PhotonPassCount {
     std::array<uint64_t, PHOTON_SLOTS> stored{}; ///< by slot of the map: classes on surfaces, then in media
     uint64_t cutPaths = 0, nonFinite = 0;
     double fluxCut = 0;
+    EnergyBalance energy; ///< counted only where the kernels are compiled with ENERGY_BALANCE
 };
 
 class PhotonStage {

@@ -174,8 +174,15 @@ struct Renderer::Stages {
         counters.storedBytes = std::max(counters.storedBytes, bytes);
     }
 
+    void noteEnergy(const EnergyBalance& ofPass) {
+        if (!settings.energyBalance) return;
+        if (!counters.energy) counters.energy.emplace();
+        *counters.energy += ofPass;
+    }
+
     void runPhotonMap(unsigned pass) {
         const auto count = photons->run(pass, radii(pass), volumeScale(pass));
+        noteEnergy(count.energy);
         camera->run(pass, *photons);
         uint64_t stored = 0;
         for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
@@ -191,6 +198,7 @@ struct Renderer::Stages {
 
     void runCameraMap(unsigned pass) {
         const auto count = cameraMap->run(pass, radii(pass), volumeScale(pass));
+        noteEnergy(count.energy);
         uint64_t stored = 0;
         for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
             if (count.points[slot] > 0) counters.cameraPointsStored[slotName(slot)] += count.points[slot];

@@ -1,6 +1,7 @@
 // The method, stage by stage: photons, map, camera paths, film. Calls only named stages.
 #pragma once
 
+#include "render/energy_balance.h"
 #include "render/film_image.h"
 #include "render/settings.h"
 
@@ -8,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace quasilux {
@@ -52,6 +54,7 @@ struct RenderCounters {
     uint64_t cutPaths = 0;               ///< paths ended by the hard limit on events
     uint64_t overflows = 0;              ///< sums of splats that left their range (camera map); a right render has none
     double fluxEmitted = 0, fluxCut = 0; ///< W, mean of R, G, B
+    std::optional<EnergyBalance> energy; ///< where RenderSettings::energyBalance asks for it
     double throughputCut = 0;            ///< of camera paths, mean of R, G, B; each begins with 1
     double prepareSeconds = 0, compileSeconds = 0, firstPassSeconds = 0, renderSeconds = 0;
 };

@@ -21,6 +21,11 @@ enum class LawRule { right, quasiSpecularUntilFirst, diffuseAtEveryHit, fullAlon
 /// are taken.
 enum class MediumRule { right, missingSigmaT, missingEtaSquared, wrongSignOfG };
 
+/// The right tracing of photons, or a known mistake, as negative controls of tests: flux that escapes is not counted in the
+/// energy balance; scattering multiplies flux by 1.02; shading normals are taken for the geometry's where photons scatter,
+/// or where they are stored.
+enum class PhotonRule { right, escapeNotCounted, scatteringGains, missingAdjoint, missingArrival };
+
 struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
     Variant variant = Variant::main;
@@ -33,8 +38,10 @@ struct RenderSettings {
     double radiusScale = 1.0;    ///< factor on the initial density radius
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
     bool estimateBias = true;    ///< beside the image; never in the camera map, which does not know it
+    bool energyBalance = false;  ///< count what becomes of the photons' flux
     LawRule lawRule = LawRule::right;
     MediumRule mediumRule = MediumRule::right;
+    PhotonRule photonRule = PhotonRule::right;
 };
 
 /// The first limit reached ends the render; none set = 30 s.

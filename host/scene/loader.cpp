@@ -4,6 +4,7 @@
 #include "scene/integrator.h"
 #include "scene/load_context.h"
 #include "scene/media/medium_plugin.h"
+#include "scene/origin.h"
 #include "scene/phases/phase_plugin.h"
 #include "scene/sensors/sensors.h"
 #include "scene/settings.h"
@@ -114,12 +115,11 @@ void checkEmitters(const Scene& scene) {
             "<emitter type=\"point\"> or <emitter type=\"constant\">.");
 }
 
-} // namespace
-
-Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters) {
-    const Element root = readSceneDocument(path, parameters);
+/// The scene in coordinates of the file less `origin`.
+Scene readScene(const Element& root, const std::string& path, const glm::dvec3& origin) {
     Scene scene;
     scene.path = path;
+    scene.origin = origin;
     LoadContext context(root, scene);
     checkVersion(root, context);
     scene.settings = parseSceneSettings(root.instructions);
@@ -135,6 +135,26 @@ Scene loadScene(const std::string& path, const std::vector<std::pair<std::string
     if (!integrators.empty()) scene.maxDepth = readMaxDepth(*integrators[0], context);
     checkEmitters(scene);
     return scene;
+}
+
+/// The scene about the origin of the file. Where that is so far away that a shape has no area left, about the sensor.
+Scene readSceneAnywhere(const Element& root, const std::string& path) {
+    try {
+        return readScene(root, path, glm::dvec3(0));
+    } catch (const InputError&) {
+        const glm::dvec3 place = placeOfSensor(root);
+        if (place == glm::dvec3(0)) throw;
+        return readScene(root, path, place);
+    }
+}
+
+} // namespace
+
+Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters) {
+    const Element root = readSceneDocument(path, parameters);
+    Scene scene = readSceneAnywhere(root, path);
+    const glm::dvec3 origin = chooseOrigin(scene);
+    return origin == scene.origin ? scene : readScene(root, path, origin);
 }
 
 } // namespace quasilux

@@ -100,7 +100,9 @@ glm::dvec3 Properties::vector(const std::string& name, const glm::dvec3& missing
 
 glm::dmat4 Properties::transform(const std::string& name) {
     const Element* parameter = find(name, {"transform"});
-    return parameter ? parseTransform(*parameter) : glm::dmat4(1.0);
+    glm::dmat4 matrix = parameter ? parseTransform(*parameter) : glm::dmat4(1.0);
+    if (name == "to_world") matrix[3] -= glm::dvec4(context_.scene.origin, 0);
+    return matrix;
 }
 
 Rgb Properties::reflectance(const std::string& name, float missing) {

@@ -1,4 +1,4 @@
-// What a scene file says, in world space and resolved: the input of host/prepare. No device, no Embree, no XML here.
+// What a scene file says, in world space (less Scene::origin) and resolved: the input of host/prepare. No device, no Embree, no XML here.
 #pragma once
 
 #include "bsdf/lobe_list.h"
@@ -141,6 +141,7 @@ struct SceneSettings {
 
 struct Scene {
     std::string path;
+    glm::dvec3 origin{0}; ///< coordinates here are those of the file less this (host/scene/origin.h)
     std::vector<Bsdf> bsdfs;
     std::vector<ShapeDescription> shapes;
     std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index

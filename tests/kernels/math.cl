@@ -60,8 +60,8 @@ __kernel void offsetOrigins(__global const Packed3* points, __global const Packe
                             uint count) {
     const uint i = get_global_id(0);
     if (i < count)
-        result[i] = pack3(
-            offsetRayOrigin(load3(points[i]), load3(normals[i]), POSITION_ERROR * maxMagnitude(load3(points[i]))));
+        result[i] =
+            pack3(offsetRayOrigin(load3(points[i]), load3(normals[i]), POSITION_ERROR * length(load3(points[i]))));
 }
 
 __kernel void octahedralRoundTrip(__global const Packed3* vectors, __global Packed3* result, uint count) {

@@ -1,0 +1,20 @@
+// Where a scene's own origin lies. Single precision knows a place 1e5 units from the origin to 0.008 units only, so a
+// scene far from it is loaded relative to its centre: coordinates are subtracted in double precision before they are
+// rounded.
+#pragma once
+
+#include "scene/scene.h"
+#include "scene/xml/element.h"
+
+namespace quasilux {
+
+/// Where Scene::origin should be: the centre of the bounding box of all shapes, in coordinates of the file, if it is
+/// further than four times the box's size from the file's origin; else that origin, so that most scenes are loaded as
+/// they are written.
+glm::dvec3 chooseOrigin(const Scene& scene);
+
+/// Where the first sensor stands, in coordinates of the file: a first guess of the place of a scene that cannot be
+/// loaded about the file's origin, since a shape has no area left there. Zero if there is none, or it cannot be read.
+glm::dvec3 placeOfSensor(const Element& root);
+
+} // namespace quasilux
