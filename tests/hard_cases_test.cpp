@@ -37,7 +37,9 @@ void expectSound(const RenderCounters& counters) {
     EXPECT_EQ(counters.nonFinite, 0u);
     ASSERT_TRUE(counters.energy);
     EXPECT_LE(std::abs(counters.energy->imbalance()), balanceBound);
-    if (counters.energy->emitted > 0) EXPECT_NEAR(counters.energy->emitted / counters.fluxEmitted, 1, balanceBound);
+    if (counters.energy->emitted > 0) {
+        EXPECT_NEAR(counters.energy->emitted / counters.fluxEmitted, 1, balanceBound);
+    }
 }
 
 /// Luminance of 4 x 4 equal blocks of the image, checked on the way.
