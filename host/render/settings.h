@@ -31,6 +31,7 @@ struct RenderSettings {
     unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
     uint64_t seed = 1;
     double radiusScale = 1.0;    ///< factor on the initial density radius
+    bool photometric = false;    ///< radiance is in cd/m^2, not W sr^-1 m^-2: only what readings in lux and cd/m^2 say
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
     LawRule lawRule = LawRule::right;
     MediumRule mediumRule = MediumRule::right;
