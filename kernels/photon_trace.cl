@@ -6,6 +6,7 @@
 #include "law.clh"
 #include "medium_flight.clh"
 #include "scatter.clh"
+#include "splat_sums.clh"
 #ifdef MAP_CAMERA
 #include "splat.clh"
 #endif
