@@ -216,7 +216,7 @@ constexpr double furnaceTruth = pi * 2.5;
 class Furnace : public testing::TestWithParam<Method> {};
 
 TEST_P(Furnace, IsPiTimesEmissionOverAbsorption) {
-    const unsigned passes = GetParam().direct == DirectLight::photons ? 60 : 12; // what is counted is noisier
+    const unsigned passes = GetParam().direct == DirectLight::photons ? 60 : 40; // what is counted is noisier
     expectReading(furnace(true), GetParam(), furnaceTruth, true, passes, 8000);
     expectReading(furnace(false), GetParam(), furnaceTruth, true, passes, 8000);
 }
