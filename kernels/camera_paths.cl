@@ -9,6 +9,9 @@
 #include "camera.clh"
 #include "camera_medium.clh"
 #include "camera_surface.clh"
+#ifdef HAS_METER
+#include "meter.clh"
+#endif
 
 /* One segment of the path and what happens at its end; 0 where the path ends. */
 inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, float3* components) {
@@ -63,14 +66,28 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
     return scatterCameraPath(world, path, &s, &frame, wo, lobes, &choice, rng);
 }
 
-/* Light that the path of a pixel takes, by component, and its bias. Returns the throughput, mean of R, G, B, with which it was cut, or
- * -1 where it ended by itself. */
-inline float traceCameraPath(const World* world, uint pixel, float3* components) {
+/* Paths of a pixel in a pass: one, of a meter several. */
+inline uint pathsPerPixel(const CameraParams* params) {
+#ifdef HAS_METER
+    return params->scene.meter.samples;
+#else
+    return 1;
+#endif
+}
+
+inline uint pathCount(const CameraParams* params) {
+    return params->camera.width * params->camera.height * pathsPerPixel(params);
+}
+
+/* Light that a path takes, by component, and its bias; paths of a pixel follow each other. Returns the throughput, mean of R, G, B, with
+ * which it was cut, or -1 where it ended by itself. */
+inline float traceCameraPath(const World* world, uint index, float3* components) {
     const CameraParams* params = world->params;
+    const uint pixel = index / pathsPerPixel(params);
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
-    Rng rng = rngMake(seed, params->pass, STREAM_CAMERA, pixel);
+    Rng rng = rngMake(seed, params->pass, STREAM_CAMERA, index);
     CameraPath path;
-    const float3 even = pixelNumbers(pixel, params->pass, seed);
+    const float3 even = pixelNumbers(index, params->pass, seed);
     path.ray = cameraRay(&params->camera, pixel, even.xy);
     path.firstChoice = even.z;
     path.throughput = 1;
@@ -84,6 +101,11 @@ inline float traceCameraPath(const World* world, uint pixel, float3* components)
     path.medium = params->camera.medium;
 #endif
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
+#ifdef HAS_IRRADIANCE_METER
+    const MeterSequence sequence = {index % pathsPerPixel(params), pathsPerPixel(params),
+                                    rngMake(seed, params->pass, STREAM_PIXEL, pixel).key};
+    leaveMeter(world, &path, &sequence, pixel, &rng, components);
+#endif
     uint event = 0;
     while (event < PATH_EVENTS_MAX && followCameraPath(world, &path, &rng, components)) ++event;
     return event < PATH_EVENTS_MAX ? -1 : (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
@@ -99,7 +121,48 @@ inline void addFiniteSample(__global float* film, __global CameraCounters* count
         atomic_inc(&counters->nonFinite);
 }
 
-#ifndef MAP_CAMERA
+#if defined(HAS_METER) && !defined(MAP_CAMERA)
+#define SAMPLE_FLOATS (3 * FILM_COMPONENTS)
+
+__kernel void traceMeterPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                              __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
+                              __global float* samples, __global CameraCounters* counters, const CameraParams params) {
+    const uint index = get_global_id(0);
+    if (index >= pathCount(&params)) return;
+    const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
+    float3 components[FILM_COMPONENTS];
+    const float cut = traceCameraPath(&world, index, components);
+    if (cut >= 0) {
+        atomic_inc(&counters->cutPaths);
+        atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
+    }
+    for (uint k = 0; k < FILM_COMPONENTS; ++k) vstore3(components[k], k, samples + (size_t)index * SAMPLE_FLOATS);
+}
+
+/* Ends the pass: the sample of a pixel is the mean of its paths and the photons counted in it (meter_photons.clh), times
+ * `scale`. */
+__kernel void addMeterSamples(__global const float* samples, __global uint* sums, __global float* film,
+                              __global CameraCounters* counters, const uint pixels, const uint samplesPerPixel,
+                              const float scale, const float quantaPerRadiance, const float batchWeight) {
+    const uint pixel = get_global_id(0);
+    if (pixel >= pixels) return;
+    float3 components[FILM_COMPONENTS];
+    for (uint c = 0; c < FILM_COMPONENTS; ++c) {
+        float3 sum = 0, lost = 0; /* compensated (Kahan 1965) */
+        for (uint k = 0; k < samplesPerPixel; ++k) {
+            const float3 value = vload3(c, samples + ((size_t)pixel * samplesPerPixel + k) * SAMPLE_FLOATS) - lost;
+            const float3 next = sum + value;
+            lost = (next - sum) - value;
+            sum = next;
+        }
+#ifdef HAS_METER_PHOTONS
+        if (c < LIGHT_CLASSES && SPLAT_CLASSES >> c & 1) sum += takeSplats(sums, pixel, c) / quantaPerRadiance;
+#endif
+        components[c] = sum * scale;
+    }
+    addFiniteSample(film, counters, pixel, components, batchWeight);
+}
+#elif !defined(MAP_CAMERA)
 __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                                __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
                                __global float* film, __global CameraCounters* counters, const CameraParams params) {
@@ -135,32 +198,37 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
     own.count.cutThroughput = 0;
     const World world = {nodes, blocks, tables, &own, &params};
     const uint first = region * store.pixelsPerRegion;
-    const uint last = min(first + store.pixelsPerRegion, params.camera.width * params.camera.height);
-    for (uint pixel = first; pixel < last; ++pixel) {
-        own.pixel = pixel;
+    const uint last = min(first + store.pixelsPerRegion, pathCount(&params));
+    for (uint index = first; index < last; ++index) {
+        own.pixel = index / pathsPerPixel(&params);
         float3 components[FILM_SAMPLES];
-        const float cut = traceCameraPath(&world, pixel, components);
+        const float cut = traceCameraPath(&world, index, components);
         if (cut >= 0) {
             ++own.count.cutPaths;
             own.count.cutThroughput += cut;
         }
-        vstore3(components[LIGHT_DIRECT], 0, samples + (size_t)pixel * SAMPLE_FLOATS);
-        vstore3(components[FILM_EMISSION], 1, samples + (size_t)pixel * SAMPLE_FLOATS);
+        vstore3(components[LIGHT_DIRECT], 0, samples + (size_t)index * SAMPLE_FLOATS);
+        vstore3(components[FILM_EMISSION], 1, samples + (size_t)index * SAMPLE_FLOATS);
     }
     counts[region] = own.count;
 }
 
-/* Ends the pass: the sample of a pixel is what its path took and what photons have splatted to it. */
+/* Ends the pass: the sample of a pixel is what its paths took and what photons have splatted to it, times `scale`. */
 __kernel void addSamples(__global const float* samples, __global uint* sums, __global float* film,
-                         __global CameraCounters* counters, const uint pixels, const float quantaPerRadiance,
-                         const float batchWeight) {
+                         __global CameraCounters* counters, const uint pixels, const uint samplesPerPixel,
+                         const float scale, const float quantaPerRadiance, const float batchWeight) {
     const uint pixel = get_global_id(0);
     if (pixel >= pixels) return;
     float3 components[FILM_SAMPLES];
     for (uint c = 0; c < LIGHT_CLASSES; ++c)
         components[c] = SPLAT_CLASSES >> c & 1 ? takeSplats(sums, pixel, c) / quantaPerRadiance : (float3)(0);
-    components[LIGHT_DIRECT] += vload3(0, samples + (size_t)pixel * SAMPLE_FLOATS);
-    components[FILM_EMISSION] = vload3(1, samples + (size_t)pixel * SAMPLE_FLOATS);
+    components[FILM_EMISSION] = 0;
+    for (uint k = 0; k < samplesPerPixel; ++k) {
+        const size_t first = ((size_t)pixel * samplesPerPixel + k) * SAMPLE_FLOATS;
+        components[LIGHT_DIRECT] += vload3(0, samples + first);
+        components[FILM_EMISSION] += vload3(1, samples + first);
+    }
+    for (uint c = 0; c < FILM_SAMPLES; ++c) components[c] *= scale;
     addFiniteSample(film, counters, pixel, components, batchWeight);
 }
 #endif

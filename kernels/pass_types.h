@@ -20,6 +20,7 @@ typedef struct {
     Packed3 borderLower;      /* corner of the border grid */
     float borderCellSize;
     unsigned int borderCellsX, borderCellsY, borderCellsZ;
+    Meter meter;
 } SceneTables;
 
 /* One photon as traced, before indexing. */

@@ -7,8 +7,12 @@
 #include "law.clh"
 #include "medium_flight.clh"
 #include "scatter.clh"
+#include "splat_sums.clh"
 #ifdef MAP_CAMERA
 #include "splat.clh"
+#endif
+#ifdef HAS_METER_PHOTONS
+#include "meter_photons.clh"
 #endif
 
 /* Photon paths go on for sure down to this share of their first flux; below, roulette ends them in proportion. On the
@@ -30,6 +34,13 @@ typedef struct {
 #ifdef MAP_CAMERA
 typedef SplatTarget PhotonSink;
 
+#ifdef HAS_METER_PHOTONS
+inline MeterSums meterSumsOf(const PhotonSink* target) {
+    const MeterSums sums = {target->sums, target->quantaPerRadiance * target->scene->meter.samples * M_1_PI_F};
+    return sums;
+}
+#endif
+
 inline void deliverPhoton(const PhotonSink* target, RegionCount* count, const PhotonPath* path, float3 position,
                           float3 flux, uint place, uint slot) {
     ++count->wanted;
@@ -41,7 +52,14 @@ inline void deliverPhoton(const PhotonSink* target, RegionCount* count, const Ph
 typedef struct {
     __global Photon* photons;
     uint capacity;
+#ifdef HAS_METER_PHOTONS
+    MeterSums meter;
+#endif
 } PhotonSink;
+
+#ifdef HAS_METER_PHOTONS
+inline MeterSums meterSumsOf(const PhotonSink* sink) { return sink->meter; }
+#endif
 
 inline void deliverPhoton(const PhotonSink* sink, RegionCount* count, const PhotonPath* path, float3 position,
                           float3 flux, uint place, uint slot) {
@@ -153,6 +171,21 @@ inline int collidePhoton(PhotonPath* path, const FreeFlight* flight, __global co
 }
 #endif
 
+/* Shows the meter a segment of the path that ends after `length`: at a surface, at a collision, or never. */
+inline void crossMeter(const PhotonPath* path, float length, const PhotonSink* sink, __global const uint* tables,
+                       const SceneTables* scene, RegionCount* count) {
+#ifdef HAS_METER_PHOTONS
+    const MeterSums sums = meterSumsOf(sink);
+#ifdef HAS_MEDIA
+    const uint medium = path->medium;
+#else
+    const uint medium = MEDIUM_NONE;
+#endif
+    count->overflows +=
+        countAtMeter(&sums, path->origin, path->direction, length, path->flux, path->events, medium, tables, scene);
+#endif
+}
+
 inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* params, const Lattice* lattice,
                              uint index, Rng* rng) {
     const SceneTables* scene = &params->scene;
@@ -202,6 +235,7 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
             __global const Medium* medium = SCENE_TABLE(tables, scene, Medium, media) + path.medium;
             const MediumSegment segment =
                 followMedium(medium, path.flux, &ray, 1, rngNext2(&rng), nodes, blocks, tables, scene);
+            crossMeter(&path, segment.flight.distance, sink, tables, scene, count);
             const float before = meanFlux(path.flux);
             path.flux *= segment.flight.weight;
             countChance(count, before, meanFlux(path.flux));
@@ -213,7 +247,10 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
             hit = segment.hit;
         } else
 #endif
+        {
             hit = intersectClosestOpaque(nodes, blocks, ray);
+            crossMeter(&path, hit.primitive == QL_NONE ? INFINITY : hit.t, sink, tables, scene, count);
+        }
         if (hit.primitive == QL_NONE) {
             countEnergy(count, ENERGY_ESCAPED, meanFlux(path.flux));
             return;
@@ -272,10 +309,21 @@ __kernel void splatPhotons(__global const BvhNode* nodes, __global const Primiti
 #else
 __kernel void tracePhotons(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                            __global const uint* tables, __global Photon* photons, __global RegionCount* counts,
-                           const PhotonParams params) {
+                           const PhotonParams params
+#ifdef HAS_METER_PHOTONS
+                           ,
+                           __global uint* meterSums, const float quantaPerRadiance
+#endif
+) {
     const uint region = get_global_id(0);
     if (region >= params.regions) return;
-    const PhotonSink sink = {photons + (size_t)region * params.regionCapacity, params.regionCapacity};
+    PhotonSink sink;
+    sink.photons = photons + (size_t)region * params.regionCapacity;
+    sink.capacity = params.regionCapacity;
+#ifdef HAS_METER_PHOTONS
+    sink.meter.sums = meterSums;
+    sink.meter.quantaPerIrradiance = quantaPerRadiance * params.scene.meter.samples * M_1_PI_F;
+#endif
     traceRegion(region, nodes, blocks, tables, &sink, &params, counts);
 }
 #endif

@@ -207,6 +207,37 @@ typedef struct {
     unsigned int medium; /* in which it stands: index or MEDIUM_NONE */
 } Camera;
 
+/* ---- irradiance meters (kernels/meter.clh) ----------------------------------------------------------------------- */
+
+#define METER_PARALLELOGRAM 0u
+#define METER_TRIANGLE 1u
+#define METER_SPHERE 2u
+
+/* A piece of what a meter measures on. Its front is the side of sign * cross(e1, e2), of a sphere the outside if sign > 0. */
+typedef struct {
+    unsigned int type;  /* METER_* */
+    Packed3 p0;         /* corner; sphere: centre */
+    Packed3 e1, e2, e3; /* sides; sphere: its own axes x, y, z in the world, unit */
+    float radius;       /* sphere */
+    float sign;
+    float areaCdf; /* share of the meter's area up to and including this piece; last = 1 */
+} MeterPrimitive;
+
+#define METER_NONE 0u /* the sensor is a camera */
+#define METER_RAY 1u  /* radiance along the camera's one ray */
+#define METER_AREA 2u /* irradiance: a pixel is a part of the surface */
+#define METER_GRID 3u /* irradiance: a pixel is a point, the centre of a cell of the one parallelogram */
+
+typedef struct {
+    unsigned int kind;                       /* METER_NONE ... METER_GRID */
+    unsigned int primitives, primitiveCount; /* MeterPrimitive records: word offset into the scene tables, number */
+    unsigned int width, height;              /* pixels */
+    unsigned int samples;                    /* paths of a pixel in each pass, a power of two */
+    unsigned int lobe;                       /* a white Lambert lobe */
+    unsigned int medium;                     /* in which the meter lies: index or MEDIUM_NONE */
+    float inverseArea;                       /* 1 / area of a pixel */
+} Meter;
+
 /* ---- light classes (kernels/law.clh) ----------------------------------------------------------------------------- */
 
 #define LIGHT_DIRECT 0u

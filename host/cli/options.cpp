@@ -118,6 +118,12 @@ void declareFiles(CLI::App& command, RenderOptions& options) {
     auto* png = command.add_option("--png", options.png, "Tone-mapped 8-bit sRGB picture, .png (default: none)")
                     ->type_name("FILE")
                     ->group(group);
+    command
+        .add_option("--grid", options.grid,
+                    "Measures the scene's illuminance-grid instead of rendering its sensor's image; a table, .csv. "
+                    "An image is written only if --output is given (default: none)")
+        ->type_name("FILE")
+        ->group(group);
     command.add_option("--stats", options.stats, "Statistics, .json (default: none)")->type_name("FILE")->group(group);
     auto* stops = command
                       .add_option("--exposure", options.exposure.stops,
@@ -186,6 +192,7 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
 }
 
 std::string RenderOptions::outputPath() const {
+    if (output.empty() && !grid.empty()) return {};
     return output.empty() ? std::filesystem::path(scene).stem().string() + ".exr" : output;
 }
 

@@ -33,11 +33,11 @@ struct SceneOptions {
 };
 
 struct RenderOptions : SceneOptions {
-    std::string output, png, stats; ///< paths; empty = not asked for
+    std::string output, png, stats, grid; ///< paths; empty = not asked for
     StopRule stop;
     ExposureChoice exposure;
 
-    /// `output`, or the scene's stem with .exr in the current folder.
+    /// `output`, or the scene's stem with .exr in the current folder; empty where only the grid is asked for.
     std::string outputPath() const;
 };
 

@@ -5,6 +5,8 @@
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
 #include "output/exr.h"
+#include "output/grid_csv.h"
+#include "output/meter_reading.h"
 #include "output/progress_line.h"
 #include "output/statistics.h"
 
@@ -27,7 +29,8 @@ struct WrittenFiles {
 };
 
 void checkOutputs(const RenderOptions& options) {
-    checkOutputPath(options.outputPath(), "--output", ".exr");
+    if (!options.outputPath().empty()) checkOutputPath(options.outputPath(), "--output", ".exr");
+    if (!options.grid.empty()) checkOutputPath(options.grid, "--grid", ".csv");
     if (!options.png.empty()) checkOutputPath(options.png, "--png", ".png");
     if (!options.stats.empty()) checkOutputPath(options.stats, "--stats", ".json");
 }
@@ -36,11 +39,20 @@ void warn(const RenderOptions& options, const std::string& message) {
     if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
 }
 
-WrittenFiles writeFiles(const RenderOptions& options, const FilmImage& image, RenderRecord& record) {
+WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
+                        RenderRecord& record) {
     const auto start = Clock::now();
     WrittenFiles written;
-    writeExr(options.outputPath(), image, record);
-    written.paths.push_back(options.outputPath());
+    if (const std::string path = options.outputPath(); !path.empty()) {
+        writeExr(path, image, record);
+        written.paths.push_back(path);
+    }
+    if (!options.grid.empty()) {
+        IlluminanceGrid grid = *scene.grid;
+        grid.origin += scene.origin; // where the file has it
+        writeGridCsv(options.grid, grid, image, record);
+        written.paths.push_back(options.grid);
+    }
     if (!options.png.empty()) {
         written.curve = chooseToneCurve(image, options.exposure);
         writePng(options.png, image, *written.curve, record);
@@ -54,7 +66,7 @@ WrittenFiles writeFiles(const RenderOptions& options, const FilmImage& image, Re
     return written;
 }
 
-void printJsonSummary(const RenderRecord& record, const WrittenFiles& written) {
+void printJsonSummary(const RenderRecord& record, const FilmImage& image, const WrittenFiles& written) {
     nlohmann::json summary{{"version", record.version},
                            {"scene", record.scene},
                            {"device", record.device.name},
@@ -67,6 +79,7 @@ void printJsonSummary(const RenderRecord& record, const WrittenFiles& written) {
                            {"cutPaths", record.counters.cutPaths},
                            {"files", written.paths}};
     if (written.curve) summary["exposure"] = {{"scale", written.curve->scale}, {"white", written.curve->white}};
+    if (record.meter != MeterKind::none) summary["meter"] = meterJson(record, image);
     fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
@@ -90,11 +103,12 @@ void printError(const ErrorEstimate& error) {
     fmt::print("{}", table.text());
 }
 
-void printSummary(const RenderRecord& record, const WrittenFiles& written) {
+void printSummary(const RenderRecord& record, const FilmImage& image, const WrittenFiles& written) {
     fmt::print("{} {}, {:.1f} s", record.counters.passes, record.counters.passes == 1 ? "pass" : "passes",
                record.counters.renderSeconds);
     if (record.interrupted) fmt::print(", interrupted");
     printError(record.error);
+    if (record.meter != MeterKind::none) fmt::print("{}", meterText(record, image));
     for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
     if (written.curve)
         fmt::print("exposure scale {:.6g} per W sr^-1 m^-2, white at {:.6g}\n", written.curve->scale,
@@ -119,7 +133,7 @@ void warnOfCounters(const RenderOptions& options, const RenderCounters& counters
 }
 
 RenderRecord makeRecord(const RenderOptions& options, const RenderSettings& settings, Device& device,
-                        const Renderer& renderer, const FilmImage& image) {
+                        const Renderer& renderer, const FilmImage& image, MeterKind meter) {
     RenderRecord record;
     record.scene = std::filesystem::path(options.scene).filename().string();
     record.settings = settings;
@@ -129,6 +143,7 @@ RenderRecord makeRecord(const RenderOptions& options, const RenderSettings& sett
     record.report = renderer.report();
     record.counters = renderer.counters();
     record.error = estimateError(image);
+    record.meter = meter;
     record.kernels = device.timings();
     record.peakBufferBytes = device.allocatedBytes();
     record.interrupted = interruptFlag();
@@ -143,7 +158,8 @@ int renderCommand(const RenderOptions& options) {
     ProgressLine progress(stderr, !options.quiet);
     progress.update({.phase = "loading"});
     const auto start = Clock::now();
-    const Scene scene = loadScene(options.scene, options.parameters());
+    Scene scene = loadScene(options.scene, options.parameters());
+    if (!options.grid.empty()) measureGrid(scene);
     const double loadSeconds = secondsSince(start);
     progress.clear();
     for (const auto& warning : scene.warnings) warn(options, warning);
@@ -165,15 +181,15 @@ int renderCommand(const RenderOptions& options) {
     }
 
     progress.update({.phase = "writing"});
-    RenderRecord record = makeRecord(options, settings, device, renderer, image);
+    RenderRecord record = makeRecord(options, settings, device, renderer, image, scene.sensor.meter);
     record.loadSeconds = loadSeconds;
-    const WrittenFiles written = writeFiles(options, image, record);
+    const WrittenFiles written = writeFiles(options, scene, image, record);
     progress.clear();
     warnOfCounters(options, record.counters);
     if (options.json)
-        printJsonSummary(record, written);
+        printJsonSummary(record, image, written);
     else if (!options.quiet)
-        printSummary(record, written);
+        printSummary(record, image, written);
     return 0;
 }
 

@@ -2,6 +2,7 @@
 #include "output/exr.h"
 
 #include "output/atomic_file.h"
+#include "output/meter_reading.h"
 
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
@@ -81,6 +82,8 @@ void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
     text("seed", std::to_string(settings.seed)); // 64 bits: a header holds no whole number that large
     whole("photonsPerPass", record.photonsPerPass());
     real("radiusScale", settings.radiusScale);
+    text("quantity", quantityName(record.meter));
+    if (record.meter != MeterKind::none) text("units", settings.photometric ? "photometric" : "radiometric");
     whole("passes", record.counters.passes);
     text("nonFinite", std::to_string(record.counters.nonFinite));
     real("seconds", record.counters.renderSeconds);

@@ -20,6 +20,7 @@ struct RenderRecord {
     SceneReport report;
     RenderCounters counters;
     ErrorEstimate error;
+    MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
     std::map<std::string, KernelTiming> kernels;
     uint64_t peakBufferBytes = 0;             ///< buffers are allocated once and kept, so their sum is the peak
     double loadSeconds = 0, writeSeconds = 0; ///< reading the scene; writing the images

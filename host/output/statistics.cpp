@@ -2,6 +2,7 @@
 #include "output/statistics.h"
 
 #include "output/atomic_file.h"
+#include "output/meter_reading.h"
 
 #include <fstream>
 #include <stdexcept>
@@ -105,6 +106,7 @@ json settingsJson(const RenderSettings& settings) {
             {"photonsPerPass", settings.photonsPerPass},
             {"seed", settings.seed},
             {"radiusScale", settings.radiusScale},
+            {"units", settings.photometric ? "photometric" : "radiometric"},
             {"kernels", settings.genericKernels ? "generic" : "scene"}};
 }
 
@@ -137,10 +139,12 @@ json sceneReportJson(const SceneReport& report) {
 json statisticsJson(const RenderRecord& record, const FilmImage& image) {
     json device = deviceJson(record.device);
     device["workGroupSize"] = record.workGroupSize;
+    const json meter = record.meter == MeterKind::none ? json(nullptr) : meterJson(record, image);
     // nlohmann writes infinity, an unknown error, as null.
     return {{"version", record.version},
             {"scene", record.scene},
             {"image", {{"width", image.width}, {"height", image.height}}},
+            {"meter", meter},
             {"settings", settingsJson(record.settings)},
             {"stop",
              {{"seconds", orNull(record.stop.seconds)},

@@ -44,7 +44,19 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     features.borders = !borders.segments.empty();
     features.depthLimit = scene.maxDepth >= 0;
     features.orthographicCamera = scene.sensor.orthographic;
+    features.radianceMeter = scene.sensor.meter == MeterKind::ray;
+    features.irradianceMeter = scene.sensor.meter == MeterKind::area || scene.sensor.meter == MeterKind::grid;
     return features;
+}
+
+// The lobe of an irradiance meter: what it reflects is what arrives. Returns its index.
+unsigned appendWhite(std::vector<shared::Lobe>& lobes) {
+    shared::Lobe white{};
+    white.type = LOBE_LAMBERT;
+    white.scattering = SCATTER_GENUINE_DIFFUSE;
+    white.reflectance = {1, 1, 1};
+    lobes.push_back(white);
+    return static_cast<unsigned>(lobes.size() - 1);
 }
 
 // The density radius stays below half the radius of curvature, where a surface is close to its tangent plane.
@@ -80,7 +92,9 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     const auto media = flattenMedia(scene, out.mediumSplit, settings.photons);
     out.media = media.media;
     out.emitters = flattenEmitters(scene, placement);
-    const auto materials = flattenMaterials(scene, out.split);
+    auto materials = flattenMaterials(scene, out.split);
+    const bool isIrradianceMeter = scene.sensor.meter == MeterKind::area || scene.sensor.meter == MeterKind::grid;
+    const unsigned meterLobe = isIrradianceMeter ? appendWhite(materials.lobes) : QL_NONE;
     const auto borders = findBorders(scene);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
@@ -101,6 +115,10 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.emitters = tables.append(out.emitters.emitters);
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
     out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
+    const auto meter = flattenMeter(scene, placement.camera);
+    out.offsets.meter = meter.meter;
+    out.offsets.meter.lobe = meterLobe;
+    out.offsets.meter.primitives = tables.append(meter.primitives);
     appendBorders(borders, static_cast<float>(settings.largestRadius(out.surfaceArea)), tables, out.offsets);
     out.tables = tables.words();
     out.camera = flattenCamera(scene.sensor, placement.camera);

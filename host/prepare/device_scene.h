@@ -25,7 +25,7 @@ struct DeviceScene {
     std::vector<uint32_t> tables;
     shared::SceneTables offsets{};
     shared::Camera camera{};
-    Features features;
+    Features features; // the meter is described by offsets.meter
     // For people:
     size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
     double surfaceArea = 0; ///< of everything that scatters, scene units squared
@@ -67,6 +67,12 @@ unsigned uvWords(const Scene& scene, const ShapeDescription& shape);
 std::vector<float> flattenUvs(const Scene& scene);
 EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placement);
 shared::Camera flattenCamera(const Sensor& sensor, unsigned medium = MEDIUM_NONE);
+struct MeterTables {
+    shared::Meter meter{}; ///< offsets into the scene tables and `lobe` are left open
+    std::vector<shared::MeterPrimitive> primitives;
+};
+/// Where irradiance is measured; `medium` as flattenCamera takes it. Kind METER_NONE for a camera.
+MeterTables flattenMeter(const Scene& scene, unsigned medium = MEDIUM_NONE);
 struct MediumTables {
     std::vector<shared::Medium> media;
     std::vector<shared::MediumPlane> planes;

@@ -60,6 +60,8 @@ std::vector<std::string> Features::names() const {
     for (const unsigned type : phases) list.push_back("phase " + lower(phaseNames.at(type)));
     for (const auto& flag : flags)
         if (this->*flag.member) list.emplace_back(flag.text);
+    if (radianceMeter) list.emplace_back("radiance meter");
+    if (irradianceMeter) list.emplace_back("irradiance meter");
     return list;
 }
 

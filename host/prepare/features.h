@@ -15,8 +15,9 @@ struct Features {
     std::set<unsigned> phases;       ///< PHASE_* in use
     bool spheres = false, nullPrimitives = false, cornerNormals = false, borders = false, depthLimit = false,
          orthographicCamera = false, textures = false;
-    bool media = false, chromaticMedia = false; ///< extinction differs between the channels of some medium
-    bool directInMedia = false;                 ///< emitter sampling can reach points in some medium
+    bool radianceMeter = false, irradianceMeter = false; ///< what the sensor is, if no camera
+    bool media = false, chromaticMedia = false;          ///< extinction differs between the channels of some medium
+    bool directInMedia = false;                          ///< emitter sampling can reach points in some medium
     bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering of surfaces
     bool genuineDiffuseMedia = false, quasiSpecularMedia = false;         ///< and of media
 

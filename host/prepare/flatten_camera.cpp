@@ -32,11 +32,19 @@ void placeOrthographic(const Sensor& sensor, shared::Camera& camera) {
     camera.forward = pack(glm::normalize(axes[2]));
 }
 
+// One ray, whatever the place in the pixel.
+void placeRay(const Sensor& sensor, shared::Camera& camera) {
+    camera.origin = pack(glm::dvec3(sensor.toWorld[3]));
+    camera.forward = camera.corner = pack(glm::normalize(glm::dvec3(sensor.toWorld[2])));
+}
+
 } // namespace
 
 shared::Camera flattenCamera(const Sensor& sensor, unsigned medium) {
     shared::Camera camera{};
-    if (sensor.orthographic)
+    if (sensor.meter == MeterKind::ray)
+        placeRay(sensor, camera);
+    else if (sensor.orthographic)
         placeOrthographic(sensor, camera);
     else
         placePerspective(sensor, camera);

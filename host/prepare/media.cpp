@@ -14,6 +14,17 @@ glm::dvec3 cameraOrigin(const Sensor& sensor) {
     return glm::dvec3(sensor.toWorld * local);
 }
 
+unsigned sensorMedium(const Scene& scene, const MediumBodies& bodies, const MediumPlacement& placement) {
+    const Sensor& sensor = scene.sensor;
+    if (sensor.medium) return *sensor.medium;
+    if (sensor.meter == MeterKind::grid)
+        return bodies.mediumAt(scene.grid->origin + 0.5 * (scene.grid->edgeU + scene.grid->edgeV));
+    if (sensor.meter != MeterKind::area) return bodies.mediumAt(cameraOrigin(sensor));
+    const unsigned exterior = placement.exterior[sensor.meterShape];
+    return exterior != MEDIUM_UNCHANGED ? exterior
+                                        : bodies.mediumAtMost(pointsOff(scene.shapes[sensor.meterShape], true));
+}
+
 } // namespace
 
 MediumPlacement placeMedia(const Scene& scene) {
@@ -36,7 +47,7 @@ MediumPlacement placeMedia(const Scene& scene) {
     for (const PointEmitter& emitter : scene.pointEmitters)
         placement.pointEmitters.push_back(emitter.medium ? *emitter.medium
                                                          : bodies.mediumAt(glm::dvec3(emitter.position)));
-    placement.camera = scene.sensor.medium ? *scene.sensor.medium : bodies.mediumAt(cameraOrigin(scene.sensor));
+    placement.camera = sensorMedium(scene, bodies, placement);
     return placement;
 }
 

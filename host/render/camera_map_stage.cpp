@@ -1,9 +1,9 @@
 #include "render/camera_map_stage.h"
 
+#include "render/meter_sums.h"
 #include "util/error.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -15,19 +15,6 @@ constexpr unsigned photonsPerRegion = 256;
 constexpr unsigned pixelsPerRegion = 64;
 constexpr size_t pointFields = 5;  // POINT_FIELDS of kernels/photon_grid.clh
 constexpr size_t sampleFloats = 6; // SAMPLE_FLOATS of kernels/camera_paths.cl
-
-// Of the mean radiance one splat may be 2^-37 and the sum of a pixel 2^27 before anything is lost: photons bring about
-// 2^-5 of it each, at a caustic's focus or in a narrow lobe up to 2^15 of that.
-constexpr int quantumBits = 36;
-
-float quantaPerRadiance(double meanRadiance) {
-    const int exponent = meanRadiance > 0 && std::isfinite(meanRadiance) ? std::ilogb(meanRadiance) + 1 : 0;
-    return static_cast<float>(std::ldexp(1.0, std::clamp(quantumBits - exponent, -100, 100)));
-}
-
-unsigned splatClasses(unsigned slots) {
-    return static_cast<unsigned>(std::popcount((slots | slots >> LIGHT_CLASSES) & ((1u << LIGHT_CLASSES) - 1)));
-}
 
 unsigned divideUp(size_t count, unsigned by) { return static_cast<unsigned>((count + by - 1) / by); }
 
@@ -53,11 +40,12 @@ CameraMapStage::CameraMapStage(Device& device, const std::string& options, const
     points_.borderCapacity = pixelsPerRegion / 2;
     index_.map().regionCapacity = pixelsPerRegion;
     index_.map().media = camera.scene.media;
-    const unsigned regions = divideUp(film.pixels(), pixelsPerRegion);
-    index_.makeTable(static_cast<unsigned>(film.pixels()), regions);
+    const size_t paths = film.pixels() * pathsPerPixel();
+    const unsigned regions = divideUp(paths, pixelsPerRegion);
+    index_.makeTable(static_cast<unsigned>(paths), regions);
     regions_ = Buffer<shared::PointRegionCount>(device, regions, "camera point regions");
-    samples_ = Buffer<float>(device, sampleFloats * film.pixels(), "camera samples");
-    sums_ = Buffer<uint32_t>(device, 6 * splatClasses(classes) * film.pixels(), "splats");
+    samples_ = Buffer<float>(device, sampleFloats * paths, "camera samples");
+    sums_ = Buffer<uint32_t>(device, splatWords(classes) * film.pixels(), "splats");
     sums_.fill(0);
     makeRegions();
 }
@@ -131,8 +119,8 @@ CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LI
         splatPhotons(total);
     }
     addSamples_.launch(film_.pixels(), samples_, sums_, film_.sums(), film_.counterBuffer(),
-                       static_cast<unsigned>(film_.pixels()), points_.quantaPerRadiance,
-                       film_.beginPass(pass).batchWeight);
+                       static_cast<unsigned>(film_.pixels()), pathsPerPixel(), sampleScale(cameraParams_.scene.meter),
+                       points_.quantaPerRadiance, film_.beginPass(pass).batchWeight);
     return total;
 }
 

@@ -39,6 +39,7 @@ public:
 
 private:
     std::vector<shared::PointRegionCount> traceCameraPoints();
+    unsigned pathsPerPixel() const { return cameraParams_.scene.meter.samples; }
     void makeRegions(); // of points as traced, for the capacity of the regions
     void splatPhotons(CameraMapPassCount& total);
 

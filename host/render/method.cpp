@@ -28,10 +28,34 @@ unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& sett
     if (features.specular) exist |= bit(LIGHT_CAUSTIC);
     if (features.quasiSpecular || features.quasiSpecularMedia) exist |= bit(LIGHT_QUASI_CAUSTIC);
     if (features.genuineDiffuse || features.genuineDiffuseMedia) exist |= bit(LIGHT_DIFFUSE);
-    const unsigned surfaces = exist & takenClasses(features.genuineDiffuse, features.quasiSpecular, settings.variant);
+    const bool genuineDiffuse = features.genuineDiffuse || sceneFeatures.irradianceMeter;
+    const unsigned surfaces = exist & takenClasses(genuineDiffuse, features.quasiSpecular, settings.variant);
     const unsigned media =
         exist & takenClasses(features.genuineDiffuseMedia, features.quasiSpecularMedia, settings.variant);
     return surfaces | media << LIGHT_CLASSES;
+}
+
+namespace {
+
+// Never of generic kernels: a sensor is a camera or a meter.
+std::string meterOptions(const Features& features, const RenderSettings& settings) {
+    std::string options;
+    if (features.radianceMeter || features.irradianceMeter) options += " -DHAS_METER";
+    if (features.irradianceMeter) options += " -DHAS_IRRADIANCE_METER";
+    if (meterCountsPhotons(features, settings)) options += " -DHAS_METER_PHOTONS";
+    return options;
+}
+
+} // namespace
+
+bool estimatesBias(const Features& features, const RenderSettings& settings) {
+    const bool isMeter = features.radianceMeter || features.irradianceMeter;
+    return settings.estimateBias && settings.map == MapOrder::photons && !isMeter;
+}
+
+bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {
+    const unsigned counted = bit(LIGHT_DIRECT) | bit(LIGHT_CAUSTIC) | bit(LIGHT_QUASI_CAUSTIC);
+    return features.irradianceMeter && (photonClasses(features, settings) & counted) != 0;
 }
 
 Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings) {
@@ -41,9 +65,10 @@ Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settin
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings) {
     std::string options = compiledFeatures(scene, settings).options() + ' ' + bvhOptions(scene.bvh);
     options += fmt::format(" -DPHOTON_CLASSES={}u", photonClasses(scene.features, settings));
+    options += meterOptions(scene.features, settings);
     if (settings.direct == DirectLight::emitters) options += " -DDIRECT_BY_EMITTERS";
     if (settings.variant == Variant::alternative) options += " -DLAW_ALTERNATIVE";
-    if (estimatesBias(settings)) options += " -DESTIMATE_BIAS=1";
+    if (estimatesBias(scene.features, settings)) options += " -DESTIMATE_BIAS=1";
     if (settings.mediumRule != MediumRule::right)
         options += fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(settings.mediumRule));
     if (settings.energyBalance) options += " -DENERGY_BALANCE";

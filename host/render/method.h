@@ -11,6 +11,12 @@ namespace quasilux {
 /// Bits 1 << LIGHT_* of the photons that some camera path can use; the others are not stored (kernels/law.clh).
 unsigned photonClasses(const Features& features, const RenderSettings& settings);
 
+/// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
+bool estimatesBias(const Features& features, const RenderSettings& settings);
+
+/// Whether photons that cross an irradiance meter are counted there (kernels/meter_photons.clh).
+bool meterCountsPhotons(const Features& features, const RenderSettings& settings);
+
 /// What the kernels are compiled for: what the scene needs, or everything.
 Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings);
 

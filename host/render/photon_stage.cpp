@@ -27,8 +27,14 @@ PhotonStage::PhotonStage(Device& device, const std::string& options, const Geome
 
 std::vector<shared::RegionCount> PhotonStage::trace() {
     for (;;) {
-        tracePhotons_.launch(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_, regions_,
-                             params_);
+        if (meter_) {
+            meter_->sums.fill(0);
+            tracePhotons_.launch(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_,
+                                 regions_, params_, meter_->sums, meter_->quantaPerRadiance);
+        } else {
+            tracePhotons_.launch(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_,
+                                 regions_, params_);
+        }
         auto counts = regions_.read();
         unsigned wanted = 0;
         for (const auto& count : counts) wanted = std::max(wanted, count.wanted);
@@ -60,6 +66,7 @@ PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CL
         stored += count.stored;
         total.cutPaths += count.cutPaths;
         total.nonFinite += count.nonFinite;
+        total.overflows += count.overflows;
         total.fluxCut += count.fluxCut;
         total.energy.add(count);
     }

@@ -3,6 +3,7 @@
 
 #include "render/cell_index.h"
 #include "render/energy_balance.h"
+#include "render/meter_sums.h"
 
 #include <array>
 #include <cstdint>
@@ -13,6 +14,7 @@ namespace quasilux {
 struct PhotonPassCount {
     std::array<uint64_t, PHOTON_SLOTS> stored{}; ///< by slot of the map: classes on surfaces, then in media
     uint64_t cutPaths = 0, nonFinite = 0;
+    uint64_t overflows = 0; ///< sums of a meter that left the range of their fixed point
     double fluxCut = 0;
     EnergyBalance energy; ///< counted only where the kernels are compiled with ENERGY_BALANCE
 };
@@ -31,6 +33,9 @@ public:
     /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more;
     /// about `expectedPhotons` are then stored in a pass.
     void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability, double expectedPhotons);
+
+    /// From now on photons that cross the meter are counted; kernels are compiled with HAS_METER_PHOTONS then.
+    void countAt(MeterSums& meter) { meter_ = &meter; }
 
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : params_.paths; }
@@ -51,6 +56,7 @@ private:
     CellIndex index_;
     shared::PhotonParams params_;
     unsigned classes_; // bits 1 << slot
+    MeterSums* meter_ = nullptr;
     Buffer<shared::Photon> photons_;
     Buffer<shared::RegionCount> regions_;
 };

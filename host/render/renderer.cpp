@@ -2,6 +2,7 @@
 
 #include "render/camera_map_stage.h"
 #include "render/camera_stage.h"
+#include "render/meter_stage.h"
 #include "render/method.h"
 #include "render/radius.h"
 
@@ -49,7 +50,8 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     shared::CameraParams params{};
     params.seedLow = static_cast<unsigned>(settings.seed);
     params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
-    params.bdd = settings.bdd;
+    // A meter is a genuine diffuse hit of its own, which does not count (kernels/meter.clh).
+    params.bdd = settings.bdd + (flat.features.irradianceMeter ? 1 : 0);
     params.maxDepth = maxDepth;
     params.camera = flat.camera;
     params.scene = flat.offsets;
@@ -121,7 +123,8 @@ SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSe
 struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_)
         : device(device_), settings(settings_), flat(std::move(flat_)), options(kernelOptions(flat, settings)),
-          geometry(device, flat), film(device, flat.camera.width, flat.camera.height, estimatesBias(settings)),
+          geometry(device, flat),
+          film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
           report(describe(scene, flat, settings)) {
         const auto photon = photonParams(scene, flat, settings);
         const auto path = cameraParams(flat, settings, photon.maxDepth);
@@ -134,7 +137,12 @@ struct Renderer::Stages {
         }
         photons.emplace(device, options, geometry, photon, classes, compiledFeatures(flat, settings).depthLimit);
         photons->thinVolume(thinning.keepProbability, thinning.expectedPhotons);
-        camera.emplace(device, options, geometry, film, path);
+        if (path.scene.meter.kind == METER_NONE) {
+            camera.emplace(device, options, geometry, film, path);
+            return;
+        }
+        meter.emplace(device, options, geometry, film, path, classes, meanRadiance(flat));
+        if (meterCountsPhotons(flat.features, settings)) photons->countAt(meter->counted());
     }
 
     // Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
@@ -147,6 +155,9 @@ struct Renderer::Stages {
     Thinning pilot(shared::PhotonParams params, unsigned classes) const {
         params.paths = std::min(pilotPaths, params.paths);
         PhotonStage stage(device, options, geometry, params, classes, compiledFeatures(flat, settings).depthLimit);
+        std::optional<MeterSums> uncounted;
+        if (meterCountsPhotons(flat.features, settings))
+            stage.countAt(uncounted.emplace(device, classes, film.pixels(), meanRadiance(flat)));
         const auto counted = stage.run(pilotPass, radii(0), volumeScale(0)).stored;
         const double passesOverPilot = double(report.photonsPerPass) / params.paths;
         Thinning thinning;
@@ -183,7 +194,10 @@ struct Renderer::Stages {
     void runPhotonMap(unsigned pass) {
         const auto count = photons->run(pass, radii(pass), volumeScale(pass));
         noteEnergy(count.energy);
-        camera->run(pass, *photons);
+        if (meter)
+            meter->run(pass, *photons);
+        else
+            camera->run(pass, *photons);
         uint64_t stored = 0;
         for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
             if (count.stored[slot] > 0) counters.photonsStored[slotName(slot)] += count.stored[slot];
@@ -193,6 +207,7 @@ struct Renderer::Stages {
         counters.photonsEmitted += photons->photonsPerPass();
         counters.cutPaths += count.cutPaths;
         counters.nonFinite += count.nonFinite;
+        counters.overflows += count.overflows;
         counters.fluxCut += count.fluxCut;
     }
 
@@ -219,8 +234,9 @@ struct Renderer::Stages {
     std::string options;
     GeometryBuffers geometry;
     Film film;
-    std::optional<PhotonStage> photons; // these two, or
+    std::optional<PhotonStage> photons; // this and one of the next two, or
     std::optional<CameraStage> camera;
+    std::optional<MeterStage> meter;
     std::optional<CameraMapStage> cameraMap; // this
     SceneReport report;
     RenderCounters counters;
@@ -254,7 +270,7 @@ void Renderer::renderPass(unsigned pass) {
     counters.cutPaths += dropped.cutPaths - s.dropped.cutPaths;
     counters.throughputCut += double(dropped.cutThroughput - s.dropped.cutThroughput) / CUT_THROUGHPUT_STEPS;
     s.dropped = dropped;
-    counters.cameraPaths += s.film.pixels();
+    counters.cameraPaths += s.film.pixels() * s.flat.offsets.meter.samples;
     counters.fluxEmitted += s.flat.emittedFlux;
     const double seconds = since(start);
     if (counters.passes++ == 0) counters.firstPassSeconds = seconds;

@@ -16,6 +16,7 @@ RenderSettings settingsFromScene(const Scene& scene) {
         if (said.quasiSpecular) settings.quasiSpecular = *said.quasiSpecular;
         if (said.photons) settings.photonsPerPass = *said.photons;
         if (said.seed) settings.seed = *said.seed;
+        settings.photometric = said.units == "photometric";
     } catch (const InputError& error) {
         throw InputError({scene.path}, error.what());
     }

@@ -36,8 +36,9 @@ struct RenderSettings {
     unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
     uint64_t seed = 1;
     double radiusScale = 1.0;    ///< factor on the initial density radius
+    bool photometric = false;    ///< radiance is in cd/m^2, not W sr^-1 m^-2: only what readings in lux and cd/m^2 say
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
-    bool estimateBias = true;    ///< beside the image; never in the camera map, which does not know it
+    bool estimateBias = true;    ///< beside the image; see estimatesBias() in method.h
     bool energyBalance = false;  ///< count what becomes of the photons' flux
     LawRule lawRule = LawRule::right;
     MediumRule mediumRule = MediumRule::right;
@@ -50,11 +51,6 @@ struct StopRule {
     std::optional<unsigned> passes;
     std::optional<double> relativeError; ///< ErrorEstimate::sum()
 };
-
-/// Do the kernels for these settings estimate the bias that the density radius leaves?
-inline bool estimatesBias(const RenderSettings& settings) {
-    return settings.estimateBias && settings.map == MapOrder::photons;
-}
 
 /// Defaults, then what the scene says. The command line writes over the result.
 RenderSettings settingsFromScene(const Scene& scene);

@@ -1,6 +1,7 @@
 // loadScene: from the tree of elements to a Scene.
 #include "scene/bsdfs/bsdf_plugin.h"
 #include "scene/emitters/emitters.h"
+#include "scene/illuminance_grid.h"
 #include "scene/integrator.h"
 #include "scene/load_context.h"
 #include "scene/media/medium_plugin.h"
@@ -34,14 +35,21 @@ void checkVersion(const Element& root, LoadContext& context) {
             fmt::format("version {} is read as Mitsuba 3: names and defaults are those of version 3.", version));
 }
 
-void readObject(const Element& object, LoadContext& context, std::vector<const Element*>& sensors,
+struct PlacedSensor {
+    const Element* element;
+    std::optional<unsigned> shape; ///< that it lies on
+};
+
+void readObject(const Element& object, LoadContext& context, std::vector<PlacedSensor>& sensors,
                 std::vector<const Element*>& integrators) {
-    if (object.tag == "shape")
-        context.scene.shapes.push_back(readShape(object, context));
-    else if (object.tag == "emitter")
+    if (object.tag == "shape") {
+        const Element* sensor = nullptr;
+        context.scene.shapes.push_back(readShape(object, context, sensor));
+        if (sensor) sensors.push_back({sensor, static_cast<unsigned>(context.scene.shapes.size() - 1)});
+    } else if (object.tag == "emitter")
         readSceneEmitter(object, context);
     else if (object.tag == "sensor")
-        sensors.push_back(&object);
+        sensors.push_back({&object, std::nullopt});
     else if (object.tag == "integrator")
         integrators.push_back(&object);
     else if (object.tag == "bsdf" || object.tag == "texture" || object.tag == "medium" || object.tag == "phase")
@@ -95,13 +103,18 @@ void collectNested(const Element& element, const LoadContext& context, std::vect
     }
 }
 
-void readSensors(const std::vector<const Element*>& sensors, LoadContext& context) {
+/// A scene with a grid needs no sensor: the grid is what is measured then.
+void readSensors(const std::vector<PlacedSensor>& sensors, LoadContext& context) {
+    if (sensors.empty() && context.scene.grid) {
+        measureGrid(context.scene);
+        return;
+    }
     if (sensors.empty())
         throw InputError({context.scene.path}, "the scene has no <sensor>; add <sensor type=\"perspective\">.");
-    context.scene.sensor = readSensor(*sensors[0], context);
+    context.scene.sensor = readSensor(*sensors[0].element, context, sensors[0].shape);
     for (size_t i = 1; i < sensors.size(); ++i) {
-        readSensor(*sensors[i], context);
-        context.warn(sensors[i]->where, "a further <sensor>; only the first one is rendered.");
+        readSensor(*sensors[i].element, context, sensors[i].shape);
+        context.warn(sensors[i].element->where, "a further <sensor>; only the first one is rendered.");
     }
 }
 
@@ -122,9 +135,20 @@ Scene readScene(const Element& root, const std::string& path, const glm::dvec3& 
     scene.origin = origin;
     LoadContext context(root, scene);
     checkVersion(root, context);
-    scene.settings = parseSceneSettings(root.instructions);
+    std::vector<Instruction> settings;
+    for (const Instruction& instruction : root.instructions) {
+        if (!isIlluminanceGrid(instruction)) {
+            settings.push_back(instruction);
+            continue;
+        }
+        if (scene.grid) throw InputError(instruction.where, "a second illuminance-grid; keep one.");
+        scene.grid = parseIlluminanceGrid(instruction);
+        scene.grid->origin -= scene.origin;
+    }
+    scene.settings = parseSceneSettings(settings);
 
-    std::vector<const Element*> sensors, integrators, nestedBsdfs;
+    std::vector<PlacedSensor> sensors;
+    std::vector<const Element*> integrators, nestedBsdfs;
     for (const Element& child : root.children) readObject(child, context, sensors, integrators);
     collectNested(root, context, nestedBsdfs);
     checkUnusedBsdfs(root, context, nestedBsdfs);

@@ -116,8 +116,29 @@ struct ConstantEmitter {
     Rgb radiance{};
 };
 
+/// What a sensor measures that is no camera.
+enum class MeterKind { none, ray, area, grid };
+
+/// <?quasilux illuminance-grid …?>: points at the centres of nx × ny equal cells of a parallelogram, all of one normal.
+struct IlluminanceGrid {
+    SourceLocation where;
+    glm::dvec3 origin{}, edgeU{},
+        edgeV{}; ///< corner and sides, world space; column i lies along edgeU, row j along edgeV
+    unsigned nx = 0, ny = 0;
+    bool flipNormals = false; ///< the normal is edgeU × edgeV, or its opposite
+
+    glm::dvec3 point(unsigned i, unsigned j) const { return origin + (i + 0.5) / nx * edgeU + (j + 0.5) / ny * edgeV; }
+    glm::dvec3 normal() const {
+        const glm::dvec3 n = glm::normalize(glm::cross(edgeU, edgeV));
+        return flipNormals ? -n : n;
+    }
+};
+
 struct Sensor {
     SourceLocation where;
+    std::string plugin = "perspective";
+    MeterKind meter = MeterKind::none;
+    unsigned meterShape = 0;   ///< MeterKind::area: which lies on it
     glm::dmat4 toWorld{1.0};   ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
     bool orthographic = false; ///< parallel rays from local x in [-1, 1]; else perspective
     double fovX = 0;           ///< perspective: full horizontal angle, radians (fov_axis already resolved)
@@ -137,6 +158,7 @@ struct SceneSettings {
     std::optional<std::string> map;           ///< "photons", "camera"
     std::optional<unsigned> photons;          ///< emitted per pass
     std::optional<uint64_t> seed;
+    std::optional<std::string> units; ///< of radiance and intensity: "radiometric" (default), "photometric"
 };
 
 struct Scene {
@@ -149,6 +171,7 @@ struct Scene {
     std::vector<PointEmitter> pointEmitters;
     std::optional<ConstantEmitter> surroundings;
     Sensor sensor;
+    std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
     SceneSettings settings;
     std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
@@ -157,5 +180,8 @@ struct Scene {
 /// Loads a Mitsuba 3 scene (docs/scene-language.md). Throws InputError at file:line:column.
 /// `parameters` replace `<default>` values, as `-D name=value` does.
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {});
+
+/// Makes the grid of the scene its sensor. Throws InputError where the scene has none.
+void measureGrid(Scene& scene);
 
 } // namespace quasilux

@@ -14,7 +14,7 @@ namespace quasilux {
 
 namespace {
 
-const Names keys = {"bdd", "variant", "quasi-specular", "direct", "map", "photons", "seed"};
+const Names keys = {"bdd", "variant", "quasi-specular", "direct", "map", "photons", "seed", "units"};
 
 std::string oneOf(const Attribute& entry, const Names& known, const SourceLocation& where) {
     if (std::find(known.begin(), known.end(), entry.value) == known.end())
@@ -45,6 +45,8 @@ void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& s
         settings.direct = oneOf(entry, {"emitters", "photons"}, where);
     else if (entry.name == "map")
         settings.map = oneOf(entry, {"photons", "camera"}, where);
+    else if (entry.name == "units")
+        settings.units = oneOf(entry, {"radiometric", "photometric"}, where);
     else if (entry.name == "photons")
         settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, maximumPhotons, where, "photons"));
     else if (entry.name == "seed")

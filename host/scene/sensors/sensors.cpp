@@ -13,10 +13,14 @@ namespace {
 struct SensorPlugin {
     std::string_view name;
     void (*read)(Properties&, Sensor&);
+    bool clips; ///< has clipping planes
+    bool isOnShape;
 };
 constexpr SensorPlugin sensorPlugins[] = {
-    {"perspective", readPerspective},
-    {"orthographic", readOrthographic},
+    {"perspective", readPerspective, true, false},
+    {"orthographic", readOrthographic, true, false},
+    {"radiancemeter", readRadiancemeter, false, false},
+    {"irradiancemeter", readIrradiancemeter, false, true},
 };
 
 const SensorPlugin& findPlugin(const Element& element) {
@@ -29,17 +33,31 @@ const SensorPlugin& findPlugin(const Element& element) {
     throw InputError(element.where, fmt::format("unknown sensor plugin '{}'.{}", plugin, knownNames(plugin, known)));
 }
 
+void checkPlace(const SensorPlugin& plugin, const Element& element, bool inShape) {
+    if (plugin.isOnShape && !inShape)
+        throw InputError(element.where,
+                         fmt::format("sensor '{}' measures on a shape; put it into a <shape>.", plugin.name));
+    if (!plugin.isOnShape && inShape)
+        throw InputError(element.where,
+                         fmt::format("sensor '{}' may not stand in a <shape>; put it into the <scene>.", plugin.name));
+}
+
 } // namespace
 
-Sensor readSensor(const Element& element, LoadContext& context) {
+Sensor readSensor(const Element& element, LoadContext& context, std::optional<unsigned> shape) {
     const SensorPlugin& plugin = findPlugin(element);
+    checkPlace(plugin, element, shape.has_value());
     Properties properties(element, context);
     Sensor sensor;
     sensor.where = element.where;
+    sensor.plugin = plugin.name;
+    sensor.meterShape = shape.value_or(0);
     if (const Element* film = properties.object("film")) readFilm(*film, context, sensor);
     if (const Element* sampler = properties.object("sampler")) readSampler(*sampler, context);
-    sensor.nearClip = properties.numberAbove("near_clip", sensor.nearClip, 0, true);
-    sensor.farClip = properties.numberAbove("far_clip", sensor.farClip, sensor.nearClip, true);
+    if (plugin.clips) {
+        sensor.nearClip = properties.numberAbove("near_clip", sensor.nearClip, 0, true);
+        sensor.farClip = properties.numberAbove("far_clip", sensor.farClip, sensor.nearClip, true);
+    }
     if (const Element* medium = properties.object("medium")) sensor.medium = useMedium(*medium, context);
     plugin.read(properties, sensor);
     properties.finish();

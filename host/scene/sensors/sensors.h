@@ -5,12 +5,15 @@
 
 namespace quasilux {
 
-/// Reads <sensor> with its film. Throws InputError for unknown plugins, parameters and films.
-Sensor readSensor(const Element& element, LoadContext& context);
+/// Reads <sensor> with its film; `shape` is the index of the shape that it stands in. Throws InputError for unknown
+/// plugins, parameters and films.
+Sensor readSensor(const Element& element, LoadContext& context, std::optional<unsigned> shape);
 
 /// What each plugin has of its own; size of the film and clipping planes are known already.
 void readPerspective(Properties& properties, Sensor& sensor);
 void readOrthographic(Properties& properties, Sensor& sensor);
+void readRadiancemeter(Properties& properties, Sensor& sensor);
+void readIrradiancemeter(Properties& properties, Sensor& sensor);
 
 /// Size and reconstruction filter.
 void readFilm(const Element& element, LoadContext& context, Sensor& sensor);

@@ -6,8 +6,9 @@
 
 namespace quasilux {
 
-/// Reads <shape> with its bsdf and emitter. Throws InputError for anything that is not right with it.
-ShapeDescription readShape(const Element& element, LoadContext& context);
+/// Reads <shape> with its bsdf and emitter; `sensor` is the one nested in it, not read yet, or nullptr. Throws
+/// InputError for anything that is not right with it.
+ShapeDescription readShape(const Element& element, LoadContext& context, const Element*& sensor);
 
 /// What shapes that come from files have in common. `flipsTexCoords` is the default of flip_tex_coords.
 struct MeshFile {

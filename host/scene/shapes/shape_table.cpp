@@ -34,7 +34,7 @@ double areaOf(const ShapeDescription& shape) {
 
 } // namespace
 
-ShapeDescription readShape(const Element& element, LoadContext& context) {
+ShapeDescription readShape(const Element& element, LoadContext& context, const Element*& sensor) {
     const ShapePlugin& plugin = findPlugin(plugins, element);
     Properties properties(element, context);
     ShapeDescription shape;
@@ -45,6 +45,7 @@ ShapeDescription readShape(const Element& element, LoadContext& context) {
     plugin.read(properties, shape);
     const Element* bsdf = properties.object("bsdf");
     const Element* emitter = properties.object("emitter");
+    sensor = properties.object("sensor");
     const Element* interior = properties.medium("interior");
     const Element* exterior = properties.medium("exterior");
     properties.finish();
@@ -64,6 +65,8 @@ ShapeDescription readShape(const Element& element, LoadContext& context) {
                 shape.where,
                 fmt::format("shape '{}' emits but has no area; enlarge it or remove its emitter.", shape.id));
     }
+    if (sensor && !(static_cast<float>(areaOf(shape)) > 0))
+        throw InputError(shape.where, fmt::format("shape '{}' has a sensor but no area; enlarge it.", shape.id));
     return shape;
 }
 

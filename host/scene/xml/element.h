@@ -13,10 +13,11 @@ struct Attribute {
     std::string name, value;
 };
 
-/// `<?quasilux key="value" …?>`
+/// `<?quasilux key="value" …?>`, or `<?quasilux kind key="value" …?>`
 struct Instruction {
     std::vector<Attribute> entries;
     SourceLocation where;
+    std::string kind = {}; ///< empty: settings
 };
 
 struct Element {

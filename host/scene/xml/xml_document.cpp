@@ -211,7 +211,13 @@ Instruction parseInstruction(std::string_view text, const SourceLocation& where)
         return InputError(where, fmt::format("<?quasilux {}?>: expected a list of key=\"value\".", text));
     };
     constexpr std::string_view blanks = " \t\r\n";
-    size_t position = 0;
+    size_t position = std::min(text.find_first_not_of(blanks), text.size());
+    const size_t wordEnd = std::min(text.find_first_of(blanks, position), text.size());
+    const std::string_view word = text.substr(position, wordEnd - position);
+    if (!word.empty() && word.find_first_of("=\"'") == std::string_view::npos) {
+        instruction.kind = word;
+        position = wordEnd;
+    }
     while ((position = text.find_first_not_of(blanks, position)) != std::string_view::npos) {
         const size_t equals = text.find('=', position);
         if (equals == std::string_view::npos || equals == position || equals + 1 >= text.size()) throw malformed();

@@ -1,0 +1,89 @@
+#include "output/grid_csv.h"
+
+#include "output/atomic_file.h"
+#include "output/meter_reading.h"
+
+#include <cmath>
+#include <fmt/ostream.h>
+#include <fstream>
+#include <stdexcept>
+
+namespace quasilux {
+
+namespace {
+
+// Light that arrives has no component of emission seen: that is of cameras.
+constexpr unsigned components = LIGHT_CLASSES;
+
+void writeSettings(std::ostream& out, const RenderRecord& record) {
+    const RenderSettings& settings = record.settings;
+    const auto line = [&](const char* key, const auto& value) { fmt::print(out, "# {}: {}\n", key, value); };
+    line("quasilux", record.version);
+    line("scene", record.scene);
+    line("device", record.device.name);
+    line("driver", record.device.driver);
+    line("bdd", settings.bdd);
+    line("variant", name(settings.variant));
+    line("direct", name(settings.direct));
+    line("map", name(settings.map));
+    line("quasiSpecular", settings.quasiSpecular);
+    line("seed", settings.seed);
+    line("photonsPerPass", record.photonsPerPass());
+    line("radiusScale", settings.radiusScale);
+    line("passes", record.counters.passes);
+    line("seconds", record.counters.renderSeconds);
+    line("nonFinite", record.counters.nonFinite);
+    if (std::isfinite(record.error.sum())) line("relativeError", record.error.sum());
+    line("units", settings.photometric ? "photometric, irradiance in lm/m2" : "radiometric, irradiance in W/m2");
+    line("illuminance",
+         settings.photometric ? "lx: 0.2126 R + 0.7152 G + 0.0722 B" : "lx: 683 lm/W (0.2126 R + 0.7152 G + 0.0722 B)");
+}
+
+void writeNames(std::ostream& out) {
+    out << "i,j,x,y,z,nx,ny,nz,illuminance,illuminance_stderr";
+    for (const char* channel : {"R", "G", "B"}) out << ",irradiance_" << channel;
+    for (const char* channel : {"R", "G", "B"}) out << ",stderr_" << channel;
+    for (unsigned c = 0; c < components; ++c)
+        for (const char* channel : {"R", "G", "B"}) out << ',' << componentName(c) << '_' << channel;
+    out << '\n';
+}
+
+void writeTriple(std::ostream& out, const std::array<double, 3>& value) {
+    for (const double v : value) fmt::print(out, ",{:.9g}", v);
+}
+
+void writePoint(std::ostream& out, const IlluminanceGrid& grid, unsigned i, unsigned j, const MeterReading& reading,
+                bool hasError) {
+    const glm::dvec3 p = grid.point(i, j), n = grid.normal();
+    fmt::print(out, "{},{}", i, j);
+    writeTriple(out, {p.x, p.y, p.z});
+    writeTriple(out, {n.x, n.y, n.z});
+    fmt::print(out, ",{:.9g},", reading.photometricValue);
+    if (hasError) fmt::print(out, "{:.9g}", reading.photometricStandardError);
+    writeTriple(out, reading.value);
+    if (hasError)
+        writeTriple(out, reading.standardError);
+    else
+        out << ",,,"; // one pass tells nothing of the error
+    for (unsigned c = 0; c < components; ++c) writeTriple(out, reading.components[c]);
+    out << '\n';
+}
+
+} // namespace
+
+void writeGridCsv(const std::string& path, const IlluminanceGrid& grid, const FilmImage& image,
+                  const RenderRecord& record) {
+    AtomicFile file(path);
+    std::ofstream out(file.temporary());
+    writeSettings(out, record);
+    writeNames(out);
+    for (unsigned j = 0; j < grid.ny; ++j)
+        for (unsigned i = 0; i < grid.nx; ++i)
+            writePoint(out, grid, i, j, readingOf(image, size_t{j} * grid.nx + i, record.settings.photometric),
+                       image.passes > 1);
+    out.close();
+    if (!out) throw std::runtime_error("cannot write " + path);
+    file.commit();
+}
+
+} // namespace quasilux

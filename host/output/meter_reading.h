@@ -1,0 +1,40 @@
+// What a meter has measured, in radiometric and photometric units.
+#pragma once
+
+#include "output/render_record.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace quasilux {
+
+/// Maximum luminous efficacy of radiation, lm/W (CIE 1931; SI definition of the candela, rounded).
+inline constexpr double luminousEfficacy = 683;
+
+/// Photometric value of linear sRGB: 683 lm/W times luminance with the weights of sRGB to CIE XYZ (IEC 61966-2-1); the
+/// weights alone where the scene's units are photometric already. Irradiance gives lux, radiance cd/m^2.
+double photometric(const std::array<double, 3>& rgb, bool unitsArePhotometric);
+
+/// A pixel, or the mean over all of them.
+struct MeterReading {
+    std::array<double, 3> value{}; ///< R, G, B: irradiance in W/m^2, of a radiancemeter radiance in W sr^-1 m^-2
+    std::array<double, 3> standardError{}; ///< of `value`
+    std::array<std::array<double, 3>, FILM_COMPONENTS> components{};
+    double photometricValue = 0;         ///< lx, or cd/m^2
+    double photometricStandardError = 0; ///< an upper bound, exact where the channels rise and fall together
+};
+
+MeterReading readingOf(const FilmImage& image, size_t pixel, bool unitsArePhotometric);
+/// Mean over the film; its standard error is the mean of those of the pixels, which share photons: an upper bound.
+MeterReading meanReading(const FilmImage& image, bool unitsArePhotometric);
+
+/// "irradiance" or "radiance".
+const char* quantityName(MeterKind meter);
+bool isIrradiance(MeterKind meter);
+
+/// Keys: docs/command-line.md.
+nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image);
+/// A few lines for people.
+std::string meterText(const RenderRecord& record, const FilmImage& image);
+
+} // namespace quasilux

@@ -1,0 +1,31 @@
+#include "render/meter_stage.h"
+
+namespace quasilux {
+
+namespace {
+
+constexpr size_t sampleFloats = size_t{3} * FILM_COMPONENTS; // SAMPLE_FLOATS of kernels/camera_paths.cl
+
+} // namespace
+
+MeterStage::MeterStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
+                       shared::CameraParams params, unsigned classes, double meanRadiance)
+    : geometry_(geometry), film_(film), program_(device, "camera_paths.cl", options),
+      traceMeterPaths_(program_.kernel("traceMeterPaths")), addMeterSamples_(program_.kernel("addMeterSamples")),
+      params_(params), counted_(device, classes, film.pixels(), meanRadiance),
+      samples_(device, sampleFloats * film.pixels() * params.scene.meter.samples, "meter samples") {}
+
+void MeterStage::run(unsigned pass, const PhotonStage& photons) {
+    const shared::Meter& meter = params_.scene.meter;
+    params_.pass = pass;
+    params_.map = photons.index().map();
+    params_.batchWeight = film_.beginPass(pass).batchWeight;
+    traceMeterPaths_.launch(film_.pixels() * meter.samples, geometry_.nodes, geometry_.blocks, geometry_.tables,
+                            photons.index().cellStart(), photons.index().sorted(), samples_, film_.counterBuffer(),
+                            params_);
+    addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(),
+                            static_cast<unsigned>(film_.pixels()), meter.samples, sampleScale(meter),
+                            counted_.quantaPerRadiance, params_.batchWeight);
+}
+
+} // namespace quasilux

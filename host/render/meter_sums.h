@@ -1,0 +1,30 @@
+// Sums of photons by pixel in 64-bit fixed point (kernels/splat_sums.clh).
+#pragma once
+
+#include "device/buffer.h"
+#include "pass_types.h"
+
+namespace quasilux {
+
+/// Units per W sr^-1 m^-2, a power of two, for sums of the order of `meanRadiance`.
+float quantaPerRadiance(double meanRadiance);
+
+/// 32-bit words of a pixel's sums; `slots` are bits 1 << slot of the map.
+size_t splatWords(unsigned slots);
+
+/// Factor on the sum over the paths of a pixel: their mean, of an irradiance meter times pi.
+float sampleScale(const shared::Meter& meter);
+
+/// Photons counted where they cross a meter (kernels/meter_photons.clh).
+struct MeterSums {
+    MeterSums(Device& device, unsigned slots, size_t pixels, double meanRadiance)
+        : sums(device, splatWords(slots) * pixels, "meter"),
+          quantaPerRadiance(quasilux::quantaPerRadiance(meanRadiance)) {
+        sums.fill(0);
+    }
+
+    Buffer<uint32_t> sums;
+    float quantaPerRadiance;
+};
+
+} // namespace quasilux

@@ -1,0 +1,97 @@
+#include "scene/illuminance_grid.h"
+
+#include "scene/xml/names.h"
+#include "scene/xml/numbers.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+constexpr std::string_view kind = "illuminance-grid";
+const Names keys = {"origin", "edge-u", "edge-v", "nx", "ny", "normal"};
+constexpr uint64_t maximumPoints = 32768; // along one side, as of a film
+
+const std::string& valueOf(const Instruction& instruction, std::string_view key) {
+    const auto found = std::find_if(instruction.entries.begin(), instruction.entries.end(),
+                                    [&](const Attribute& entry) { return entry.name == key; });
+    if (found == instruction.entries.end())
+        throw InputError(instruction.where,
+                         fmt::format("the illuminance-grid lacks {}; expected origin, edge-u, edge-v (each \"x,y,z\"), "
+                                     "nx and ny.",
+                                     key));
+    return found->value;
+}
+
+glm::dvec3 vectorOf(const Instruction& instruction, std::string_view key) {
+    const auto numbers = parseNumbers(valueOf(instruction, key), instruction.where, key);
+    if (numbers.size() != 3)
+        throw InputError(
+            instruction.where,
+            fmt::format("illuminance-grid: {} has {} numbers; expected three, \"x,y,z\".", key, numbers.size()));
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+unsigned countOf(const Instruction& instruction, std::string_view key) {
+    return static_cast<unsigned>(parseUnsigned(valueOf(instruction, key), 1, maximumPoints, instruction.where, key));
+}
+
+/// `normal` only tells the two sides apart: photons are counted where they cross the grid.
+bool isFlipped(const Instruction& instruction, const IlluminanceGrid& grid) {
+    const bool given = std::any_of(instruction.entries.begin(), instruction.entries.end(),
+                                   [](const Attribute& entry) { return entry.name == "normal"; });
+    if (!given) return false;
+    const glm::dvec3 normal = vectorOf(instruction, "normal");
+    const double cosine = glm::dot(grid.normal(), normal) / glm::length(normal);
+    if (!(std::abs(cosine) > 1 - 1e-4))
+        throw InputError(instruction.where,
+                         "illuminance-grid: normal is not perpendicular to edge-u and edge-v; choose "
+                         "edges across the direction to be measured.");
+    return cosine < 0;
+}
+
+} // namespace
+
+bool isIlluminanceGrid(const Instruction& instruction) {
+    if (instruction.kind.empty()) return false;
+    if (instruction.kind != kind)
+        throw InputError(instruction.where, fmt::format("unknown <?quasilux {}?>.{}", instruction.kind,
+                                                        knownNames(instruction.kind, {kind})));
+    return true;
+}
+
+IlluminanceGrid parseIlluminanceGrid(const Instruction& instruction) {
+    for (const Attribute& entry : instruction.entries)
+        if (std::find(keys.begin(), keys.end(), entry.name) == keys.end())
+            throw InputError(instruction.where, fmt::format("unknown key '{}' of an illuminance-grid.{}", entry.name,
+                                                            knownNames(entry.name, keys)));
+    IlluminanceGrid grid;
+    grid.where = instruction.where;
+    grid.origin = vectorOf(instruction, "origin");
+    grid.edgeU = vectorOf(instruction, "edge-u");
+    grid.edgeV = vectorOf(instruction, "edge-v");
+    grid.nx = countOf(instruction, "nx");
+    grid.ny = countOf(instruction, "ny");
+    const double area = glm::length(glm::cross(grid.edgeU, grid.edgeV));
+    if (!(area > 1e-6 * glm::length(grid.edgeU) * glm::length(grid.edgeV)))
+        throw InputError(instruction.where, "illuminance-grid: edge-u and edge-v span no area.");
+    grid.flipNormals = isFlipped(instruction, grid);
+    return grid;
+}
+
+void measureGrid(Scene& scene) {
+    if (!scene.grid)
+        throw InputError({scene.path}, "the scene has no illuminance-grid to measure; add <?quasilux illuminance-grid "
+                                       "origin=\"x,y,z\" edge-u=\"x,y,z\" edge-v=\"x,y,z\" nx=\"N\" ny=\"N\"?>.");
+    Sensor sensor;
+    sensor.where = scene.grid->where;
+    sensor.plugin = kind;
+    sensor.meter = MeterKind::grid;
+    sensor.width = scene.grid->nx;
+    sensor.height = scene.grid->ny;
+    scene.sensor = sensor;
+}
+
+} // namespace quasilux

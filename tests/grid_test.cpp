@@ -1,0 +1,105 @@
+// The table of an illuminance-grid and the readings that the program prints.
+#include "support/meter_scenes.h"
+#include "support/program_runner.h"
+
+#include <cmath>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace quasilux {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string pointLight = "<emitter type=\"point\"><rgb name=\"intensity\" value=\"2,1,4\"/></emitter>";
+const std::string grid = "<?quasilux illuminance-grid origin=\"-1,-1,-2\" edge-u=\"2,0,0\" edge-v=\"0,2,0\" nx=\"2\" "
+                         "ny=\"3\"?>";
+
+std::vector<std::vector<std::string>> rowsOf(const std::string& text) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind('#', 0) == 0) continue;
+        std::istringstream cells(line);
+        rows.emplace_back();
+        for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+    }
+    return rows;
+}
+
+class GridTest : public CommandLineTest {
+protected:
+    void write(const std::string& name, const std::string& body) const {
+        std::ofstream(folder / name) << "<scene version=\"3.0.0\">" << body << "</scene>";
+    }
+};
+
+TEST_F(GridTest, IsWrittenPointByPoint) {
+    write("grid.xml", pointLight + grid);
+    const Outcome outcome = run({"render", "grid.xml", "--grid", "out.csv", "--passes", "2"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("wrote out.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "grid.exr")) << "no image was asked for";
+    const std::string text = readText(folder / "out.csv");
+    for (const char* setting : {"# bdd: 0", "# seed: 1", "# passes: 2", "# quasiSpecular: auto", "# scene: grid.xml"})
+        EXPECT_THAT(text, HasSubstr(setting));
+    const auto rows = rowsOf(text);
+    ASSERT_EQ(rows.size(), 7u);
+    EXPECT_EQ(rows[0].size(), 28u);
+    EXPECT_EQ(rows[0][2], "x");
+    EXPECT_EQ(rows[0][10], "irradiance_R");
+    for (size_t k = 1; k < rows.size(); ++k) {
+        ASSERT_EQ(rows[k].size(), rows[0].size());
+        const double x = std::stod(rows[k][2]), y = std::stod(rows[k][3]), z = std::stod(rows[k][4]);
+        EXPECT_NEAR(x, (k - 1) % 2 == 0 ? -0.5 : 0.5, 1e-9);
+        EXPECT_NEAR(y, -2 / 3.0 + 2 / 3.0 * std::floor((k - 1) / 2.0), 1e-6);
+        EXPECT_EQ(z, -2);
+        const double truth = 2 / std::pow(x * x + y * y + 4, 1.5); // of intensity 1
+        EXPECT_NEAR(std::stod(rows[k][10]), 2 * truth, 1e-5);
+        EXPECT_NEAR(std::stod(rows[k][12]), 4 * truth, 1e-5);
+        EXPECT_NEAR(std::stod(rows[k][16]), 2 * truth, 1e-5) << "all of it direct";
+        EXPECT_NEAR(std::stod(rows[k][8]), 683 * (0.2126 * 2 + 0.7152 + 0.0722 * 4) * truth, 1e-2);
+    }
+}
+
+TEST_F(GridTest, PhotometricUnitsLeaveTheEfficacyOut) {
+    write("grid.xml", "<?quasilux units=\"photometric\"?>" + pointLight + grid);
+    ASSERT_EQ(run({"render", "grid.xml", "--grid", "out.csv", "--passes", "1"}).exitCode, 0);
+    const auto rows = rowsOf(readText(folder / "out.csv"));
+    ASSERT_GT(rows.size(), 1u);
+    const double y =
+        0.2126 * std::stod(rows[1][10]) + 0.7152 * std::stod(rows[1][11]) + 0.0722 * std::stod(rows[1][12]);
+    EXPECT_NEAR(std::stod(rows[1][8]), y, 1e-6);
+    EXPECT_EQ(rows[1][9], "") << "one pass tells nothing of the error";
+}
+
+TEST_F(GridTest, IsRefusedWhereThereIsNone) {
+    expectRefused({"render", "scene.xml", "--grid", "out.csv"}, "no illuminance-grid");
+    expectRefused({"render", "scene.xml", "--grid", "out.txt"}, ".csv");
+}
+
+TEST_F(GridTest, AMeterIsPrinted) {
+    write("meter.xml", pointLight +
+                           "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.001\"/>"
+                           "<translate z=\"-2\"/></transform>" +
+                           test::irradiancemeter() + "</shape>");
+    const Outcome text = run({"render", "meter.xml", "--passes", "4", "--stats", "s.json"});
+    ASSERT_EQ(text.exitCode, 0) << text.errors;
+    EXPECT_THAT(text.output, HasSubstr("irradiance R 0.5"));
+    EXPECT_THAT(text.output, HasSubstr(" lx"));
+    const Outcome asJson = run({"render", "meter.xml", "--passes", "4", "--json"});
+    for (const std::string& document : {asJson.output, readText(folder / "s.json")}) {
+        const auto meter = nlohmann::json::parse(document)["meter"];
+        EXPECT_EQ(meter["quantity"], "irradiance");
+        EXPECT_EQ(meter["unit"], "W/m2");
+        EXPECT_NEAR(meter["value"][1].get<double>(), 0.25, 1e-5);
+        EXPECT_NEAR(meter["components"]["direct"][1].get<double>(), 0.25, 1e-5);
+        EXPECT_LT(meter["standardError"][1].get<double>(), 1e-5);
+        EXPECT_NEAR(meter["illuminance"].get<double>(), 683 * (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722), 1e-2);
+    }
+}
+
+} // namespace
+} // namespace quasilux
