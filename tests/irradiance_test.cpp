@@ -329,7 +329,7 @@ TEST(Radiancemeter, ReadsTheRadianceOfARay) {
     parts.fill(splitWall(0.6) + test::areaLight(1));
     for (const auto map : {MapOrder::photons, MapOrder::camera})
         expectReading(test::meterScene(sensor + test::unitRoom(parts)), {"", 1, "auto", emitters, Variant::main, map},
-                      2.5, true, 12, 8000);
+                      2.5, true, 60, 8000);
 }
 
 } // namespace
