@@ -59,7 +59,7 @@ Pixels readPixels(const std::string& path) {
 
 /// Places of R, G, B, or three times that of the only channel of a grey image.
 std::vector<int> colourChannels(const std::string& path, const Pixels& pixels) {
-    const std::vector<int> rgb{pixels.channel("R"), pixels.channel("G"), pixels.channel("B")};
+    std::vector<int> rgb{pixels.channel("R"), pixels.channel("G"), pixels.channel("B")};
     if (std::find(rgb.begin(), rgb.end(), -1) == rgb.end()) return rgb;
     const int grey = pixels.spec.nchannels == 1 ? 0 : pixels.channel("Y");
     if (grey >= 0 && rgb == std::vector<int>(3, -1)) return {grey, grey, grey};

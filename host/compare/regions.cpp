@@ -25,7 +25,7 @@ struct Mask {
 };
 
 /// OpenImageIO spreads whole numbers over 0 .. 1 when it makes floats of them.
-double fullScale(OIIO::TypeDesc format) {
+double fullScale(const OIIO::TypeDesc& format) {
     if (format.is_floating_point()) return 1;
     return format.basetype == OIIO::TypeDesc::UINT8 ? 255 : format.basetype == OIIO::TypeDesc::UINT16 ? 65535 : 0;
 }
@@ -93,6 +93,7 @@ Region grouped(const std::string& path, const std::vector<Region>& regions, cons
             std::find_if(regions.begin(), regions.end(), [&](const Region& r) { return r.name == value; });
         if (found == regions.end()) {
             std::vector<std::string> names;
+            names.reserve(regions.size());
             for (const auto& region : regions) names.push_back(region.name);
             throw InputError(fmt::format("--region {}: no pixel of {} has the value {}, expected some of {}",
                                          group.name, path, value, fmt::join(names, ", ")));
@@ -135,6 +136,7 @@ std::vector<Region> readRegions(const std::string& path, unsigned width, unsigne
     std::vector<Region> regions = regionsByValue(path, readMask(path, width, height));
     if (groups.empty()) return regions;
     std::vector<Region> result;
+    result.reserve(groups.size());
     for (const auto& group : groups) result.push_back(grouped(path, regions, group));
     return result;
 }
