@@ -55,14 +55,20 @@ double meanOfSampleDeviation(double n) {
 // Derivative of log gamma, and its derivative: recurrence, then the asymptotic series (Abramowitz & Stegun 6.3.18, 6.4.12).
 double digamma(double x) {
     double sum = 0;
-    for (; x < 10; x += 1) sum -= 1 / x;
+    while (x < 10) {
+        sum -= 1 / x;
+        ++x;
+    }
     const double y = 1 / (x * x);
     return sum + std::log(x) - 1 / (2 * x) - y * (1.0 / 12 - y * (1.0 / 120 - y / 252));
 }
 
 double trigamma(double x) {
     double sum = 0;
-    for (; x < 10; x += 1) sum += 1 / (x * x);
+    while (x < 10) {
+        sum += 1 / (x * x);
+        ++x;
+    }
     const double y = 1 / (x * x);
     return sum + 1 / x + y / 2 + y / x * (1.0 / 6 - y * (1.0 / 30 - y / 42));
 }
