@@ -231,8 +231,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"MainBdd0Photons", 0, "auto", photons}, Method{"MainBdd1Photons", 1, "auto", photons},
                     Method{"AlternativeBdd0", 0, "auto", emitters, Variant::alternative},
                     Method{"AlternativeBdd1", 1, "auto", emitters, Variant::alternative},
-                    Method{"MainBdd0CameraMap", 0, "auto", emitters, Variant::main, MapOrder::camera},
-                    Method{"MainBdd1PhotonsCameraMap", 1, "auto", photons, Variant::main, MapOrder::camera}),
+                    Method{"MainBdd0CameraMap", 0, "auto", emitters, Variant::main, MapOrder::camera}),
     [](const auto& row) { return std::string(row.param.name); });
 
 /// At the hits of a meter's path d is at least 1, where F_qs takes no light: that rule of the law is judged here too.
