@@ -111,6 +111,13 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
     return event < PATH_EVENTS_MAX ? -1 : (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
 }
 
+/* `cut` as traceCameraPath returns it. */
+inline void countCut(__global CameraCounters* counters, float cut) {
+    if (cut < 0) return;
+    atomic_inc(&counters->cutPaths);
+    atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
+}
+
 inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel,
                             const float3* components, float batchWeight) {
     float3 total = 0;
@@ -131,11 +138,7 @@ __kernel void traceMeterPaths(__global const BvhNode* nodes, __global const Prim
     if (index >= pathCount(&params)) return;
     const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
     float3 components[FILM_COMPONENTS];
-    const float cut = traceCameraPath(&world, index, components);
-    if (cut >= 0) {
-        atomic_inc(&counters->cutPaths);
-        atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
-    }
+    countCut(counters, traceCameraPath(&world, index, components));
     for (uint k = 0; k < FILM_COMPONENTS; ++k) vstore3(components[k], k, samples + (size_t)index * SAMPLE_FLOATS);
 }
 
@@ -170,11 +173,7 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
     if (pixel >= params.camera.width * params.camera.height) return;
     const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
     float3 components[FILM_SAMPLES];
-    const float cut = traceCameraPath(&world, pixel, components);
-    if (cut >= 0) {
-        atomic_inc(&counters->cutPaths);
-        atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
-    }
+    countCut(counters, traceCameraPath(&world, pixel, components));
     addFiniteSample(film, counters, pixel, components, params.batchWeight);
 }
 #else

@@ -5,8 +5,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 # Tests that need no OpenCL device: they run under the sanitizers too.
-hostTests=(loader_test bsdf_loader_test scene_errors_test mesh_errors_test shapes_test borders_test border_cuts_test output_test
-    medium_loader_test media_placement_test medium_split_test compare_test origin_test)
+hostTests=(loader_test bsdf_loader_test scene_errors_test document_errors_test mesh_errors_test shapes_test borders_test
+    border_cuts_test output_test png_test medium_loader_test media_placement_test medium_split_test compare_test
+    origin_test)
 
 logs=build/logs
 passed=0

@@ -4,6 +4,8 @@
 // a tenth of biasNoiseRms, so the tolerances are 3 standard deviations or more: a right rule fails with probability below 1 %.
 #include "render/error_estimate.h"
 
+#include "support/film_images.h"
+
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -11,18 +13,13 @@
 namespace quasilux {
 namespace {
 
-FilmImage uniformImage(unsigned width, unsigned height, float value) {
-    FilmImage image;
-    image.width = width;
-    image.height = height;
-    image.passes = 1000;
-    image.radiance.assign(size_t{width} * height * 3, value);
-    image.standardError.assign(image.radiance.size(), 0.f);
-    return image;
+/// After so many passes that none of the corrections for few matters.
+FilmImage noiselessImage(unsigned width, unsigned height, float value) {
+    return uniformImage(width, height, value, 1000, 0);
 }
 
 TEST(ErrorEstimate, IsRelativeToTheValueWithAFloor) {
-    FilmImage image = uniformImage(10, 2, 2.f);
+    FilmImage image = noiselessImage(10, 2, 2.f);
     image.standardError.assign(60, 0.5f);
     const double scale = std::sqrt(4 + 0.01 * 4);
     EXPECT_NEAR(estimateError(image).total.noiseRms, 0.5 / scale, 1e-6);
@@ -36,16 +33,16 @@ TEST(ErrorEstimate, IsRelativeToTheValueWithAFloor) {
     EXPECT_NEAR(estimateError(image).total.noiseMean, 2 * sum / 20, 1e-3 * sum);
     EXPECT_NEAR(estimateError(image).total.noisePercentile95, 5, 0.05);
     // One channel of three.
-    image = uniformImage(1, 1, 1.f);
+    image = noiselessImage(1, 1, 1.f);
     image.standardError = {0, 0.1f, 0};
     EXPECT_NEAR(estimateError(image).total.noiseRms, 0.1 / std::sqrt(3 * 1.01), 1e-6);
 }
 
 TEST(ErrorEstimate, KnowsWhatItDoesNotKnow) {
-    FilmImage image = uniformImage(2, 2, 1.f);
+    FilmImage image = noiselessImage(2, 2, 1.f);
     image.passes = 1;
     EXPECT_EQ(estimateError(image).sum(), INFINITY); // so that no error limit counts as reached
-    EXPECT_EQ(estimateError(uniformImage(2, 2, 0.f)).sum(), 0);
+    EXPECT_EQ(estimateError(noiselessImage(2, 2, 0.f)).sum(), 0);
     EXPECT_FALSE(estimateError(image).hasBias);
 }
 
@@ -54,7 +51,7 @@ TEST(ErrorEstimate, KnowsWhatItDoesNotKnow) {
 FilmImage simulate(const std::vector<double>& deviation, unsigned passes, double bias, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
-    FilmImage image = uniformImage(unsigned(deviation.size()), 1, 1.f);
+    FilmImage image = noiselessImage(unsigned(deviation.size()), 1, 1.f);
     image.passes = passes;
     image.bias.resize(image.radiance.size());
     image.biasError.resize(image.radiance.size());

@@ -1,4 +1,4 @@
-// Files that the program writes: EXR layers and header, PNG tones, statistics, and that none is ever half written.
+// Files that the program writes: EXR layers and header, statistics, and that none is ever half written.
 #include "output/atomic_file.h"
 #include "output/exr.h"
 #include "output/png.h"
@@ -6,14 +6,15 @@
 #include "output/statistics.h"
 #include "util/error.h"
 
+#include "support/film_images.h"
+#include "support/program_runner.h"
+
 #include <OpenImageIO/imageio.h>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sstream>
 #include <unistd.h>
 
 namespace quasilux {
@@ -22,45 +23,23 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// An empty folder that is removed after the test.
 class OutputTest : public testing::Test {
 protected:
-    OutputTest() {
-        std::string pattern = (fs::temp_directory_path() / "quasilux-output-XXXXXX").string();
-        folder = mkdtemp(pattern.data());
-    }
-    ~OutputTest() override { fs::remove_all(folder); }
-
-    std::string path(const std::string& name) const { return (folder / name).string(); }
+    std::string path(const std::string& name) const { return (folder.path() / name).string(); }
     std::vector<std::string> files() const {
         std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+        for (const auto& entry : fs::directory_iterator(folder.path()))
+            names.push_back(entry.path().filename().string());
         return names;
     }
-    static std::string text(const std::string& file) {
-        std::ifstream stream(file);
-        std::ostringstream content;
-        content << stream.rdbuf();
-        return content.str();
-    }
 
-    fs::path folder;
+    TemporaryFolder folder;
 };
-
-FilmImage uniformImage(unsigned width, unsigned height, float value) {
-    FilmImage image;
-    image.width = width;
-    image.height = height;
-    image.passes = 4;
-    image.radiance.assign(size_t{width} * height * 3, value);
-    image.standardError.assign(image.radiance.size(), 0.1f * value);
-    return image;
-}
 
 /// Every value of every layer differs, so that a swapped channel, row or layer shows. More rows than are written at
 /// once.
 FilmImage distinctImage() {
-    FilmImage image = uniformImage(5, 150, 0);
+    FilmImage image = uniformImage(5, 150, 0, 4, 0);
     auto fill = [n = 0](std::vector<float>& values, size_t count) mutable {
         values.resize(count);
         for (auto& value : values) value = 0.125f + static_cast<float>(n++);
@@ -162,7 +141,7 @@ TEST_F(OutputTest, ExrHeaderHoldsAllSettings) {
     for (const auto& [key, value] : numbers) EXPECT_EQ(spec.get_float_attribute("quasilux:" + key, -1), value) << key;
     EXPECT_EQ(spec.get_string_attribute("Software"), "quasilux " QUASILUX_VERSION);
 
-    const std::string documentation = text(QUASILUX_SOURCE_DIR "/docs/command-line.md");
+    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/command-line.md");
     for (const auto& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
         if (name.starts_with("quasilux:") && name.find('.') == std::string::npos) { // components have the same keys
@@ -217,15 +196,15 @@ TEST_F(OutputTest, AtomicFileReplacesOnlyOnCommit) {
         std::ofstream(file.temporary()) << "half";
         EXPECT_EQ(files().size(), 2u);
     }
-    EXPECT_EQ(text(path("a.txt")), "old");
+    EXPECT_EQ(readText(path("a.txt")), "old");
     EXPECT_THAT(files(), testing::ElementsAre("a.txt"));
     {
         AtomicFile file(path("a.txt"));
         std::ofstream(file.temporary()) << "new";
-        EXPECT_EQ(text(path("a.txt")), "old");
+        EXPECT_EQ(readText(path("a.txt")), "old");
         file.commit();
     }
-    EXPECT_EQ(text(path("a.txt")), "new");
+    EXPECT_EQ(readText(path("a.txt")), "new");
     EXPECT_THAT(files(), testing::ElementsAre("a.txt"));
 }
 
@@ -249,54 +228,9 @@ TEST_F(OutputTest, OutputPathsAreCheckedWithoutATrace) {
     EXPECT_THAT(message("/proc/a.exr"), HasSubstr("cannot write there")); // no user may create files there
 }
 
-/// What the PNG on disk holds in its first pixel for a grey image and a curve.
-TEST_F(OutputTest, PngMapsKnownGreys) {
-    // sRGB (IEC 61966-2-1) of the linear value, rounded: worked out by hand, not by the code under test.
-    const std::vector<std::pair<float, int>> known{{0.f, 0},    {0.001f, 3},  {0.0031308f, 10},
-                                                   {0.01f, 25}, {0.18f, 118}, {0.5f, 188},
-                                                   {1.f, 255},  {7.f, 255},   {-1.f, 0}};
-    for (const auto& [linear, expected] : known) {
-        writePng(path("a.png"), uniformImage(3, 2, linear / 4), chooseToneCurve({}, {.stops = {}, .scale = 4.0}),
-                 exampleRecord());
-        const auto input = OIIO::ImageInput::open(path("a.png"));
-        ASSERT_TRUE(input);
-        EXPECT_EQ(input->spec().nchannels, 3);
-        std::vector<uint8_t> pixels(18);
-        ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
-        EXPECT_EQ(pixels, std::vector<uint8_t>(18, static_cast<uint8_t>(expected))) << linear;
-        EXPECT_EQ(input->spec().get_string_attribute("quasilux:exposureScale"), "4");
-        EXPECT_EQ(input->spec().get_string_attribute("quasilux:exposureWhite"), "1");
-        EXPECT_EQ(input->spec().get_string_attribute("quasilux:passes"), "7");
-    }
-}
-
-TEST(ToneCurve, FollowsTheImageAndIgnoresFewBrightPixels) {
-    FilmImage image = uniformImage(50, 40, 0.02f);
-    const ToneCurve plain = chooseToneCurve(image, {});
-    EXPECT_NEAR(plain.scale * 0.02, 0.8, 1e-6);
-    EXPECT_EQ(plain.white, 1);
-    EXPECT_EQ(toneMap(image, plain)[0], 231); // sRGB of 0.8
-
-    for (size_t i = 0; i < 3; ++i) image.radiance[i] = 1e6f; // one pixel of 2000
-    EXPECT_EQ(chooseToneCurve(image, {}).scale, plain.scale);
-    EXPECT_EQ(toneMap(image, chooseToneCurve(image, {}))[3], 231);
-
-    for (size_t i = 0; i < 60; ++i) image.radiance[i] = 1e6f; // 1 %: highlights are compressed, the rest stays visible
-    const auto pixels = toneMap(image, chooseToneCurve(image, {}));
-    EXPECT_EQ(pixels[0], 255);
-    EXPECT_EQ(pixels[60], 178); // sRGB of 0.8 / 1.8
-}
-
-TEST(ToneCurve, StopsDoubleTheScaleAndBlackIsHandled) {
-    const FilmImage image = uniformImage(4, 4, 0.3f);
-    EXPECT_NEAR(chooseToneCurve(image, {.stops = 2.0, .scale = {}}).scale / chooseToneCurve(image, {}).scale, 4, 1e-9);
-    const FilmImage black = uniformImage(4, 4, 0);
-    EXPECT_EQ(toneMap(black, chooseToneCurve(black, {})), std::vector<uint8_t>(48, 0));
-}
-
 TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
     writeJson(path("a.json"), statisticsJson(exampleRecord(), distinctImage()));
-    const auto json = nlohmann::json::parse(text(path("a.json")));
+    const auto json = nlohmann::json::parse(readText(path("a.json")));
     const std::vector<std::string> pointers{"/version",
                                             "/scene",
                                             "/image/width",
@@ -370,7 +304,7 @@ TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
                                             "/phases/render",
                                             "/phases/write",
                                             "/peakBufferBytes"};
-    const std::string documentation = text(QUASILUX_SOURCE_DIR "/docs/command-line.md");
+    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/command-line.md");
     for (const auto& pointer : pointers) {
         EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(pointer))) << pointer;
         EXPECT_THAT(documentation, HasSubstr("`" + pointer.substr(pointer.rfind('/') + 1) + "`"));
@@ -392,7 +326,7 @@ TEST_F(OutputTest, StatisticsSurviveUnknownErrorsAndOddBytes) {
     record.error.hasBias = false;
     record.device.name = "bad \xff byte";
     writeJson(path("a.json"), statisticsJson(record, distinctImage()));
-    const auto json = nlohmann::json::parse(text(path("a.json")));
+    const auto json = nlohmann::json::parse(readText(path("a.json")));
     EXPECT_TRUE(json["error"]["relativeError"].is_null());
     EXPECT_TRUE(json["error"]["total"]["biasRms"].is_null());
 }

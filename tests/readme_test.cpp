@@ -1,5 +1,7 @@
 // The documentation holds: every quasilux command in README.md and docs/ runs, every script exists and parses, every
 // relative link leads somewhere.
+#include "support/temporary_folder.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
@@ -65,14 +67,12 @@ int runInFolder(const fs::path& folder, const std::string& command) {
 class ReadmeCommandTest : public testing::Test {
 protected:
     ReadmeCommandTest() {
-        std::string pattern = (fs::temp_directory_path() / "quasilux-readme-XXXXXX").string();
-        folder = mkdtemp(pattern.data());
         fs::create_directory_symlink(root / "scenes", folder / "scenes");
         fs::create_directory(folder / "out");
     }
-    ~ReadmeCommandTest() override { fs::remove_all(folder); }
 
-    fs::path folder;
+    TemporaryFolder temporary;
+    fs::path folder = temporary.path();
 };
 
 TEST_F(ReadmeCommandTest, EveryCommandRuns) {

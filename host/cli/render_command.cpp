@@ -90,7 +90,7 @@ void printError(const ErrorEstimate& error) {
         return;
     }
     fmt::print(", estimated relative error {:.3g} %{}\n", 100 * error.sum(),
-               error.hasBias ? "" : " (noise only: --map camera does not know its bias)");
+               error.hasBias ? "" : " (noise only: the bias is not estimated here)");
     TextTable table({"relative error", "noise: mean", "95 % of pixels below", "rms", "bias: rms"});
     const auto add = [&](const std::string& name, const ErrorPart& part) {
         const auto percent = [](double ratio) { return fmt::format("{:.3g} %", 100 * ratio); };

@@ -59,34 +59,24 @@ void describeError(OIIO::ImageSpec& spec, const ErrorEstimate& error) {
 
 void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
     const RenderSettings& settings = record.settings;
-    const auto text = [&](const char* key, const std::string& value) {
-        spec.attribute(std::string("quasilux:") + key, value);
-    };
-    const auto whole = [&](const char* key, uint64_t value) {
-        spec.attribute(std::string("quasilux:") + key, static_cast<int>(std::min<uint64_t>(value, INT32_MAX)));
-    };
-    const auto real = [&](const char* key, double value) {
-        spec.attribute(std::string("quasilux:") + key, static_cast<float>(value));
+    const auto set = [&](const char* key, const auto& value) {
+        using Value = std::decay_t<decltype(value)>;
+        const std::string attribute = std::string("quasilux:") + key;
+        if constexpr (std::is_same_v<Value, uint64_t>) // a header holds no whole number that large
+            spec.attribute(attribute, std::to_string(value));
+        else if constexpr (std::is_same_v<Value, unsigned>)
+            spec.attribute(attribute, static_cast<int>(std::min<unsigned>(value, INT32_MAX)));
+        else if constexpr (std::is_floating_point_v<Value>)
+            spec.attribute(attribute, static_cast<float>(value));
+        else
+            spec.attribute(attribute, std::string(value));
     };
     spec.attribute("Software", "quasilux " + record.version);
-    text("version", record.version);
-    text("scene", record.scene);
-    text("device", record.device.name);
-    text("driver", record.device.driver);
-    whole("bdd", settings.bdd);
-    text("variant", name(settings.variant));
-    text("direct", name(settings.direct));
-    text("map", name(settings.map));
-    text("quasiSpecular", settings.quasiSpecular);
-    text("kernels", settings.genericKernels ? "generic" : "scene");
-    text("seed", std::to_string(settings.seed)); // 64 bits: a header holds no whole number that large
-    whole("photonsPerPass", record.photonsPerPass());
-    real("radiusScale", settings.radiusScale);
-    text("quantity", quantityName(record.meter));
-    if (record.meter != MeterKind::none) text("units", settings.photometric ? "photometric" : "radiometric");
-    whole("passes", record.counters.passes);
-    text("nonFinite", std::to_string(record.counters.nonFinite));
-    real("seconds", record.counters.renderSeconds);
+    set("version", record.version);
+    record.forEachSetting(set);
+    set("kernels", settings.genericKernels ? "generic" : "scene");
+    set("quantity", quantityName(record.meter));
+    if (record.meter != MeterKind::none) set("units", settings.photometric ? "photometric" : "radiometric");
     describeError(spec, record.error);
 }
 

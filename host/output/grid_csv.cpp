@@ -19,20 +19,7 @@ void writeSettings(std::ostream& out, const RenderRecord& record) {
     const RenderSettings& settings = record.settings;
     const auto line = [&](const char* key, const auto& value) { fmt::print(out, "# {}: {}\n", key, value); };
     line("quasilux", record.version);
-    line("scene", record.scene);
-    line("device", record.device.name);
-    line("driver", record.device.driver);
-    line("bdd", settings.bdd);
-    line("variant", name(settings.variant));
-    line("direct", name(settings.direct));
-    line("map", name(settings.map));
-    line("quasiSpecular", settings.quasiSpecular);
-    line("seed", settings.seed);
-    line("photonsPerPass", record.photonsPerPass());
-    line("radiusScale", settings.radiusScale);
-    line("passes", record.counters.passes);
-    line("seconds", record.counters.renderSeconds);
-    line("nonFinite", record.counters.nonFinite);
+    record.forEachSetting(line);
     if (std::isfinite(record.error.sum())) line("relativeError", record.error.sum());
     line("units", settings.photometric ? "photometric, irradiance in lm/m2" : "radiometric, irradiance in W/m2");
     line("illuminance",

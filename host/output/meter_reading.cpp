@@ -29,7 +29,6 @@ double photometric(const std::array<double, 3>& rgb, bool unitsArePhotometric) {
     return unitsArePhotometric ? y : luminousEfficacy * y;
 }
 
-bool isIrradiance(MeterKind meter) { return meter == MeterKind::area || meter == MeterKind::grid; }
 const char* quantityName(MeterKind meter) { return isIrradiance(meter) ? "irradiance" : "radiance"; }
 
 MeterReading readingOf(const FilmImage& image, size_t pixel, bool unitsArePhotometric) {

@@ -30,7 +30,6 @@ MeterReading meanReading(const FilmImage& image, bool unitsArePhotometric);
 
 /// "irradiance" or "radiance".
 const char* quantityName(MeterKind meter);
-bool isIrradiance(MeterKind meter);
 
 /// Keys: docs/command-line.md.
 nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image);

@@ -26,6 +26,26 @@ struct RenderRecord {
     double loadSeconds = 0, writeSeconds = 0; ///< reading the scene; writing the images
     bool interrupted = false;
 
+    /// Calls `visit(key, value)` for each setting that headers of images and of tables state; values are strings,
+    /// unsigned, double, and uint64_t for what may need 64 bits.
+    template <typename Visit>
+    void forEachSetting(const Visit& visit) const {
+        visit("scene", scene);
+        visit("device", device.name);
+        visit("driver", device.driver);
+        visit("bdd", settings.bdd);
+        visit("variant", name(settings.variant));
+        visit("direct", name(settings.direct));
+        visit("map", name(settings.map));
+        visit("quasiSpecular", settings.quasiSpecular);
+        visit("seed", settings.seed);
+        visit("photonsPerPass", photonsPerPass());
+        visit("radiusScale", settings.radiusScale);
+        visit("passes", counters.passes);
+        visit("seconds", counters.renderSeconds);
+        visit("nonFinite", counters.nonFinite);
+    }
+
     /// Emitted in each pass: what was asked for or, if that was left open, what was chosen.
     unsigned photonsPerPass() const { return report.photonsPerPass ? report.photonsPerPass : settings.photonsPerPass; }
 };

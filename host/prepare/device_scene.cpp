@@ -45,7 +45,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     features.depthLimit = scene.maxDepth >= 0;
     features.orthographicCamera = scene.sensor.orthographic;
     features.radianceMeter = scene.sensor.meter == MeterKind::ray;
-    features.irradianceMeter = scene.sensor.meter == MeterKind::area || scene.sensor.meter == MeterKind::grid;
+    features.irradianceMeter = isIrradiance(scene.sensor.meter);
     return features;
 }
 
@@ -93,8 +93,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.media = media.media;
     out.emitters = flattenEmitters(scene, placement);
     auto materials = flattenMaterials(scene, out.split);
-    const bool isIrradianceMeter = scene.sensor.meter == MeterKind::area || scene.sensor.meter == MeterKind::grid;
-    const unsigned meterLobe = isIrradianceMeter ? appendWhite(materials.lobes) : QL_NONE;
+    const unsigned meterLobe = isIrradiance(scene.sensor.meter) ? appendWhite(materials.lobes) : QL_NONE;
     const auto borders = findBorders(scene);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, borders);

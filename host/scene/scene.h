@@ -118,6 +118,8 @@ struct ConstantEmitter {
 
 /// What a sensor measures that is no camera.
 enum class MeterKind { none, ray, area, grid };
+/// Or else it measures radiance.
+inline bool isIrradiance(MeterKind meter) { return meter == MeterKind::area || meter == MeterKind::grid; }
 
 /// <?quasilux illuminance-grid …?>: points at the centres of nx × ny equal cells of a parallelogram, all of one normal.
 struct IlluminanceGrid {

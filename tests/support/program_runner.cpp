@@ -32,9 +32,6 @@ std::string readText(const fs::path& file) {
 }
 
 CommandLineTest::CommandLineTest() {
-    std::string pattern = (fs::temp_directory_path() / "quasilux-cli-XXXXXX").string();
-    root = mkdtemp(pattern.data());
-    folder = root / "work";
     fs::create_directory(folder);
     std::ofstream(folder / "scene.xml") << R"(<scene version="3.0.0">
   <sensor type="perspective">
@@ -45,8 +42,6 @@ CommandLineTest::CommandLineTest() {
 </scene>
 )";
 }
-
-CommandLineTest::~CommandLineTest() { fs::remove_all(root); }
 
 Outcome CommandLineTest::run(std::vector<std::string> arguments, unsigned interruptAfter) const {
     const pid_t child = fork();

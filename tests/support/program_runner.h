@@ -1,6 +1,8 @@
 // Runs the built program from outside, in a folder of its own.
 #pragma once
 
+#include "support/temporary_folder.h"
+
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
@@ -19,7 +21,6 @@ struct Outcome {
 class CommandLineTest : public testing::Test {
 protected:
     CommandLineTest();
-    ~CommandLineTest() override;
 
     /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C.
     Outcome run(std::vector<std::string> arguments, unsigned interruptAfter = 0) const;
@@ -27,7 +28,8 @@ protected:
     /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file that was not there before.
     void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;
 
-    std::filesystem::path root, folder;
+    TemporaryFolder temporary;
+    std::filesystem::path root = temporary.path(), folder = root / "work";
 
 private:
     std::vector<std::string> filesInFolder() const;
