@@ -128,6 +128,19 @@ inline void addFiniteSample(__global float* film, __global CameraCounters* count
         atomic_inc(&counters->nonFinite);
 }
 
+/* Sum over the `paths` of a pixel of the component in this place of their samples, compensated (Kahan 1965): a meter has
+ * thousands of them. */
+inline float3 sumOfPaths(__global const float* samples, uint floatsPerPath, uint pixel, uint paths, uint place) {
+    float3 sum = 0, lost = 0;
+    for (uint k = 0; k < paths; ++k) {
+        const float3 value = vload3(place, samples + ((size_t)pixel * paths + k) * floatsPerPath) - lost;
+        const float3 next = sum + value;
+        lost = (next - sum) - value;
+        sum = next;
+    }
+    return sum;
+}
+
 #if defined(HAS_METER) && !defined(MAP_CAMERA)
 #define SAMPLE_FLOATS (3 * FILM_COMPONENTS)
 
@@ -151,13 +164,7 @@ __kernel void addMeterSamples(__global const float* samples, __global uint* sums
     if (pixel >= pixels) return;
     float3 components[FILM_COMPONENTS];
     for (uint c = 0; c < FILM_COMPONENTS; ++c) {
-        float3 sum = 0, lost = 0; /* compensated (Kahan 1965) */
-        for (uint k = 0; k < samplesPerPixel; ++k) {
-            const float3 value = vload3(c, samples + ((size_t)pixel * samplesPerPixel + k) * SAMPLE_FLOATS) - lost;
-            const float3 next = sum + value;
-            lost = (next - sum) - value;
-            sum = next;
-        }
+        float3 sum = sumOfPaths(samples, SAMPLE_FLOATS, pixel, samplesPerPixel, c);
 #ifdef HAS_METER_PHOTONS
         if (c < LIGHT_CLASSES && SPLAT_CLASSES >> c & 1) sum += takeSplats(sums, pixel, c) / quantaPerRadiance;
 #endif
@@ -221,12 +228,8 @@ __kernel void addSamples(__global const float* samples, __global uint* sums, __g
     float3 components[FILM_SAMPLES];
     for (uint c = 0; c < LIGHT_CLASSES; ++c)
         components[c] = SPLAT_CLASSES >> c & 1 ? takeSplats(sums, pixel, c) / quantaPerRadiance : (float3)(0);
-    components[FILM_EMISSION] = 0;
-    for (uint k = 0; k < samplesPerPixel; ++k) {
-        const size_t first = ((size_t)pixel * samplesPerPixel + k) * SAMPLE_FLOATS;
-        components[LIGHT_DIRECT] += vload3(0, samples + first);
-        components[FILM_EMISSION] += vload3(1, samples + first);
-    }
+    components[LIGHT_DIRECT] += sumOfPaths(samples, SAMPLE_FLOATS, pixel, samplesPerPixel, 0);
+    components[FILM_EMISSION] = sumOfPaths(samples, SAMPLE_FLOATS, pixel, samplesPerPixel, 1);
     for (uint c = 0; c < FILM_SAMPLES; ++c) components[c] *= scale;
     addFiniteSample(film, counters, pixel, components, batchWeight);
 }

@@ -158,21 +158,22 @@ typedef struct {
 
 /* ---- emitters ------------------------------------------------------------------------------------------------- */
 
-#define EMITTER_RECTANGLE 0u /* emits on the side of `normal`; sampled by solid angle */
-#define EMITTER_TRIANGLES 1u /* any other mesh; sampled by area */
-#define EMITTER_SPHERE 2u    /* origin, radius; emits outwards (inwards if normalSign < 0); sampled by solid angle */
-#define EMITTER_POINT 3u     /* origin; radiance field holds the intensity in W sr^-1 */
-#define EMITTER_CONSTANT                                                                                               \
-    4u /* the same radiance from everywhere outside; origin, radius: sphere about the scene; area: of
-                                its great disc. At most one, the last of the table */
+#define EMITTER_RECTANGLE 0u   /* emits on the side of `normal`; sampled by solid angle */
+#define EMITTER_TRIANGLES 1u   /* any other mesh; sampled by area */
+#define EMITTER_SPHERE 2u      /* origin, radius; emits outwards (inwards if normalSign < 0); sampled by solid angle */
+#define EMITTER_POINT 3u       /* origin; radiance field holds the intensity in W sr^-1 */
+#define EMITTER_DIRECTIONAL 4u /* parallel light; radiance field holds its irradiance; the rest as EMITTER_CONSTANT */
+/* The same radiance from everywhere outside; origin, radius: sphere about the scene; area: of its great disc. At most one,
+ * the last of the table. */
+#define EMITTER_CONSTANT 5u
 
 typedef struct {
     unsigned int type;
-    unsigned int shape;   /* QL_NONE for a point and the surroundings */
-    Rgb radiance;         /* point: radiant intensity */
+    unsigned int shape;   /* QL_NONE for a point, parallel light and the surroundings */
+    Rgb radiance;         /* point: radiant intensity; parallel light: irradiance */
     Packed3 origin;       /* rectangle: corner; sphere, point: centre */
     Packed3 edgeU, edgeV; /* rectangle: sides, orthogonal */
-    Packed3 normal;       /* rectangle: unit normal of the emitting side */
+    Packed3 normal;       /* rectangle: unit normal of the emitting side; parallel light: where it travels */
     float area;
     float radius;
     float normalSign;

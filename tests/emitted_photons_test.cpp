@@ -1,4 +1,4 @@
-// Photons of emitters: position, direction and flux follow the emitter's area, radiance and selection. 13 statistical
+// Photons of emitters: position, direction and flux follow the emitter's area, radiance and selection. 14 statistical
 // tests; false-alarm rate of the program 1e-4.
 #include "support/chi_squared.h"
 #include "support/emitter_cases.h"
@@ -14,7 +14,7 @@ using glm::dvec3;
 using shared::Emitter;
 using std::numbers::pi;
 
-constexpr int statisticalTests = 13;
+constexpr int statisticalTests = 14;
 constexpr size_t sampleCount = 100000;
 
 /// Where photons of a sky meet a sphere within the scene, each with the flux that it stands for: points (cosine to an
@@ -62,6 +62,24 @@ TEST(ConstantEmitter, photonsLightASphereEvenly) {
                 << "negative control: power wrong by 5 %";
         }
     }
+}
+
+TEST(DirectionalEmitter, photonsAreEvenAcrossTheBeam) {
+    const dvec3 along = glm::normalize(dvec3(1, -2, 3)), s = glm::normalize(glm::cross(along, dvec3(0, 0, 1))),
+                t = glm::cross(along, s), centre(5, 6, 7);
+    const SampleGrid disc{0, 1, -pi, pi, 12, 12}; // squared radius, azimuth
+    std::vector<uint64_t> counts(disc.cells() + 1);
+    for (const EmittedParticle& p :
+         samplePhotons({makeDirectional(along, centre, 2)}, {}, uniformNumbers(5 * sampleCount, 15))) {
+        const dvec3 offset = (p.position - centre) / 2.0;
+        const double x = glm::dot(offset, s), y = glm::dot(offset, t);
+        ++counts[disc.cell(std::min(x * x + y * y, 1.0), std::atan2(y, x))];
+        ASSERT_LT(glm::length(p.direction - along), 1e-6);
+        ASSERT_NEAR(glm::dot(offset, along), -1, 1e-5) << "starts before everything in the scene";
+        ASSERT_NEAR(p.flux.y, 4 * pi, 1e-5);
+    }
+    EXPECT_GT(chiSquaredPValue(counts, std::vector<double>(disc.cells(), 1.0 / disc.cells())),
+              significanceLevel(statisticalTests));
 }
 
 TEST(EmittedPhotons, carryTheFluxOfAllEmittersAndFollowTheSelection) {

@@ -15,7 +15,7 @@ using glm::dvec3;
 using shared::Emitter;
 using std::numbers::pi;
 
-constexpr int statisticalTests = 46;
+constexpr int statisticalTests = 47;
 constexpr size_t sampleCount = 100000;
 
 /// Points around the light of 0.5 x 0.5 at z = 1 that shines upwards: (x, y, height above its plane).
@@ -237,6 +237,16 @@ TEST(PointEmitter, followsTheInverseSquareLaw) {
     EXPECT_EQ(s.direction, dvec3(0, 0, -1));
     EXPECT_EQ(s.pdf, 0);
     EXPECT_FALSE(sampleDirections({makePoint({0, 0, 2})}, {}, {0, 0, 2}, {0.3f, 0.1f, 0.9f})[0].valid);
+}
+
+TEST(DirectionalEmitter, comesFromOneDirectionWithItsIrradiance) {
+    const dvec3 along = glm::normalize(dvec3(1, -2, 3));
+    const auto s = sampleDirections({makeDirectional(along, {5, 6, 7}, 2)}, {}, {4, 6, 7}, {0.3f, 0.1f, 0.9f})[0];
+    EXPECT_TRUE(s.valid && std::isinf(s.distance));
+    EXPECT_LT(glm::length(s.direction + along), 1e-7);
+    EXPECT_FLOAT_EQ(float(s.radianceOverPdf.x), 1);
+    EXPECT_EQ(s.pdf, 0);
+    expectIrradiance({makeDirectional(along, {5, 6, 7}, 2)}, {}, {4, 6, 7}, {0, 0, -1}, along.z, "beam");
 }
 
 TEST(ConstantEmitter, everyPlaneReceivesPiTimesItsRadiance) {

@@ -7,81 +7,15 @@
 // fail; about 100 readings are made, and the seed is fixed, so what passes goes on passing). After a density estimate,
 // 0.3 % more are allowed for its radius. Each case must know its reading to 0.35 %, and each must find a light that is
 // 2 % stronger wrong.
-#include "render/renderer.h"
-#include "support/meter_scenes.h"
-#include "support/test_kernels.h"
+#include "support/meter_readings.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace quasilux {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double densityBias = 0.003, knownTo = 0.0035;
-
-struct Method {
-    const char* name;
-    unsigned bdd = 0;
-    const char* quasiSpecular = "auto";
-    DirectLight direct = DirectLight::emitters;
-    Variant variant = Variant::main;
-    MapOrder map = MapOrder::photons;
-    LawRule rule = LawRule::right;
-};
-
-struct Reading {
-    double value, standardError;
-};
-
-Reading measure(const Scene& scene, const Method& method, unsigned passes, unsigned photons = 20000) {
-    RenderSettings settings;
-    settings.bdd = method.bdd;
-    settings.quasiSpecular = method.quasiSpecular;
-    settings.quasiSpecularFromCommandLine = settings.quasiSpecular != "auto";
-    settings.direct = method.direct;
-    settings.variant = method.variant;
-    settings.map = method.map;
-    settings.lawRule = method.rule;
-    settings.photonsPerPass = photons;
-    Renderer renderer(testDevice(), scene, settings);
-    for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
-    EXPECT_EQ(renderer.counters().nonFinite, 0u);
-    EXPECT_EQ(renderer.counters().overflows, 0u);
-    const FilmImage image = renderer.develop();
-    return {image.radiance[0], image.standardError[0]};
-}
-
-/// `biased`: a density estimate takes part.
-bool agrees(const Reading& reading, double truth, bool biased) {
-    const double rounding = 2e-6 * truth;
-    return std::abs(reading.value - truth) <= 3 * reading.standardError + (biased ? densityBias * truth : 0) + rounding;
-}
-
-void expectReading(const Scene& scene, const Method& method, double truth, bool biased, unsigned passes,
-                   unsigned photons = 20000) {
-    const Reading reading = measure(scene, method, passes, photons);
-    EXPECT_TRUE(agrees(reading, truth, biased))
-        << reading.value << " +- " << reading.standardError << ", expected " << truth;
-    EXPECT_LT(reading.standardError, knownTo * truth) << "too noisy to tell anything";
-    EXPECT_FALSE(agrees(reading, truth / 1.02, biased)) << "a light that is 2 % too strong would pass";
-}
-
 // ---- direct light ---------------------------------------------------------------------------------------------------
-
-/// A small black rectangle at the origin, normal turned by `tilt` degrees from +z about `axis` ("x" or "y").
-std::string meterAt(double tilt, const char* axis = "y", double half = 0.002,
-                    const std::string& bsdf = test::diffuse(0)) {
-    return fmt::format("<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"{}\"/>"
-                       "<rotate {}=\"1\" angle=\"{}\"/></transform>{}{}</shape>",
-                       half, axis, tilt, bsdf, test::irradiancemeter());
-}
-
-std::string squareLight(double side, const std::string& place, double radiance = 1) {
-    return fmt::format("<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"{}\"/>"
-                       "<rotate x=\"1\" angle=\"180\"/><translate {}/></transform>{}</shape>",
-                       side / 2, place, test::areaLight(radiance));
-}
 
 std::string sphereLight(double radius, const std::string& place) {
     return fmt::format(
@@ -105,18 +39,20 @@ struct DirectCase {
 
 std::vector<DirectCase> directCases() {
     return {
-        {"Point", pointLight + meterAt(0), 79.50463919999251},
-        {"Square", squareLight(1, "z=\"1\"") + meterAt(0), 0.7522746884541075},
-        {"SquareBesideUpright", squareLight(1, "x=\"1\" z=\"1\"") + meterAt(90), 0.22606333761415018},
-        {"SquareCutByTheHorizon", squareLight(2, "z=\"1\"") + meterAt(90), 0.35018828771389676},
-        {"Sphere", sphereLight(1, "x=\"0\" y=\"0\" z=\"2\"") + meterAt(0), 0.7853981633974483},
-        {"SphereTilted", sphereLight(1, "x=\"0\" y=\"0\" z=\"2\"") + meterAt(45), 0.5553603672697958},
-        {"SphereCutByTheHorizon", sphereLight(1, "x=\"0\" y=\"0\" z=\"2\"") + meterAt(90), 0.09058607370607957},
-        {"SphereNear", sphereLight(1, "x=\"0\" y=\"0\" z=\"1.01\"") + meterAt(0, "y", 0.0002), pi / (1.01 * 1.01)},
-        {"Sky", sky + meterAt(0), pi},
-        {"SkyTilted", sky + blackGround + meterAt(60), pi * 0.75},
-        {"BetweenParallelSquares", squareLight(1, "z=\"1\"") + meterAt(0, "y", 0.5), pi * 0.19982489569838746},
-        {"OnThePerpendicularSquare", squareLight(1, "x=\"0.5\" z=\"0.5\"") + meterAt(90, "y", 0.5),
+        {"Point", pointLight + test::meterAt(0), 79.50463919999251},
+        {"Square", test::squareLight(1, "z=\"1\"") + test::meterAt(0), 0.7522746884541075},
+        {"SquareBesideUpright", test::squareLight(1, "x=\"1\" z=\"1\"") + test::meterAt(90), 0.22606333761415018},
+        {"SquareCutByTheHorizon", test::squareLight(2, "z=\"1\"") + test::meterAt(90), 0.35018828771389676},
+        {"Sphere", sphereLight(1, "x=\"0\" y=\"0\" z=\"2\"") + test::meterAt(0), 0.7853981633974483},
+        {"SphereTilted", sphereLight(1, "x=\"0\" y=\"0\" z=\"2\"") + test::meterAt(45), 0.5553603672697958},
+        {"SphereCutByTheHorizon", sphereLight(1, "x=\"0\" y=\"0\" z=\"2\"") + test::meterAt(90), 0.09058607370607957},
+        {"SphereNear", sphereLight(1, "x=\"0\" y=\"0\" z=\"1.01\"") + test::meterAt(0, "y", 0.0002),
+         pi / (1.01 * 1.01)},
+        {"Sky", sky + test::meterAt(0), pi},
+        {"SkyTilted", sky + blackGround + test::meterAt(60), pi * 0.75},
+        {"BetweenParallelSquares", test::squareLight(1, "z=\"1\"") + test::meterAt(0, "y", 0.5),
+         pi * 0.19982489569838746},
+        {"OnThePerpendicularSquare", test::squareLight(1, "x=\"0.5\" z=\"0.5\"") + test::meterAt(90, "y", 0.5),
          pi * 0.20004377607540316},
     };
 }
@@ -146,7 +82,8 @@ TEST(DirectDisc, IsTheClosedForm) {
     const auto load = [&](double tilt) {
         return loadScene(files.write("scene.xml", "<scene version=\"3.0.0\"><shape type=\"obj\"><string "
                                                   "name=\"filename\" value=\"disc.obj\"/>" +
-                                                      test::areaLight(1) + "</shape>" + meterAt(tilt) + "</scene>"));
+                                                      test::areaLight(1) + "</shape>" + test::meterAt(tilt) +
+                                                      "</scene>"));
     };
     expectReading(load(0), {"parallel"}, 0.20696318838093658, false, 16);
     expectReading(load(90), {"perpendicular"}, 0.1827034225944803, false, 16);
@@ -156,9 +93,9 @@ TEST(DirectDisc, IsTheClosedForm) {
 /// Photons are counted where they arrive: larger meters, so that enough do.
 TEST(DirectByPhotons, IsTheClosedForm) {
     const Method photons{"photons", 0, "auto", DirectLight::photons};
-    const auto square = squareLight(1, "z=\"1\"") + meterAt(0, "y", 0.5);
+    const auto square = test::squareLight(1, "z=\"1\"") + test::meterAt(0, "y", 0.5);
     expectReading(test::meterScene(square), photons, pi * 0.19982489569838746, false, 32);
-    const auto upright = squareLight(1, "x=\"0.5\" z=\"0.5\"") + meterAt(90, "y", 0.5);
+    const auto upright = test::squareLight(1, "x=\"0.5\" z=\"0.5\"") + test::meterAt(90, "y", 0.5);
     expectReading(test::meterScene(upright), photons, pi * 0.20004377607540316, false, 32);
     const Method camera{"camera map", 0, "auto", DirectLight::photons, Variant::main, MapOrder::camera};
     expectReading(test::meterScene(square), camera, pi * 0.19982489569838746, false, 32);
@@ -178,16 +115,17 @@ TEST(Meter, ReadsTheSameWhateverTheShapeIsMadeOf) {
     for (const auto direct : {DirectLight::emitters, DirectLight::photons})
         for (const std::string& bsdf : {test::diffuse(0), test::diffuse(0.9), mirror, null}) {
             SCOPED_TRACE(bsdf);
-            const auto scene = test::meterScene(squareLight(1, "z=\"1\"") + meterAt(0, "y", 0.5, bsdf));
+            const auto scene = test::meterScene(test::squareLight(1, "z=\"1\"") + test::meterAt(0, "y", 0.5, bsdf));
             expectReading(scene, {"", 0, "auto", direct}, pi * 0.19982489569838746, false,
                           direct == DirectLight::emitters ? 8 : 32);
         }
 }
 
 TEST(Meter, ReadsOneSideOnly) {
-    EXPECT_EQ(measure(test::meterScene(squareLight(1, "z=\"1\"") + meterAt(180)), {""}, 2).value, 0);
+    EXPECT_EQ(measure(test::meterScene(test::squareLight(1, "z=\"1\"") + test::meterAt(180)), {""}, 2).value, 0);
     const Method photons{"photons", 0, "auto", DirectLight::photons};
-    EXPECT_EQ(measure(test::meterScene(squareLight(1, "z=\"1\"") + meterAt(180, "y", 0.5)), photons, 2).value, 0);
+    EXPECT_EQ(
+        measure(test::meterScene(test::squareLight(1, "z=\"1\"") + test::meterAt(180, "y", 0.5)), photons, 2).value, 0);
 }
 
 // ---- interreflection ------------------------------------------------------------------------------------------------

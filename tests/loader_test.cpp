@@ -176,6 +176,18 @@ TEST(PointEmitter, PositionOrTransform) {
     expectNear(scene.pointEmitters[2].position, {0, 4, 0});
 }
 
+TEST(DirectionalEmitter, DirectionOrTransform) {
+    const Scene scene = load(
+        R"(<emitter type="directional" id="sun"><vector name="direction" value="0,3,-4"/><rgb name="irradiance" value="5,6,7"/></emitter>
+        <emitter type="directional"><transform name="to_world"><scale value="9"/><rotate y="1" angle="90"/><translate y="4"/></transform></emitter>)");
+    ASSERT_EQ(scene.directionalEmitters.size(), 2u);
+    EXPECT_EQ(scene.directionalEmitters[0].id, "sun");
+    expectNear(scene.directionalEmitters[0].direction, {0, 0.6, -0.8});
+    expectRgb(scene.directionalEmitters[0].irradiance, 5, 6, 7);
+    expectNear(scene.directionalEmitters[1].direction, {1, 0, 0});
+    expectRgb(scene.directionalEmitters[1].irradiance, 1, 1, 1);
+}
+
 // ---- files, parameters, references, settings
 
 TEST(References, MayPointForwardsAndAreReadOnce) {

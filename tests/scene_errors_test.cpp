@@ -182,6 +182,13 @@ const BadBody badBodies[] = {
     {"NegativeSky",
      "<emitter type=\"constant\">\n<rgb name=\"radiance\" value=\"1,-1,1\"/></emitter>",
      {"scene.xml:5:1"}},
+    {"BeamOfTwoDirections",
+     "<emitter type=\"directional\"><vector name=\"direction\" value=\"0,0,1\"/>\n"
+     "<transform name=\"to_world\"><scale value=\"2\"/></transform></emitter>",
+     {"scene.xml:5:1: emitter 'directional' has both direction and to_world; keep one."}},
+    {"BeamWithoutDirection",
+     "<emitter type=\"directional\">\n<vector name=\"direction\" value=\"0,0,0\"/></emitter>",
+     {"scene.xml:5:1: parameter 'direction' is 0,0,0; it must have a length."}},
     {"UnknownPane",
      "<shape type=\"cube\"><bsdf type=\"thindielectric\">\n<string name=\"int_ior\" value=\"bk8\"/></bsdf></shape>",
      {"scene.xml:5:1: parameter 'int_ior': unknown material 'bk8'", "Did you mean 'bk7'?"}},

@@ -11,7 +11,8 @@ namespace {
 #define LOBE_NAME(ID, argument) #ID,
 constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
 #undef LOBE_NAME
-constexpr std::array<const char*, 5> emitterNames = {"RECTANGLE", "TRIANGLES", "SPHERE", "POINT", "CONSTANT"};
+constexpr std::array<const char*, 6> emitterNames = {"RECTANGLE", "TRIANGLES",   "SPHERE",
+                                                     "POINT",     "DIRECTIONAL", "CONSTANT"};
 constexpr std::array<const char*, 3> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH"}; // in the order of PHASE_*
 
 std::string lower(std::string text) {

@@ -55,17 +55,37 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
     return emitter;
 }
 
-// Its power, pi L by area on the sphere about the scene, is 4 pi^2 R^2 L = 4 pi L times the great disc.
-shared::Emitter constantEmitter(const ConstantEmitter& surroundings, const Sphere& bounds) {
+/// One that shines into the scene from outside of its bounds.
+shared::Emitter distantEmitter(unsigned type, const Rgb& radiance, const Sphere& bounds) {
     shared::Emitter emitter{};
-    emitter.type = EMITTER_CONSTANT;
+    emitter.type = type;
     emitter.medium = MEDIUM_NONE;
     emitter.shape = QL_NONE;
-    emitter.radiance = surroundings.radiance;
+    emitter.radiance = radiance;
     emitter.origin = pack(bounds.center);
     emitter.radius = bounds.radius;
     emitter.area = static_cast<float>(pi * bounds.radius * bounds.radius);
     return emitter;
+}
+
+void addDistantEmitters(const Scene& scene, EmitterTables& tables) {
+    if (scene.directionalEmitters.empty() && !scene.surroundings) return;
+    const Sphere bounds = boundingSphere(scene);
+    const auto add = [&](shared::Emitter emitter, double power, const std::string& id) {
+        tables.emitters.push_back(emitter);
+        tables.power.push_back(power);
+        tables.ids.push_back(id);
+    };
+    for (const auto& light : scene.directionalEmitters) {
+        auto emitter = distantEmitter(EMITTER_DIRECTIONAL, light.irradiance, bounds);
+        emitter.normal = pack(light.direction);
+        add(emitter, emitter.area * mean(light.irradiance), light.id);
+    }
+    if (scene.surroundings) { // last, where the kernels look for it
+        const auto emitter = distantEmitter(EMITTER_CONSTANT, scene.surroundings->radiance, bounds);
+        // pi L by area on the sphere about the scene is 4 pi^2 R^2 L = 4 pi L times the great disc.
+        add(emitter, 4 * pi * emitter.area * mean(scene.surroundings->radiance), scene.surroundings->id);
+    }
 }
 
 void setSelection(EmitterTables& tables) {
@@ -105,11 +125,7 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
         tables.power.push_back(4 * pi * mean(point.intensity));
         tables.ids.push_back(point.id);
     }
-    if (scene.surroundings) { // last, where the kernels look for it
-        tables.emitters.push_back(constantEmitter(*scene.surroundings, boundingSphere(scene)));
-        tables.power.push_back(4 * pi * tables.emitters.back().area * mean(scene.surroundings->radiance));
-        tables.ids.push_back(scene.surroundings->id);
-    }
+    addDistantEmitters(scene, tables);
     setSelection(tables);
     return tables;
 }

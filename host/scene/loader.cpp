@@ -121,11 +121,11 @@ void readSensors(const std::vector<PlacedSensor>& sensors, LoadContext& context)
 void checkEmitters(const Scene& scene) {
     const bool emits = std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                    [](const auto& shape) { return shape.emitter.has_value(); });
-    if (!emits && scene.pointEmitters.empty() && !scene.surroundings)
+    if (!emits && scene.pointEmitters.empty() && scene.directionalEmitters.empty() && !scene.surroundings)
         throw InputError(
             {scene.path},
             "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
-            "<emitter type=\"point\"> or <emitter type=\"constant\">.");
+            "<emitter type=\"point\">, <emitter type=\"directional\"> or <emitter type=\"constant\">.");
 }
 
 /// The scene in coordinates of the file less `origin`.

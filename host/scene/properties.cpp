@@ -98,6 +98,13 @@ glm::dvec3 Properties::vector(const std::string& name, const glm::dvec3& missing
     return parseVector(*parameter, 0, false);
 }
 
+glm::dvec3 Properties::direction(const std::string& name, const glm::dvec3& missing) {
+    const glm::dvec3 direction = vector(name, missing);
+    if (!(glm::length(direction) > 0))
+        throw InputError(where(name), fmt::format("parameter '{}' is 0,0,0; it must have a length.", name));
+    return glm::normalize(direction);
+}
+
 glm::dmat4 Properties::transform(const std::string& name) {
     const Element* parameter = find(name, {"transform"});
     glm::dmat4 matrix = parameter ? parseTransform(*parameter) : glm::dmat4(1.0);

@@ -35,6 +35,8 @@ public:
     /// One of `known`, or InputError with the nearest name.
     std::string choice(const std::string& name, const std::string& missing, const Names& known);
     glm::dvec3 vector(const std::string& name, const glm::dvec3& missing);
+    /// As `vector`, of length 1. A vector of no length is refused.
+    glm::dvec3 direction(const std::string& name, const glm::dvec3& missing);
     /// Unity where it is missing. What `to_world` leads to is relative to Scene::origin.
     glm::dmat4 transform(const std::string& name);
     /// Channels within [0, 1].

@@ -109,6 +109,14 @@ struct PointEmitter {
     std::optional<unsigned> medium; ///< in which it stands, as stated, index into Scene::media
 };
 
+/// Parallel light from outside of the scene.
+struct DirectionalEmitter {
+    std::string id;
+    SourceLocation where;
+    glm::vec3 direction{}; ///< in which it travels, unit
+    Rgb irradiance{};      ///< of a surface across it, W m^-2
+};
+
 /// Radiance that comes from everywhere outside of the scene, W sr^-1 m^-2.
 struct ConstantEmitter {
     std::string id;
@@ -171,6 +179,7 @@ struct Scene {
     std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index
     std::vector<MediumDescription> media;
     std::vector<PointEmitter> pointEmitters;
+    std::vector<DirectionalEmitter> directionalEmitters;
     std::optional<ConstantEmitter> surroundings;
     Sensor sensor;
     std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid

@@ -13,7 +13,7 @@ using glm::dvec3;
 Program& program() {
     static Program built =
         testProgram("emitters.cl", "-DHAS_EMITTER_RECTANGLE -DHAS_EMITTER_TRIANGLES -DHAS_EMITTER_SPHERE "
-                                   "-DHAS_EMITTER_POINT -DHAS_EMITTER_CONSTANT");
+                                   "-DHAS_EMITTER_POINT -DHAS_EMITTER_DIRECTIONAL -DHAS_EMITTER_CONSTANT");
     return built;
 }
 
@@ -39,6 +39,14 @@ shared::Emitter makeEmitter(unsigned type, dvec3 origin) {
     return emitter;
 }
 
+/// Shines into the sphere from outside.
+shared::Emitter makeDistant(unsigned type, dvec3 centre, double radius) {
+    shared::Emitter emitter = makeEmitter(type, centre);
+    emitter.radius = float(radius);
+    emitter.area = float(std::numbers::pi * radius * radius);
+    return emitter;
+}
+
 } // namespace
 
 shared::Emitter makeRectangle(dvec3 corner, dvec3 edgeU, dvec3 edgeV) {
@@ -61,12 +69,13 @@ shared::Emitter makeSphere(dvec3 centre, double radius, double normalSign) {
 
 shared::Emitter makePoint(dvec3 position) { return makeEmitter(EMITTER_POINT, position); }
 
-shared::Emitter makeConstant(dvec3 centre, double radius) {
-    shared::Emitter emitter = makeEmitter(EMITTER_CONSTANT, centre);
-    emitter.radius = float(radius);
-    emitter.area = float(std::numbers::pi * radius * radius);
+shared::Emitter makeDirectional(dvec3 direction, dvec3 centre, double radius) {
+    shared::Emitter emitter = makeDistant(EMITTER_DIRECTIONAL, centre, radius);
+    emitter.normal = pack(glm::normalize(direction));
     return emitter;
 }
+
+shared::Emitter makeConstant(dvec3 centre, double radius) { return makeDistant(EMITTER_CONSTANT, centre, radius); }
 
 std::pair<shared::Emitter, std::vector<shared::EmitterTriangle>> makeTriangles(const std::vector<TriangleSpec>& specs) {
     shared::Emitter emitter = makeEmitter(EMITTER_TRIANGLES, {});

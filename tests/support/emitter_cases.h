@@ -12,6 +12,8 @@ namespace quasilux {
 shared::Emitter makeRectangle(glm::dvec3 corner, glm::dvec3 edgeU, glm::dvec3 edgeV);
 shared::Emitter makeSphere(glm::dvec3 centre, double radius, double normalSign);
 shared::Emitter makePoint(glm::dvec3 position);
+/// Parallel light of irradiance 1 along `direction` onto a scene within this sphere.
+shared::Emitter makeDirectional(glm::dvec3 direction, glm::dvec3 centre, double radius);
 /// Surroundings of a scene within this sphere.
 shared::Emitter makeConstant(glm::dvec3 centre, double radius);
 

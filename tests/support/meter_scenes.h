@@ -5,6 +5,7 @@
 #include "support/scene_files.h"
 
 #include <fmt/format.h>
+#include <map>
 
 namespace quasilux::test {
 
@@ -30,6 +31,48 @@ inline std::string diffuse(double reflectance) {
 
 inline std::string areaLight(double radiance) {
     return fmt::format("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", radiance);
+}
+
+/// A small black rectangle at the origin, normal turned by `tilt` degrees from +z about `axis` ("x" or "y").
+inline std::string meterAt(double tilt, const char* axis = "y", double half = 0.002,
+                           const std::string& bsdf = diffuse(0)) {
+    return fmt::format("<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"{}\"/>"
+                       "<rotate {}=\"1\" angle=\"{}\"/></transform>{}{}</shape>",
+                       half, axis, tilt, bsdf, irradiancemeter());
+}
+
+/// Faces down.
+inline std::string squareLight(double side, const std::string& place, double radiance = 1) {
+    return fmt::format("<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"{}\"/>"
+                       "<rotate x=\"1\" angle=\"180\"/><translate {}/></transform>{}</shape>",
+                       side / 2, place, areaLight(radiance));
+}
+
+/// A small rectangle at `place` ("x,y,z") that measures what comes from the side of an axis: "+x", "-x", "+y" to "-z".
+inline std::string meterFacing(const std::string& axis, const std::string& place, double half = 0.005,
+                               const std::string& bsdf = diffuse(0)) {
+    static const std::map<std::string, std::string> turns{{"+x", "<rotate y=\"1\" angle=\"90\"/>"},
+                                                          {"-x", "<rotate y=\"1\" angle=\"-90\"/>"},
+                                                          {"+y", "<rotate x=\"1\" angle=\"-90\"/>"},
+                                                          {"-y", "<rotate x=\"1\" angle=\"90\"/>"},
+                                                          {"+z", ""},
+                                                          {"-z", "<rotate x=\"1\" angle=\"180\"/>"}};
+    return fmt::format("<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"{}\"/>{}"
+                       "<translate value=\"{}\"/></transform>{}{}</shape>",
+                       half, turns.at(axis), place, bsdf, irradiancemeter());
+}
+
+/// Parallel light of irradiance 1 along "x,y,z".
+inline std::string beam(const std::string& direction) {
+    return fmt::format("<emitter type=\"directional\"><vector name=\"direction\" value=\"{}\"/></emitter>", direction);
+}
+
+/// A rectangle of `scale` ("x,y,z", from -1 to 1 each), turned by `turn` and moved to `place`.
+inline std::string rectangle(const std::string& scale, const std::string& turn, const std::string& place,
+                             const std::string& parts) {
+    return fmt::format("<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"{}\"/>{}"
+                       "<translate value=\"{}\"/></transform>{}</shape>",
+                       scale, turn, place, parts);
 }
 
 /// Six inward rectangles of a cube of side 1 about the origin, in the order z0, z1, x0, x1, y0, y1. `parts` of each follow

@@ -21,6 +21,7 @@ struct SceneEmitterPlugin {
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"point", readPoint},
+    {"directional", readDirectional},
     {"constant", readConstant},
 };
 

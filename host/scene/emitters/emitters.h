@@ -12,6 +12,7 @@ void readSceneEmitter(const Element& element, LoadContext& context);
 
 AreaEmitter readArea(Properties& properties);
 void readConstant(Properties& properties);
+void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
 
 } // namespace quasilux

@@ -11,7 +11,7 @@ namespace {
 /// Any frame whose z axis is `direction`: nothing else of it matters.
 glm::dmat4 lookAlong(const glm::dvec3& origin, const glm::dvec3& direction) {
     glm::dmat4 toWorld(1.0);
-    toWorld[2] = glm::dvec4(glm::normalize(direction), 0);
+    toWorld[2] = glm::dvec4(direction, 0);
     toWorld[3] = glm::dvec4(origin, 1);
     return toWorld;
 }
@@ -27,9 +27,7 @@ void readRadiancemeter(Properties& properties, Sensor& sensor) {
     if (hasOrigin && properties.has("to_world"))
         throw InputError(properties.where("to_world"),
                          "the radiancemeter has to_world beside origin and direction; keep one.");
-    const glm::dvec3 origin = properties.vector("origin", {}), direction = properties.vector("direction", {0, 0, 1});
-    if (!(glm::length(direction) > 0))
-        throw InputError(properties.where("direction"), "parameter 'direction' is 0,0,0; it must have a length.");
+    const glm::dvec3 origin = properties.vector("origin", {}), direction = properties.direction("direction", {0, 0, 1});
     sensor.toWorld = hasOrigin ? lookAlong(origin, direction) : properties.transform("to_world");
     if (sensor.width != 1 || sensor.height != 1)
         throw InputError(sensor.where, fmt::format("the radiancemeter has a film of {} x {} pixels; expected 1 x 1.",

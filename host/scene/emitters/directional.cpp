@@ -1,0 +1,19 @@
+// <emitter type="directional">: parallel light, the same irradiance everywhere across it.
+#include "scene/emitters/emitters.h"
+
+namespace quasilux {
+
+void readDirectional(Properties& properties) {
+    if (properties.has("direction") && properties.has("to_world"))
+        throw InputError(properties.where("to_world"),
+                         "emitter 'directional' has both direction and to_world; keep one.");
+    const glm::dmat3 toWorld(properties.transform("to_world"));
+    DirectionalEmitter emitter;
+    emitter.id = idOf(properties.element());
+    emitter.where = properties.element().where;
+    emitter.direction = glm::vec3(glm::normalize(toWorld * properties.direction("direction", {0, 0, 1})));
+    emitter.irradiance = properties.emission("irradiance", {1, 1, 1});
+    properties.context().scene.directionalEmitters.push_back(emitter);
+}
+
+} // namespace quasilux
