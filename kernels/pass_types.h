@@ -53,6 +53,7 @@ typedef struct {
     unsigned int nonFinite;
     float fluxCut;                  /* W, mean of R, G, B, of those paths */
     unsigned int overflows;         /* sums of splats that left the range of their fixed point (camera map) */
+    unsigned int meterCaustics;     /* caustic and quasi-caustic photons that were counted at a meter */
     float energy[6], energyRest[6]; /* W, by ENERGY_*: unevaluated sums; 0 without ENERGY_BALANCE */
 } RegionCount;
 

@@ -181,8 +181,7 @@ inline void crossMeter(const PhotonPath* path, float length, const PhotonSink* s
 #else
     const uint medium = MEDIUM_NONE;
 #endif
-    count->overflows +=
-        countAtMeter(&sums, path->origin, path->direction, length, path->flux, path->events, medium, tables, scene);
+    countAtMeter(&sums, path->origin, path->direction, length, path->flux, path->events, medium, tables, scene, count);
 #endif
 }
 
@@ -286,7 +285,7 @@ inline void tracePhotonPath(uint index, const Lattice* lattice, __global const B
 inline void traceRegion(uint region, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                         __global const uint* tables, const PhotonSink* sink, const PhotonParams* params,
                         __global RegionCount* counts) {
-    RegionCount count = {0, 0, 0, 0, 0, 0, {0}, {0}};
+    RegionCount count = {0, 0, 0, 0, 0, 0, 0, {0}, {0}};
     const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
     const uint first = region * params->pathsPerRegion;
     const uint last = min(first + params->pathsPerRegion, params->paths);

@@ -110,6 +110,12 @@ TEST(Cie171, ReflectionOverADiffuseSurface_5_6) {
                                     {"-z", "2,0.25,3", 26.795187506345208},
                                     {"-z", "2,1.75,3", 35.56659245454594}};
     expectPoints(body, points, 0.003, {"emitters"}, false, 16);
+    // With half of the floor quasi-specular: paths find that light from points too, photons meet no point.
+    const std::string split = test::beam("0,0,-1") + test::rectangle("2,2,1", "", "2,2,0", test::splitWall(0.3));
+    const Method alternative{"alternative", 1, "auto", DirectLight::emitters, Variant::alternative};
+    expectPoints(split, points, 0.003, alternative, false, 16);
+    const auto scene = test::meterScene(split + test::meterFacing(points[0].axis, points[0].place, 0.0005));
+    EXPECT_FALSE(agrees(measure(scene, {"main"}, 16), 0.003 * points[0].illuminance, false));
     expectPoints(body, points, 0.003, {"photons", 0, "auto", DirectLight::photons}, true, 16);
 }
 

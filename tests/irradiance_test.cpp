@@ -130,17 +130,10 @@ TEST(Meter, ReadsOneSideOnly) {
 
 // ---- interreflection ------------------------------------------------------------------------------------------------
 
-/// Half of the reflectance genuine diffuse, half declared quasi-specular.
-std::string splitWall(double reflectance) {
-    return fmt::format("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.5\"/>{}<bsdf type=\"diffuse\"><rgb "
-                       "name=\"reflectance\" value=\"{}\"/><?quasilux quasi-specular=\"yes\"?></bsdf></bsdf>",
-                       test::diffuse(reflectance), reflectance);
-}
-
 /// A closed box of emission 1 and reflectance 0.6, the meter on a wall or, with a null bsdf, in free space.
 Scene furnace(bool onWall) {
     std::array<std::string, 6> parts;
-    parts.fill(splitWall(0.6) + test::areaLight(1));
+    parts.fill(test::splitWall(0.6) + test::areaLight(1));
     if (onWall) parts[0] += test::irradiancemeter();
     const std::string within =
         "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.35\"/><rotate x=\"1\" angle=\"40\"/>"
@@ -172,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"MainBdd0CameraMap", 0, "auto", emitters, Variant::main, MapOrder::camera}),
     [](const auto& row) { return std::string(row.param.name); });
 
-/// At the hits of a meter's path d is at least 1, where F_qs takes no light: that rule of the law is judged here too.
+/// At the hits of a genuine diffuse meter's path d is at least 1, where F_qs takes no light: that is judged here too.
 TEST(FurnaceControl, WrongReadingsOfTheLawShow) {
     for (const LawRule rule : {LawRule::quasiSpecularUntilFirst, LawRule::diffuseAtEveryHit, LawRule::fullAlongChain}) {
         const Method wrong{"", 1, "auto", emitters, Variant::main, MapOrder::photons, rule};
@@ -263,7 +256,7 @@ TEST(Radiancemeter, ReadsTheRadianceOfARay) {
                                "<vector name=\"direction\" x=\"1\" y=\"2\" z=\"-2\"/>" +
                                test::film(1, 1) + "</sensor>";
     std::array<std::string, 6> parts;
-    parts.fill(splitWall(0.6) + test::areaLight(1));
+    parts.fill(test::splitWall(0.6) + test::areaLight(1));
     for (const auto map : {MapOrder::photons, MapOrder::camera})
         expectReading(test::meterScene(sensor + test::unitRoom(parts)), {"", 1, "auto", emitters, Variant::main, map},
                       2.5, true, 60, 8000);

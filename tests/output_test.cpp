@@ -282,6 +282,7 @@ TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
                                             "/counters/storedPoints",
                                             "/counters/storedBytes",
                                             "/counters/overflows",
+                                            "/counters/meterCaustics",
                                             "/counters/cameraPaths",
                                             "/counters/nonFinite",
                                             "/counters/cutPaths",

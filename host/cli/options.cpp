@@ -22,7 +22,8 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->group(group);
     command
         .add_option("--variant", options.variant,
-                    "Variant of the method: main or alternative (default: the scene's, else main)")
+                    "Variant of the method: main or alternative (default: the scene's, else main; of irradiance meters "
+                    "alternative)")
         ->type_name("NAME")
         ->check(oneOf({"main", "alternative"}))
         ->group(group);

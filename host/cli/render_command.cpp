@@ -35,6 +35,9 @@ void checkOutputs(const RenderOptions& options) {
     if (!options.stats.empty()) checkOutputPath(options.stats, "--stats", ".json");
 }
 
+// Photons of caustics that a pixel of a meter needs for its standard error to mean anything.
+constexpr uint64_t causticsPerPixel = 30;
+
 void warn(const RenderOptions& options, const std::string& message) {
     if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
 }
@@ -115,13 +118,18 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
                    written.curve->white);
 }
 
-void warnOfCounters(const RenderOptions& options, const RenderCounters& counters) {
+void warnOfCounters(const RenderOptions& options, const RenderCounters& counters, uint64_t pixels) {
     if (counters.nonFinite > 0)
         warn(options, fmt::format("{} samples were not finite and were dropped, the image lacks their light",
                                   counters.nonFinite));
     if (counters.overflows > 0)
         warn(options, fmt::format("{} sums of splats left their range: the image is wrong there, use --map photons",
                                   counters.overflows));
+    if (counters.meterCaustics && *counters.meterCaustics < causticsPerPixel * pixels)
+        warn(options, fmt::format("{} photons of caustics have met the meter's {} pixels: that light is not known, nor "
+                                  "its error; take a larger meter or cells, more --photons or passes, or, for "
+                                  "quasi-caustics, --variant alternative",
+                                  *counters.meterCaustics, pixels));
     if (counters.cutPaths > 0)
         warn(options,
              fmt::format(
@@ -185,7 +193,7 @@ int renderCommand(const RenderOptions& options) {
     record.loadSeconds = loadSeconds;
     const WrittenFiles written = writeFiles(options, scene, image, record);
     progress.clear();
-    warnOfCounters(options, record.counters);
+    warnOfCounters(options, record.counters, uint64_t(image.width) * image.height);
     if (options.json)
         printJsonSummary(record, image, written);
     else if (!options.quiet)

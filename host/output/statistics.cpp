@@ -56,6 +56,7 @@ json countersJson(const RenderCounters& counters) {
             {"nonFinite", counters.nonFinite},
             {"cutPaths", counters.cutPaths},
             {"overflows", counters.overflows},
+            {"meterCaustics", counters.meterCaustics ? json(*counters.meterCaustics) : json()},
             {"fluxEmitted", counters.fluxEmitted},
             {"fluxCut", counters.fluxCut},
             {"energyBalance", energyJson(counters.energy)},

@@ -89,13 +89,7 @@ std::vector<shared::PointRegionCount> CameraMapStage::traceCameraPoints() {
 void CameraMapStage::splatPhotons(CameraMapPassCount& total) {
     splatPhotons_.launch(photonParams_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, index_.cellStart(),
                          index_.sorted(), traced_, borders_, sums_, photonRegions_, photonParams_, points_);
-    for (const auto& count : photonRegions_.read()) {
-        total.cutPaths += count.cutPaths;
-        total.nonFinite += count.nonFinite;
-        total.overflows += count.overflows;
-        total.fluxCut += count.fluxCut;
-        total.energy.add(count);
-    }
+    for (const auto& count : photonRegions_.read()) total.add(count);
 }
 
 CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius,

@@ -2,19 +2,16 @@
 #pragma once
 
 #include "render/cell_index.h"
-#include "render/energy_balance.h"
 #include "render/film.h"
+#include "render/trace_count.h"
 
 namespace quasilux {
 
 /// What one pass stored and dropped.
-struct CameraMapPassCount {
+struct CameraMapPassCount : TraceCount {
     std::array<uint64_t, PHOTON_SLOTS> points{}; ///< camera points by slot of the map
     uint64_t borders = 0;                        ///< PointBorder records
-    uint64_t cutPaths = 0, nonFinite = 0;        ///< of photons and camera paths
-    uint64_t overflows = 0;                      ///< sums of splats that left the range of their fixed point
-    double fluxCut = 0, throughputCut = 0;       ///< of cut photons, W; of cut camera paths
-    EnergyBalance energy;                        ///< as in PhotonPassCount
+    double throughputCut = 0;                    ///< of cut camera paths
 };
 
 class CameraMapStage {

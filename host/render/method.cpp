@@ -21,6 +21,10 @@ unsigned takenClasses(bool genuineDiffuse, bool quasiSpecular, Variant variant) 
 
 } // namespace
 
+bool meterIsGenuineDiffuse(const Features& features, const RenderSettings& settings) {
+    return features.irradianceMeter && settings.variant == Variant::main;
+}
+
 unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& settings) {
     const Features features = settings.genericKernels ? Features::generic() : sceneFeatures;
     unsigned exist = 0; // classes that photons of this scene can have
@@ -28,14 +32,24 @@ unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& sett
     if (features.specular) exist |= bit(LIGHT_CAUSTIC);
     if (features.quasiSpecular || features.quasiSpecularMedia) exist |= bit(LIGHT_QUASI_CAUSTIC);
     if (features.genuineDiffuse || features.genuineDiffuseMedia) exist |= bit(LIGHT_DIFFUSE);
-    const bool genuineDiffuse = features.genuineDiffuse || sceneFeatures.irradianceMeter;
-    const unsigned surfaces = exist & takenClasses(genuineDiffuse, features.quasiSpecular, settings.variant);
+    const bool byPhotons = meterIsGenuineDiffuse(sceneFeatures, settings);
+    const bool byPaths = sceneFeatures.irradianceMeter && !byPhotons;
+    const unsigned surfaces =
+        exist & takenClasses(features.genuineDiffuse || byPhotons, features.quasiSpecular || byPaths, settings.variant);
     const unsigned media =
         exist & takenClasses(features.genuineDiffuseMedia, features.quasiSpecularMedia, settings.variant);
     return surfaces | media << LIGHT_CLASSES;
 }
 
 namespace {
+
+// Classes of photons that are counted at an irradiance meter.
+unsigned meterClasses(const Features& features, const RenderSettings& settings) {
+    if (!features.irradianceMeter) return 0;
+    const bool genuineDiffuse = meterIsGenuineDiffuse(features, settings);
+    const unsigned taken = takenClasses(genuineDiffuse, !genuineDiffuse, settings.variant) & ~bit(LIGHT_DIFFUSE);
+    return photonClasses(features, settings) & taken;
+}
 
 // Never of generic kernels: a sensor is a camera or a meter.
 std::string meterOptions(const Features& features, const RenderSettings& settings) {
@@ -54,8 +68,11 @@ bool estimatesBias(const Features& features, const RenderSettings& settings) {
 }
 
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {
-    const unsigned counted = bit(LIGHT_DIRECT) | bit(LIGHT_CAUSTIC) | bit(LIGHT_QUASI_CAUSTIC);
-    return features.irradianceMeter && (photonClasses(features, settings) & counted) != 0;
+    return meterClasses(features, settings) != 0;
+}
+
+bool meterCountsCaustics(const Features& features, const RenderSettings& settings) {
+    return (meterClasses(features, settings) & ~bit(LIGHT_DIRECT)) != 0;
 }
 
 Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings) {

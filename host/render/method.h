@@ -14,8 +14,13 @@ unsigned photonClasses(const Features& features, const RenderSettings& settings)
 /// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
 bool estimatesBias(const Features& features, const RenderSettings& settings);
 
+/// An irradiance meter scatters by its variant: genuine diffuse in the main one, else quasi-specular (METER_SCATTERING).
+bool meterIsGenuineDiffuse(const Features& features, const RenderSettings& settings);
+
 /// Whether photons that cross an irradiance meter are counted there (kernels/meter_photons.clh).
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings);
+/// Whether caustics or quasi-caustics are among them.
+bool meterCountsCaustics(const Features& features, const RenderSettings& settings);
 
 /// What the kernels are compiled for: what the scene needs, or everything.
 Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings);

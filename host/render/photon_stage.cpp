@@ -64,11 +64,7 @@ PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CL
     uint64_t stored = 0;
     for (const auto& count : trace()) {
         stored += count.stored;
-        total.cutPaths += count.cutPaths;
-        total.nonFinite += count.nonFinite;
-        total.overflows += count.overflows;
-        total.fluxCut += count.fluxCut;
-        total.energy.add(count);
+        total.add(count);
     }
     index_.map().regionCapacity = params_.regionCapacity;
     index_.sort(photons_, regions_, geometry_, stored);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "render/cell_index.h"
-#include "render/energy_balance.h"
 #include "render/meter_sums.h"
+#include "render/trace_count.h"
 
 #include <array>
 #include <cstdint>
@@ -11,12 +11,8 @@
 namespace quasilux {
 
 /// What one pass traced and stored.
-struct PhotonPassCount {
+struct PhotonPassCount : TraceCount {
     std::array<uint64_t, PHOTON_SLOTS> stored{}; ///< by slot of the map: classes on surfaces, then in media
-    uint64_t cutPaths = 0, nonFinite = 0;
-    uint64_t overflows = 0; ///< sums of a meter that left the range of their fixed point
-    double fluxCut = 0;
-    EnergyBalance energy; ///< counted only where the kernels are compiled with ENERGY_BALANCE
 };
 
 class PhotonStage {

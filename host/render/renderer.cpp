@@ -50,8 +50,8 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     shared::CameraParams params{};
     params.seedLow = static_cast<unsigned>(settings.seed);
     params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
-    // A meter is a genuine diffuse hit of its own, which does not count (kernels/meter.clh).
-    params.bdd = settings.bdd + (flat.features.irradianceMeter ? 1 : 0);
+    // The meter's own scattering does not count (kernels/meter.clh).
+    params.bdd = settings.bdd + (meterIsGenuineDiffuse(flat.features, settings) ? 1 : 0);
     params.maxDepth = maxDepth;
     params.camera = flat.camera;
     params.scene = flat.offsets;
@@ -185,15 +185,21 @@ struct Renderer::Stages {
         counters.storedBytes = std::max(counters.storedBytes, bytes);
     }
 
-    void noteEnergy(const EnergyBalance& ofPass) {
+    void noteTraced(const TraceCount& ofPass) {
+        counters.cutPaths += ofPass.cutPaths;
+        counters.nonFinite += ofPass.nonFinite;
+        counters.overflows += ofPass.overflows;
+        counters.fluxCut += ofPass.fluxCut;
+        if (meterCountsCaustics(flat.features, settings))
+            counters.meterCaustics = counters.meterCaustics.value_or(0) + ofPass.meterCaustics;
         if (!settings.energyBalance) return;
         if (!counters.energy) counters.energy.emplace();
-        *counters.energy += ofPass;
+        *counters.energy += ofPass.energy;
     }
 
     void runPhotonMap(unsigned pass) {
         const auto count = photons->run(pass, radii(pass), volumeScale(pass));
-        noteEnergy(count.energy);
+        noteTraced(count);
         if (meter)
             meter->run(pass, *photons);
         else
@@ -205,15 +211,11 @@ struct Renderer::Stages {
         }
         noteMapSize(stored, stored * photons->photonBytes());
         counters.photonsEmitted += photons->photonsPerPass();
-        counters.cutPaths += count.cutPaths;
-        counters.nonFinite += count.nonFinite;
-        counters.overflows += count.overflows;
-        counters.fluxCut += count.fluxCut;
     }
 
     void runCameraMap(unsigned pass) {
         const auto count = cameraMap->run(pass, radii(pass), volumeScale(pass));
-        noteEnergy(count.energy);
+        noteTraced(count);
         uint64_t stored = 0;
         for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
             if (count.points[slot] > 0) counters.cameraPointsStored[slotName(slot)] += count.points[slot];
@@ -221,10 +223,6 @@ struct Renderer::Stages {
         }
         noteMapSize(stored, stored * cameraMap->pointBytes() + count.borders * CameraMapStage::borderBytes());
         counters.photonsEmitted += cameraMap->photonsPerPass();
-        counters.cutPaths += count.cutPaths;
-        counters.nonFinite += count.nonFinite;
-        counters.overflows += count.overflows;
-        counters.fluxCut += count.fluxCut;
         counters.throughputCut += count.throughputCut;
     }
 

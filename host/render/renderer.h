@@ -50,9 +50,11 @@ struct RenderCounters {
     uint64_t storedPoints = 0; ///< photons or camera points in the map of one pass, the most of all passes
     uint64_t storedBytes = 0;  ///< that they take, as traced and in the index
     uint64_t cameraPaths = 0;
-    uint64_t nonFinite = 0;              ///< samples dropped since they were not finite; a right render has none
-    uint64_t cutPaths = 0;               ///< paths ended by the hard limit on events
-    uint64_t overflows = 0;              ///< sums of splats that left their range (camera map); a right render has none
+    uint64_t nonFinite = 0; ///< samples dropped since they were not finite; a right render has none
+    uint64_t cutPaths = 0;  ///< paths ended by the hard limit on events
+    uint64_t overflows = 0; ///< sums of splats that left their range (camera map); a right render has none
+    std::optional<uint64_t>
+        meterCaustics;                   ///< photons of caustics that an irradiance meter has met; where it counts any
     double fluxEmitted = 0, fluxCut = 0; ///< W, mean of R, G, B
     std::optional<EnergyBalance> energy; ///< where RenderSettings::energyBalance asks for it
     double throughputCut = 0;            ///< of camera paths, mean of R, G, B; each begins with 1

@@ -48,6 +48,13 @@ inline std::string squareLight(double side, const std::string& place, double rad
                        side / 2, place, areaLight(radiance));
 }
 
+/// Half of the reflectance genuine diffuse, half declared quasi-specular.
+inline std::string splitWall(double reflectance) {
+    return fmt::format("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.5\"/>{}<bsdf type=\"diffuse\"><rgb "
+                       "name=\"reflectance\" value=\"{}\"/><?quasilux quasi-specular=\"yes\"?></bsdf></bsdf>",
+                       diffuse(reflectance), reflectance);
+}
+
 /// A small rectangle at `place` ("x,y,z") that measures what comes from the side of an axis: "+x", "-x", "+y" to "-z".
 inline std::string meterFacing(const std::string& axis, const std::string& place, double half = 0.005,
                                const std::string& bsdf = diffuse(0)) {
