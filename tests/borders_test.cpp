@@ -288,5 +288,38 @@ TEST(Borders, LargeMesh) {
     EXPECT_NEAR(totalLength(borders), 40 + 2 * pi * std::sqrt(1 - 0.81), 1e-3);
 }
 
+// ---- sheets in one plane
+
+TEST(Overlaps, AreOfTrianglesThatLieInOnePlaneAndFaceTheSameWay) {
+    const auto overlapOf = [](dvec3 corner, dvec3 u, dvec3 v, const glm::dmat4& toWorld) {
+        Scene scene;
+        const auto at = [&](dvec3 p, double w) { return dvec3(toWorld * glm::dvec4(p, w)); };
+        addPlane(scene, at({0, 0, 0}, 1), at({1, 0, 0}, 0), at({0, 1, 0}, 0));
+        addPlane(scene, at(corner, 1), at(u, 0), at(v, 0));
+        return findBorders(scene).overlap;
+    };
+    const glm::dmat4 turned = glm::rotate(glm::translate(glm::dmat4(1), {5, 6, 7}), 0.7, {1, 2, 3});
+    for (const glm::dmat4& toWorld : {glm::dmat4(1), turned}) {
+        const auto overlap = overlapOf({0.5, 0.25, 0}, {1, 0, 0}, {0, 1, 0}, toWorld);
+        ASSERT_TRUE(overlap);
+        EXPECT_LT(overlap->first, 2u);
+        EXPECT_GE(overlap->second, 2u);
+        const dvec3 place = glm::inverse(toWorld) * glm::dvec4(overlap->place, 1);
+        EXPECT_TRUE(place.x > 0.5 && place.x < 1 && place.y > 0.25 && place.y < 1) << place.x << ' ' << place.y;
+        EXPECT_TRUE(overlapOf({0.25, 0.25, 0}, {0.5, 0, 0}, {0, 0.5, 0}, toWorld)) << "one within the other";
+        EXPECT_FALSE(overlapOf({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, toWorld)) << "one and the same";
+        EXPECT_FALSE(overlapOf({0.5, 0.25, 0}, {0, 1, 0}, {1, 0, 0}, toWorld)) << "the other way round";
+        EXPECT_FALSE(overlapOf({1, 0, 0}, {1, 0, 0}, {0, 1, 0}, toWorld)) << "side by side";
+        EXPECT_FALSE(overlapOf({0.5, 0.25, 0.001}, {1, 0, 0}, {0, 1, 0}, toWorld)) << "apart";
+        EXPECT_FALSE(overlapOf({0.5, 0.25, 0}, {1, 0, 0.01}, {0, 1, 0}, toWorld)) << "at an angle";
+    }
+}
+
+TEST(Overlaps, NoneInASmoothMesh) {
+    Scene scene;
+    addPlane(scene, {-2, -2, 0}, {4, 0.3, 0.1}, {0.2, 4, 0.7}, 40);
+    EXPECT_FALSE(findBorders(scene).overlap);
+}
+
 } // namespace
 } // namespace quasilux

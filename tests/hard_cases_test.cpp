@@ -278,8 +278,8 @@ TEST(BadGeometry, DuplicatedTrianglesDoNotShow) {
     EXPECT_LE(difference(floorImage(plainFloor + "f 3 1 2\nf 4 1 3\n"), floorImage(plainFloor)), bound);
 }
 
-// Two sheets of the same kind in one place, corner on corner, look like one. (Sheets that overlap in part do not:
-// docs/density.md.)
+// Two sheets of the same kind in one place, corner on corner, look like one. (Sheets that overlap in part do not, and are
+// warned of: docs/density.md, borders_test.)
 TEST(BadGeometry, DuplicatedSheetsDoNotShow) {
     const char* twin = R"(<shape type="rectangle"><transform name="to_world"></transform><ref id="paper"/></shape>)";
     EXPECT_LE(difference(floorImage(plainFloor, twin), floorImage(plainFloor)), bound);

@@ -107,6 +107,8 @@ void infoCommand(const SceneOptions& options) {
     progress.clear();
 
     const SceneReport& report = renderer.report();
+    if (!options.quiet)
+        for (const auto& warning : report.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
     const std::string file = std::filesystem::path(options.scene).filename().string();
     if (options.json) {
         const nlohmann::json json{{"version", QUASILUX_VERSION},

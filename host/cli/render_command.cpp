@@ -177,6 +177,8 @@ int renderCommand(const RenderOptions& options) {
     exitOnInterrupt();
     progress.update({.phase = "preparing"});
     Renderer renderer(device, scene, settings);
+    progress.clear();
+    for (const auto& warning : renderer.report().warnings) warn(options, warning);
     catchInterrupt();
     const auto onProgress = [&](const Progress& now) {
         catchInterrupt();

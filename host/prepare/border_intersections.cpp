@@ -2,6 +2,10 @@
 #include "prepare/border_intersections.h"
 
 #include "prepare/border_pairs.h"
+#include "prepare/coplanar_overlap.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace quasilux {
 namespace {
@@ -36,15 +40,22 @@ bool shareCorner(const SurfaceTriangle& a, const SurfaceTriangle& b) {
     return false;
 }
 
+/// Of several the one whose primitives come first.
+void noteOverlap(const std::optional<glm::dvec3>& place, unsigned a, unsigned b, SurfaceBorders& borders) {
+    if (!place) return;
+    const auto [first, second] = std::minmax(a, b);
+    auto& noted = borders.overlap;
+    if (!noted || std::pair(first, second) < std::pair(noted->first, noted->second)) noted = {first, second, *place};
+}
+
 shared::Packed3 packed(const glm::dvec3& p) { return {float(p.x), float(p.y), float(p.z)}; }
 
 } // namespace
 
-std::vector<shared::BorderSegment> intersectSurfaces(const Surface& surface,
-                                                     const std::vector<unsigned>& patchOfPrimitive) {
+void intersectSurfaces(const Surface& surface, SurfaceBorders& borders) {
+    const std::vector<unsigned>& patchOfPrimitive = borders.patchOfPrimitive;
     const Candidates candidates = collectCandidates(surface);
     const auto triangleCount = unsigned(candidates.triangles.size());
-    std::vector<shared::BorderSegment> segments;
     std::vector<CutSegment> cuts;
     forEachOverlappingPair(candidates.boxes, [&](unsigned i, unsigned j) {
         cuts.clear();
@@ -53,6 +64,7 @@ std::vector<shared::BorderSegment> intersectSurfaces(const Surface& surface,
             const SurfaceTriangle &a = *candidates.triangles[i], &b = *candidates.triangles[j];
             primitiveA = a.primitive;
             primitiveB = b.primitive;
+            noteOverlap(coplanarOverlap(surface, a, b), primitiveA, primitiveB, borders);
             if (patchOfPrimitive[primitiveA] == patchOfPrimitive[primitiveB] && shareCorner(a, b)) return;
             if (const std::optional<CutSegment> cut = cutTriangles(surface, a, b)) cuts.push_back(*cut);
         } else if (i < triangleCount) {
@@ -68,10 +80,9 @@ std::vector<shared::BorderSegment> intersectSurfaces(const Surface& surface,
             cutSpheres(a, b, cuts);
         }
         for (const CutSegment& cut : cuts)
-            segments.push_back(
+            borders.segments.push_back(
                 {packed(cut.a), packed(cut.b), patchOfPrimitive[primitiveA], patchOfPrimitive[primitiveB]});
     });
-    return segments;
 }
 
 } // namespace quasilux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "prepare/border_surface.h"
+#include "prepare/borders.h"
 
 #include <optional>
 #include <vector>
@@ -24,8 +25,8 @@ void cutTriangleSphere(const Surface& surface, const SurfaceTriangle& triangle, 
 /// Appends the circle in which two spheres cut each other, as 32 chords.
 void cutSpheres(const SurfaceSphere& a, const SurfaceSphere& b, std::vector<CutSegment>& cuts);
 
-/// All intersections in the scene, with the patches that meet there. Neighbours in one patch are not tested.
-std::vector<shared::BorderSegment> intersectSurfaces(const Surface& surface,
-                                                     const std::vector<unsigned>& patchOfPrimitive);
+/// Appends all intersections in the scene, with the patches that meet there (neighbours in one patch are not tested), to
+/// borders.segments, and notes sheets that overlap within a plane.
+void intersectSurfaces(const Surface& surface, SurfaceBorders& borders);
 
 } // namespace quasilux

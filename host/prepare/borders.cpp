@@ -11,8 +11,7 @@ SurfaceBorders findBorders(const Scene& scene, double creaseAngle) {
     Surface surface = collectSurface(scene);
     const std::vector<InteriorEdge> interior = joinPatches(scene, creaseAngle, surface, borders);
     borders.patchCurvature = patchCurvatures(surface, interior, borders);
-    const std::vector<shared::BorderSegment> cuts = intersectSurfaces(surface, borders.patchOfPrimitive);
-    borders.segments.insert(borders.segments.end(), cuts.begin(), cuts.end());
+    intersectSurfaces(surface, borders);
     return borders;
 }
 

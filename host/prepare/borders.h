@@ -4,6 +4,7 @@
 
 #include "scene/scene.h"
 
+#include <optional>
 #include <vector>
 
 namespace quasilux {
@@ -15,7 +16,12 @@ struct SurfaceBorders {
     std::vector<float> patchCurvature; ///< by patch, 1/scene unit: larger principal curvature that 90 % of its area
                                        ///< stays below; 0 = flat
     std::vector<shared::BorderSegment> segments; ///< free edges, creases, and curves where other surfaces cut
-    struct Grid { ///< uniform grid over the segments: which may lie within `reach` of a cell
+    struct Overlap {
+        unsigned first, second; ///< primitives
+        glm::dvec3 place;       ///< within both
+    };
+    std::optional<Overlap> overlap; ///< of triangles that lie in one plane and face the same way: the first pair
+    struct Grid {                   ///< uniform grid over the segments: which may lie within `reach` of a cell
         glm::vec3 lower{};
         float cellSize = 1;
         glm::uvec3 cells{1};

@@ -1,8 +1,10 @@
 #include "prepare/device_scene.h"
 
+#include "prepare/border_surface.h"
 #include "prepare/scene_tables.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace quasilux {
 
@@ -82,6 +84,24 @@ void appendBorders(const SurfaceBorders& borders, float reach, SceneTableWriter&
     offsets.borderCellsZ = grid.cells.z;
 }
 
+unsigned shapeOfPrimitive(const Scene& scene, unsigned primitive) {
+    unsigned shape = 0;
+    while (primitive >= primitiveCount(scene.shapes[shape])) primitive -= primitiveCount(scene.shapes[shape++]);
+    return shape;
+}
+
+std::vector<std::string> findWarnings(const Scene& scene, const SurfaceBorders& borders) {
+    if (!borders.overlap) return {};
+    const auto& first = scene.shapes[shapeOfPrimitive(scene, borders.overlap->first)];
+    const auto& second = scene.shapes[shapeOfPrimitive(scene, borders.overlap->second)];
+    const glm::dvec3 place = borders.overlap->place + scene.origin;
+    return {
+        fmt::format("{}: shapes '{}' and '{}' lie in one plane, face the same way and overlap near ({:.6g}, {:.6g}, "
+                    "{:.6g}): which of them a ray meets is left to rounding, and light there comes out wrong. "
+                    "Remove one of them, or move it by a thousandth of its size.",
+                    second.where.text(), first.id, second.id, place.x, place.y, place.z)};
+}
+
 } // namespace
 
 DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
@@ -95,6 +115,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     auto materials = flattenMaterials(scene, out.split);
     const unsigned meterLobe = isIrradiance(scene.sensor.meter) ? appendWhite(materials.lobes) : QL_NONE;
     const auto borders = findBorders(scene);
+    out.warnings = findWarnings(scene, borders);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
     out.bvh = buildBvh(flattenPrimitives(scene));

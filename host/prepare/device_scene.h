@@ -34,6 +34,7 @@ struct DeviceScene {
     std::vector<BsdfDecision> split;
     std::vector<MediumDecision> mediumSplit;
     std::vector<shared::Medium> media; ///< as in the tables
+    std::vector<std::string> warnings; ///< "file:line:column: …": what comes out wrong as the scene is
 };
 
 struct FlattenSettings {

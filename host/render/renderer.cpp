@@ -94,6 +94,7 @@ std::string slotName(unsigned slot) {
 
 SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
     SceneReport report;
+    report.warnings = flat.warnings;
     report.triangles = flat.triangles;
     report.spheres = flat.spheres;
     report.patches = flat.patches;

@@ -39,6 +39,7 @@ struct SceneReport {
     std::map<std::string, uint64_t> bufferBytes;
     unsigned photonsPerPass = 0;
     std::map<std::string, double> initialRadius; ///< scene units, by photon class
+    std::vector<std::string> warnings;           ///< DeviceScene::warnings
 };
 
 /// Counted over all passes.
