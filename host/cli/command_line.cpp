@@ -1,6 +1,7 @@
 // Parses the command line, runs the command, and turns what it throws into messages and exit codes.
 #include "cli/command_line.h"
 
+#include "cli/bench_command.h"
 #include "cli/compare_command.h"
 #include "cli/devices_command.h"
 #include "cli/info_command.h"
@@ -49,7 +50,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     const bool unknown =
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
     fail(exitBadInput, unknown     ? unknownArgument(app)
-                       : noCommand ? "no command given, expected render, compare, devices or info"
+                       : noCommand ? "no command given, expected render, compare, bench, devices or info"
                                    : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
@@ -57,6 +58,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
 
 int runCommand(CLI::App& app, const Options& options) {
     if (app.got_subcommand("render")) return renderCommand(options.render);
+    if (app.got_subcommand("bench")) return benchCommand(options.bench);
     if (app.got_subcommand("compare")) return compareCommand(options.compare);
     if (app.got_subcommand("info"))
         infoCommand(options.info);

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace quasilux {
 
@@ -126,15 +125,6 @@ std::string tableText(const std::vector<TableRow>& rows) {
     return table.text();
 }
 
-void writePage(const std::string& path, const std::string& page) {
-    AtomicFile file(path);
-    std::ofstream stream(file.temporary(), std::ios::binary);
-    stream << page;
-    stream.close();
-    if (!stream) throw std::runtime_error("cannot write " + path);
-    file.commit();
-}
-
 void printJson(const CompareOptions& options, const Comparison& comparison, const std::vector<std::string>& exceeded) {
     nlohmann::json report = comparisonJson(comparison);
     report["version"] = QUASILUX_VERSION;
@@ -175,7 +165,7 @@ int compareCommand(const CompareOptions& options) {
     text.worst = worstRows(comparison);
     text.remarks = remarks(comparison, image.width);
     for (const auto& line : exceeded) text.remarks.push_back("exceeded: " + line);
-    if (!options.html.empty()) writePage(options.html, htmlPage(image, reference, comparison, text));
+    if (!options.html.empty()) writeText(options.html, htmlPage(image, reference, comparison, text));
 
     if (options.json)
         printJson(options, comparison, exceeded);

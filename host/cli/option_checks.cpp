@@ -104,4 +104,13 @@ CLI::Validator quasiSpecularList() {
         "");
 }
 
+std::vector<std::pair<std::string, std::string>> parseDefinitions(const std::vector<std::string>& texts) {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (const auto& text : texts) {
+        const auto equals = text.find('=');
+        pairs.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return pairs;
+}
+
 } // namespace quasilux

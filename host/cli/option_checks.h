@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quasilux {
@@ -15,6 +16,8 @@ CLI::Validator numberBetween(double from, double to);
 CLI::Validator oneOf(std::vector<std::string> names);
 /// "name=value" with a name.
 CLI::Validator definition();
+/// Names and values of such.
+std::vector<std::pair<std::string, std::string>> parseDefinitions(const std::vector<std::string>& texts);
 /// "auto", "none", "all", "level:NUMBER" or a comma-separated list without empty items.
 CLI::Validator quasiSpecularList();
 

@@ -166,12 +166,7 @@ void declareStop(CLI::App& command, StopRule& stop) {
 } // namespace
 
 std::vector<std::pair<std::string, std::string>> SceneOptions::parameters() const {
-    std::vector<std::pair<std::string, std::string>> pairs;
-    for (const auto& text : definitions) {
-        const auto equals = text.find('=');
-        pairs.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-    }
-    return pairs;
+    return parseDefinitions(definitions);
 }
 
 RenderSettings SceneOptions::settings(const Scene& loaded) const {
@@ -209,6 +204,7 @@ void declareOptions(CLI::App& app, Options& options) {
     declareDevice(render, options.render);
 
     declareCompare(app, options.compare);
+    declareBench(app, options.bench);
 
     CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices");
     devices.add_flag("--json", options.devicesJson, "The list on stdout as a JSON array (default: off, a table)");

@@ -1,6 +1,7 @@
 // What the command line can say: the one source of --help.
 #pragma once
 
+#include "cli/bench_options.h"
 #include "cli/compare_options.h"
 #include "output/png.h"
 #include "render/settings.h"
@@ -45,6 +46,7 @@ struct Options {
     RenderOptions render;
     SceneOptions info;
     CompareOptions compare;
+    BenchOptions bench;
     bool devicesJson = false;
 };
 

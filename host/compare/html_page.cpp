@@ -88,34 +88,6 @@ Promise.all(views.map(view => {
 </script></body></html>
 )";
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
-
-std::string table(const std::vector<TableRow>& rows) {
-    std::string out = "<table>\n";
-    for (size_t i = 0; i < rows.size(); ++i) {
-        const char* tag = i == 0 ? "th" : "td";
-        out += "<tr>";
-        for (const auto& cell : rows[i]) out += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
-        out += "</tr>\n";
-    }
-    return out + "</table>\n";
-}
-
 /// Brings the 90th percentile of the reference's luminance, over pixels that are not black, to 0.8.
 double automaticScale(const RadianceImage& reference) {
     std::vector<double> lit;
@@ -145,10 +117,10 @@ std::string figure(const RadianceImage& image, const Picture& picture, const std
 
 std::string htmlPage(const RadianceImage& image, const RadianceImage& reference, const Comparison& comparison,
                      const PageText& text) {
-    std::string out = fmt::format(head, escaped(text.title), std::clamp(image.width, 256u, 640u));
-    out += fmt::format("<h1>{}</h1>\n", escaped(text.title));
-    for (const auto& remark : text.remarks) out += fmt::format("<p>{}</p>\n", escaped(remark));
-    out += table(text.regions);
+    std::string out = fmt::format(head, htmlEscaped(text.title), std::clamp(image.width, 256u, 640u));
+    out += fmt::format("<h1>{}</h1>\n", htmlEscaped(text.title));
+    for (const auto& remark : text.remarks) out += fmt::format("<p>{}</p>\n", htmlEscaped(remark));
+    out += htmlTable(text.regions);
     out += "<p><label>Exposure <input id=\"exposure\" type=\"range\" min=\"-10\" max=\"10\" step=\"0.25\" value=\"0\">"
            "</label> <output id=\"stops\"></output> Put the pointer on one image to see the other one in its place."
            "<br><output id=\"readout\">&nbsp;</output></p>\n";
@@ -164,7 +136,7 @@ std::string htmlPage(const RadianceImage& image, const RadianceImage& reference,
         out +=
             figure(image, errors,
                    fmt::format("difference in standard errors: blue -{0:g}, white 0, red +{0:g}", standardErrorScale));
-    out += "<p>Magenta: pixels that are not finite.</p>\n<h2>Worst pixels</h2>\n" + table(text.worst);
+    out += "<p>Magenta: pixels that are not finite.</p>\n<h2>Worst pixels</h2>\n" + htmlTable(text.worst);
     return out + script;
 }
 

@@ -1,12 +1,10 @@
 // One page with both images, the error and the figures, which needs nothing besides itself.
 #pragma once
 
+#include "compare/html_parts.h"
 #include "compare/measures.h"
 
 namespace quasilux {
-
-/// A row of the page's table, as many cells as there are headings.
-using TableRow = std::vector<std::string>;
 
 struct PageText {
     std::string title;

@@ -10,6 +10,8 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <stdexcept>
 #include <system_error>
 #include <unistd.h>
 
@@ -64,6 +66,15 @@ void AtomicFile::commit() {
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
         throw std::system_error(errno, std::generic_category(), "cannot write " + path_);
     committed_ = true;
+}
+
+void writeText(const std::string& path, const std::string& text) {
+    AtomicFile file(path);
+    std::ofstream stream(file.temporary(), std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw std::runtime_error("cannot write " + path);
+    file.commit();
 }
 
 } // namespace quasilux

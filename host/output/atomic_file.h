@@ -26,4 +26,7 @@ private:
     bool committed_ = false;
 };
 
+/// Whole or not at all. Throws std::runtime_error.
+void writeText(const std::string& path, const std::string& text);
+
 } // namespace quasilux

@@ -4,9 +4,6 @@
 #include "output/atomic_file.h"
 #include "output/meter_reading.h"
 
-#include <fstream>
-#include <stdexcept>
-
 namespace quasilux {
 
 using nlohmann::json;
@@ -162,13 +159,8 @@ json statisticsJson(const RenderRecord& record, const FilmImage& image) {
 }
 
 void writeJson(const std::string& path, const json& value) {
-    AtomicFile file(path);
-    std::ofstream stream(file.temporary());
     // Names come from files and drivers: bytes that are not UTF-8 are replaced instead of ending the program.
-    stream << value.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
-    stream.close();
-    if (!stream) throw std::runtime_error("cannot write " + path);
-    file.commit();
+    writeText(path, value.dump(2, ' ', false, json::error_handler_t::replace) + '\n');
 }
 
 } // namespace quasilux

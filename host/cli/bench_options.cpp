@@ -1,0 +1,56 @@
+// Declares the options of `quasilux bench`.
+#include "cli/bench_options.h"
+
+#include "cli/option_checks.h"
+
+namespace quasilux {
+
+void declareBench(CLI::App& app, BenchOptions& options) {
+    CLI::App& command = *app.add_subcommand("bench", "Measure speed against error, of scenes, methods and devices");
+    command.add_option("SCENE", options.scenes, "Scene files, Mitsuba 3 XML")->required()->type_name("FILE");
+    command
+        .add_option("--method", options.methods,
+                    "Way to render: scene, standard, main or alternative, then, each after a colon, a BDD, photons, "
+                    "camera, generic or level=X; may be given several times (default: scene, standard:0, standard:1, "
+                    "main:0, main:1, alternative:0)")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command
+        .add_option("--device", options.devices,
+                    "Device number, as `quasilux devices` lists them; may be given several times (default: the first "
+                    "GPU, else the first device)")
+        ->type_name("N")
+        ->allow_extra_args(false)
+        ->check(wholeNumber(0, 1000));
+    command.add_option("--time", options.seconds, "Time of each render, in seconds (default: 10)")
+        ->type_name("SECONDS")
+        ->check(numberAbove(0, 1e9));
+    command
+        .add_option("--reference", options.references,
+                    "Image that counts as right, one for each scene in their order, - for none (default: none; errors "
+                    "are those "
+                    "that renders tell)")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--reference-noise", options.referenceNoise,
+                    "The reference's own relMSE, one for each --reference in their order (default: 0)")
+        ->type_name("X")
+        ->allow_extra_args(false)
+        ->check(numberBetween(0, 1e30));
+    command
+        .add_option("-D", options.definitions,
+                    "Replaces the value of the scenes' <default name=\"...\"/>; may be given several times (default: "
+                    "none)")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false)
+        ->check(definition());
+    command.add_option("-o,--output", options.output, "All figures, .json (default: none)")->type_name("FILE");
+    command.add_option("--html", options.html, "Page with plots, pictures and tables, .html (default: none)")
+        ->type_name("FILE");
+    command.add_flag("--json", options.json, "The figures on stdout as one JSON object (default: off, tables)");
+    command.add_flag("--quiet", options.quiet,
+                     "No progress, no warnings and no tables; errors and --json are still printed (default: off)");
+}
+
+} // namespace quasilux
