@@ -308,7 +308,7 @@ def albedo_oracles():
 
 def albedo_rows(name, bsdf, albedos):
     """Photons of a sky are few on a small plate: they take another number of passes than sampled emitters."""
-    effort = {"emitters": (1000, 24), "photons": (200000, 100)}
+    effort = {"emitters": (1000, 24), "photons": (100000, 40)}
     return [Oracle(f"albedo of Lambert 0.3 + {name}, at {a}°, {direct}", SKY + rectangle("1,1,1", "", "0,0,0", bsdf) + radiance_meter(a),
                    0.3 + 0.5 * albedo, "quadrature", photons, passes, direct=(direct,))
             for a, albedo in albedos.items() for direct, (photons, passes) in effort.items()]
