@@ -46,15 +46,6 @@ std::string errorPlots(const BenchReport& report, const std::string& scene) {
     return out + logLogPlot({"error as the renders tell it", "seconds", "relMSE: noise and bias, told"}, told);
 }
 
-RadianceImage radianceOf(const FilmImage& image) {
-    RadianceImage radiance;
-    radiance.width = image.width;
-    radiance.height = image.height;
-    radiance.radiance = image.radiance;
-    radiance.standardError = image.standardError;
-    return radiance;
-}
-
 std::string figure(const std::string& caption, const Picture& picture, unsigned width, unsigned height) {
     return fmt::format("<figure><img alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
                        htmlEscaped(caption), pngDataUri(picture, width, height));

@@ -25,14 +25,10 @@ double processSeconds() {
 }
 
 double relMseOf(const FilmImage& image, const BenchReference& reference) {
-    RadianceImage radiance;
-    radiance.width = image.width;
-    radiance.height = image.height;
-    radiance.radiance = image.radiance;
     CompareSettings settings;
     settings.referenceNoise[""] = reference.noise;
     settings.worstPixels = 0;
-    return compareImages(radiance, reference.image, {wholePicture(image.width, image.height)}, settings)
+    return compareImages(radianceOf(image), reference.image, {wholePicture(image.width, image.height)}, settings)
         .regions.at(0)
         .netRelMse;
 }
@@ -43,7 +39,14 @@ bool isKnown(double error) { return std::isfinite(error) && error > 0; }
 
 } // namespace
 
-double BenchRun::finalRelMse() const { return errorOf(points.back()); }
+RadianceImage radianceOf(const FilmImage& image) {
+    RadianceImage radiance;
+    radiance.width = image.width;
+    radiance.height = image.height;
+    radiance.radiance = image.radiance;
+    radiance.standardError = image.standardError;
+    return radiance;
+}
 
 BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, double seconds,
                     const std::optional<BenchReference>& reference,

@@ -31,9 +31,6 @@ struct BenchRun {
     std::map<std::string, KernelTiming> kernels;
     uint64_t peakBufferBytes = 0;
     FilmImage image;
-
-    /// Of the last point: relMSE where there is a reference, else what the render tells.
-    double finalRelMse() const;
 };
 
 /// What relMSE is measured against.
@@ -41,6 +38,9 @@ struct BenchReference {
     RadianceImage image;
     double noise = 0; ///< its own relMSE
 };
+
+/// As `quasilux compare` takes images.
+RadianceImage radianceOf(const FilmImage& image);
 
 /// Renders until `seconds` have passed on the clock, or `interrupted`; at least one pass.
 /// `onProgress` is told the passes and the seconds so far.
