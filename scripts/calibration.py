@@ -63,7 +63,7 @@ def plate():
     """The turbid plate on checkered paper, its phase function split by a level."""
     reference = plate_reference()
     options = [ROOT / "scenes" / "plate_checker.xml", "--quasi-specular", "level:0.1"]
-    return Scene("turbid plate, 160 x 120", options, reference.pixels, reference.noise.mean(), [4], 4)
+    return Scene("turbid plate, 160 x 120", options, reference.pixels, reference.noise.mean(), [4, 16, 64, 256], 4)
 
 
 SCENES = {"box": box, "plate": plate}

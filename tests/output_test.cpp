@@ -275,6 +275,7 @@ TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
                                             "/sceneReport/bufferBytes",
                                             "/sceneReport/photonsPerPass",
                                             "/sceneReport/initialRadius",
+                                            "/sceneReport/warnings",
                                             "/counters/passes",
                                             "/counters/photonsEmitted",
                                             "/counters/photonsStored",

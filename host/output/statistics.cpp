@@ -131,7 +131,8 @@ json sceneReportJson(const SceneReport& report) {
             {"photonClasses", report.photonClasses},
             {"bufferBytes", report.bufferBytes},
             {"photonsPerPass", report.photonsPerPass},
-            {"initialRadius", report.initialRadius}};
+            {"initialRadius", report.initialRadius},
+            {"warnings", report.warnings}};
 }
 
 json statisticsJson(const RenderRecord& record, const FilmImage& image) {
