@@ -167,7 +167,7 @@ def cie_oracles():
         Oracle("CIE 171 5.7, wall C", wall + meter(north, "2,0,1.75", small), 0.6 / math.sqrt(26) * 0.15398809916935388, "configuration factor"),
         Oracle("CIE 171 5.7, floor H", wall + meter("", "2,0.75,0", small), 0.6 / math.sqrt(26) * 0.036289856355258, "configuration factor"),
     ] + [Oracle(f"CIE 171 5.8, ρ {rho}", point(flux, lamp) + closed_room(4, rho), 10000 / (96 * (1 - rho)), "Φ / (A (1 − ρ))",
-                10000) for rho in (0.2, 0.5, 0.8, 0.95)]
+                50000, 16) for rho in (0.2, 0.5, 0.8)]
 
 
 def oracles():
