@@ -16,12 +16,6 @@ std::string beamAt(double angle) {
     return test::beam(fmt::format("{:.9f},0,{:.9f}", std::sin(t), -std::cos(t)));
 }
 
-std::string glass(double index) {
-    return fmt::format("<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"{}\"/>"
-                       "<float name=\"ext_ior\" value=\"1\"/></bsdf>",
-                       index);
-}
-
 const Method methods[] = {{"emitters"},
                           {"photons", 0, "auto", DirectLight::photons},
                           {"camera map, BDD 1", 1, "auto", DirectLight::emitters, Variant::main, MapOrder::camera}};
@@ -51,7 +45,7 @@ TEST(Beam, PassesAClearPaneWithAllItsReflections) {
     // Thin and close, so that no reflection of weight comes from beside it.
     const std::string pane = "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"2,2,0.05\"/>"
                              "<translate z=\"0.1\"/></transform>" +
-                             glass(1.5) + "</shape>";
+                             test::glass(1.5) + "</shape>";
     for (const double angle : {0.0, 45.0, 75.0}) {
         const auto scene = test::meterScene(beamAt(angle) + pane + test::meterAt(0, "y", 1));
         const double truth = std::cos(angle * std::numbers::pi / 180) * transmittance(angle, 1.5);
@@ -73,7 +67,7 @@ TEST(Beam, IsFocusedByABallOfGlass) {
     const auto scene = test::meterScene(test::beam("0,0,-1") +
                                         "<shape type=\"sphere\"><point name=\"center\" x=\"0\" "
                                         "y=\"0\" z=\"1.2\"/>" +
-                                        glass(1.5) + "</shape>" + test::meterAt(0, "y", 0.5));
+                                        test::glass(1.5) + "</shape>" + test::meterAt(0, "y", 0.5));
     for (const Method& method : methods) {
         SCOPED_TRACE(method.name);
         expectReading(scene, method, 2.569710934867342, false, 8, 100000);

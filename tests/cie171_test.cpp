@@ -93,9 +93,8 @@ TEST(Cie171, DirectionalTransmittanceOfGlass_5_5) {
         const auto scene = test::meterScene(
             "<emitter type=\"constant\"/>" + sensor +
             "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"100,100,0.003\"/><translate z=\"0.5\"/>"
-            "</transform><bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"1.52\"/>"
-            "<float name=\"ext_ior\" value=\"1\"/></bsdf></shape>" +
-            test::rectangle("100,100,1", "", "0,0,-0.1", test::diffuse(0)));
+            "</transform>" +
+            test::glass(1.52) + "</shape>" + test::rectangle("100,100,1", "", "0,0,-0.1", test::diffuse(0)));
         SCOPED_TRACE(row.angle);
         expectReading(scene, {"emitters"}, row.transmittance, false, 4000, 1000);
     }

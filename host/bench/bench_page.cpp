@@ -1,7 +1,6 @@
 // The page of a benchmark: plots of error over time, pictures at equal time, tables.
 #include "bench/bench_report.h"
 #include "bench/svg_plot.h"
-#include "compare/error_picture.h"
 #include "output/png.h"
 
 #include <algorithm>
@@ -11,29 +10,17 @@ namespace quasilux {
 
 namespace {
 
-constexpr const char* head = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>quasilux bench</title><style>
-body { font: 15px/1.45 system-ui, sans-serif; margin: 24px; color: #222; background: #fafafa; }
-figure { display: inline-block; margin: 0 16px 16px 0; vertical-align: top; width: min-content; }
-img { image-rendering: pixelated; width: 256px; display: block; }
-table { border-collapse: collapse; margin: 12px 0; display: block; overflow-x: auto; }
-td, th { padding: 3px 12px; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
-td:first-child, th:first-child { text-align: left; }
+constexpr const char* style = R"(img { width: 256px; }
+table { display: block; overflow-x: auto; }
 svg { max-width: 100%; background: #fff; font: 12px system-ui, sans-serif; margin: 0 12px 12px 0; }
 svg .grid { stroke: #ddd; } svg .title { font-size: 14px; font-weight: 600; }
-</style></head><body>
 )";
-
-std::string seriesName(const BenchReport& report, const BenchRun& run) {
-    return report.devices.size() > 1 ? fmt::format("{}, device {}", run.method, run.device) : run.method;
-}
 
 std::string errorPlots(const BenchReport& report, const std::string& scene) {
     std::vector<PlotSeries> measured, told;
-    for (const BenchRun& run : report.runs) {
-        if (run.scene != scene) continue;
-        PlotSeries against{seriesName(report, run), {}}, itself = against;
-        for (const BenchPoint& point : run.points) {
+    for (const BenchRun* run : runsOf(report, scene)) {
+        PlotSeries against{runTitle(report, *run), {}}, itself = against;
+        for (const BenchPoint& point : run->points) {
             if (point.relMse) against.points.push_back({point.seconds, *point.relMse});
             itself.points.push_back({point.seconds, point.estimate.relativeMse()});
         }
@@ -46,24 +33,19 @@ std::string errorPlots(const BenchReport& report, const std::string& scene) {
     return out + logLogPlot({"error as the renders tell it", "seconds", "relMSE: noise and bias, told"}, told);
 }
 
-std::string figure(const std::string& caption, const Picture& picture, unsigned width, unsigned height) {
-    return fmt::format("<figure><img alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
-                       htmlEscaped(caption), pngDataUri(picture, width, height));
-}
-
 /// All images of a scene with the tone curve of its first run.
 std::string pictures(const BenchReport& report, const std::string& scene) {
     std::optional<ToneCurve> curve;
     std::string images, errors;
     const auto reference = report.references.find(scene);
-    for (const BenchRun& run : report.runs) {
-        if (run.scene != scene || run.image.radiance.empty()) continue;
-        if (!curve) curve = chooseToneCurve(run.image, {});
-        const std::string caption = fmt::format("{}, {} passes", seriesName(report, run), run.points.back().passes);
-        images += figure(caption, toneMap(run.image, *curve), run.image.width, run.image.height);
+    for (const BenchRun* run : runsOf(report, scene)) {
+        const FilmImage& image = run->image;
+        if (!curve) curve = chooseToneCurve(image, {});
+        const std::string caption = fmt::format("{}, {} passes", runTitle(report, *run), run->points.back().passes);
+        images += htmlFigure(toneMap(image, *curve), image.width, image.height, caption);
         if (reference != report.references.end())
-            errors += figure(caption, signedPicture(radianceOf(run.image), reference->second.image), run.image.width,
-                             run.image.height);
+            errors += htmlFigure(signedPicture(radianceOf(image), reference->second.image), image.width, image.height,
+                                 caption);
     }
     if (!errors.empty())
         errors =
@@ -86,7 +68,7 @@ std::string deviceList(const BenchReport& report) {
 } // namespace
 
 std::string benchPage(const BenchReport& report) {
-    std::string out = head;
+    std::string out = htmlHead("quasilux bench", style);
     out += fmt::format("<h1>quasilux {} bench</h1>\n<p>{:g} s a run{}; load average {:.1f} before, {:.1f} after.</p>\n",
                        QUASILUX_VERSION, report.seconds, report.interrupted ? ", interrupted" : "",
                        report.loadBefore[0], report.loadAfter[0]);

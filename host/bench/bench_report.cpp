@@ -5,7 +5,6 @@
 #include "output/statistics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <set>
 
@@ -22,14 +21,6 @@ std::string percentText(double ratio) { return fmt::format("{:.3g} %", 100 * rat
 std::string timeText(const std::optional<TimeToError>& time) {
     if (!time) return "unknown";
     return fmt::format("{}{:.3g} s", time->extrapolated ? "~" : "", time->seconds);
-}
-
-/// Runs of the scene with their titles: the method, and the device where there are several.
-std::vector<const BenchRun*> runsOf(const BenchReport& report, const std::string& scene) {
-    std::vector<const BenchRun*> runs;
-    for (const BenchRun& run : report.runs)
-        if (run.scene == scene) runs.push_back(&run);
-    return runs;
 }
 
 double perSecond(uint64_t count, const BenchRun& run) { return static_cast<double>(count) / run.points.back().seconds; }
@@ -81,26 +72,28 @@ std::vector<std::string> scenesOf(const BenchReport& report) {
     return scenes;
 }
 
+std::vector<const BenchRun*> runsOf(const BenchReport& report, const std::string& scene) {
+    std::vector<const BenchRun*> runs;
+    for (const BenchRun& run : report.runs)
+        if (run.scene == scene) runs.push_back(&run);
+    return runs;
+}
+
+std::string runTitle(const BenchReport& report, const BenchRun& run) {
+    return report.devices.size() > 1 ? fmt::format("{}, device {}", run.method, run.device) : run.method;
+}
+
 std::optional<DeviceDifference> deviceDifference(const BenchReport& report, const BenchRun& run) {
     if (run.device == 0) return std::nullopt;
     const auto first = std::find_if(report.runs.begin(), report.runs.end(), [&](const BenchRun& other) {
         return other.device == 0 && other.scene == run.scene && other.method == run.method;
     });
-    if (first == report.runs.end() || first->image.radiance.size() != run.image.radiance.size()) return std::nullopt;
-    const FilmImage &a = run.image, &b = first->image;
-    double sum = 0, reference = 0, variance = 0;
-    size_t beyond = 0;
-    for (size_t k = 0; k < a.radiance.size(); ++k) {
-        const double difference = double(a.radiance[k]) - b.radiance[k];
-        const double here =
-            double(a.standardError[k]) * a.standardError[k] + double(b.standardError[k]) * b.standardError[k];
-        sum += difference;
-        reference += b.radiance[k];
-        variance += here;
-        beyond += difference * difference > 9 * here;
-    }
-    return DeviceDifference{sum / reference, std::sqrt(variance) / reference,
-                            double(beyond) / double(a.radiance.size())};
+    if (first == report.runs.end()) return std::nullopt;
+    const auto comparison = compareImages(radianceOf(run.image), radianceOf(first->image),
+                                          {wholePicture(run.image.width, run.image.height)}, {.worstPixels = 0});
+    const RegionMeasures& whole = comparison.regions.at(0);
+    return DeviceDifference{whole.relativeBias(), whole.standardErrorByPixels.value_or(0) / whole.referenceLuminance,
+                            comparison.beyondThreeStandardErrors.value_or(0)};
 }
 
 std::vector<TableRow> runRows(const BenchReport& report, const std::string& scene) {
@@ -126,8 +119,7 @@ std::vector<TableRow> stageRows(const BenchReport& report, const std::string& sc
     std::set<std::string> kernels;
     TableRow headings{"kernel, ms a pass"};
     for (const BenchRun* run : runs) {
-        headings.push_back(report.devices.size() > 1 ? fmt::format("{}, device {}", run->method, run->device)
-                                                     : run->method);
+        headings.push_back(runTitle(report, *run));
         for (const auto& [kernel, timing] : run->kernels) kernels.insert(kernel);
     }
     std::vector<TableRow> rows{headings};

@@ -20,12 +20,16 @@ struct BenchReport {
 
 /// How far the image of `run` is from that of the same scene and method on the first device.
 struct DeviceDifference {
-    double mean = 0;              ///< of the mean over all values, relative
+    double mean = 0;              ///< of the mean luminance, relative
     double meanStandardError = 0; ///< of it, from the standard errors of pixels as if these were independent
     double beyondThree = 0;       ///< share of values further than 3 standard errors apart
 };
 /// Nothing where there is no such run, or it is `run` itself.
 std::optional<DeviceDifference> deviceDifference(const BenchReport& report, const BenchRun& run);
+
+std::vector<const BenchRun*> runsOf(const BenchReport& report, const std::string& scene);
+/// The method, and the device where there are several.
+std::string runTitle(const BenchReport& report, const BenchRun& run);
 
 /// One row for each run of the scene, headings first.
 std::vector<TableRow> runRows(const BenchReport& report, const std::string& scene);

@@ -49,8 +49,8 @@ RadianceImage radianceOf(const FilmImage& image) {
 }
 
 BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, double seconds,
-                    const std::optional<BenchReference>& reference,
-                    const std::function<void(unsigned, double)>& onProgress, const std::atomic<bool>& interrupted) {
+                    const BenchReference* reference, const std::function<void(unsigned, double)>& onProgress,
+                    const std::atomic<bool>& interrupted) {
     BenchRun run;
     run.method = method.name;
     run.settings = settingsFromScene(scene);

@@ -42,11 +42,11 @@ struct BenchReference {
 /// As `quasilux compare` takes images.
 RadianceImage radianceOf(const FilmImage& image);
 
-/// Renders until `seconds` have passed on the clock, or `interrupted`; at least one pass.
+/// Renders until `seconds` have passed on the clock, or `interrupted`; at least one pass. `reference` may be null.
 /// `onProgress` is told the passes and the seconds so far.
 BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, double seconds,
-                    const std::optional<BenchReference>& reference,
-                    const std::function<void(unsigned, double)>& onProgress, const std::atomic<bool>& interrupted);
+                    const BenchReference* reference, const std::function<void(unsigned, double)>& onProgress,
+                    const std::atomic<bool>& interrupted);
 
 /// relMSE ~ seconds^slope, by least squares in logarithms over the points from pass 16 on; nothing where fewer than three
 /// have a positive error.

@@ -44,8 +44,7 @@ void readReferences(const BenchOptions& options, const std::vector<Scene>& scene
     if (!options.references.empty() && options.references.size() != options.scenes.size())
         throw InputError(fmt::format("--reference is given {} times for {} scenes; give one for each scene, - for none",
                                      options.references.size(), options.scenes.size()));
-    if (options.referenceNoise.size() > options.references.size() ||
-        (!options.referenceNoise.empty() && options.referenceNoise.size() != options.references.size()))
+    if (!options.referenceNoise.empty() && options.referenceNoise.size() != options.references.size())
         throw InputError(fmt::format("--reference-noise is given {} times for {} references; give one for each",
                                      options.referenceNoise.size(), options.references.size()));
     for (size_t k = 0; k < options.references.size(); ++k) {
@@ -80,10 +79,9 @@ void runAll(const BenchOptions& options, const std::vector<Scene>& scenes, const
                     progress.secondsLeft = std::max(0.0, options.seconds - seconds);
                     line.update(progress);
                 };
-                auto run =
-                    measureRun(devices[d], scenes[s], method, options.seconds,
-                               reference == report.references.end() ? std::nullopt : std::optional(reference->second),
-                               onProgress, interruptFlag());
+                auto run = measureRun(devices[d], scenes[s], method, options.seconds,
+                                      reference == report.references.end() ? nullptr : &reference->second, onProgress,
+                                      interruptFlag());
                 run.scene = name;
                 run.device = d;
                 report.runs.push_back(std::move(run));
@@ -91,18 +89,13 @@ void runAll(const BenchOptions& options, const std::vector<Scene>& scenes, const
 }
 
 void printTables(const BenchReport& report) {
-    const auto print = [](const std::vector<TableRow>& rows) {
-        TextTable table(rows.front());
-        for (size_t k = 1; k < rows.size(); ++k) table.add(rows[k]);
-        fmt::print("{}\n", table.text());
-    };
     fmt::print("{:g} s a run, load average {:.1f} before, {:.1f} after{}\n\n", report.seconds, report.loadBefore[0],
                report.loadAfter[0], report.interrupted ? ", interrupted" : "");
     for (const std::string& scene : scenesOf(report)) {
         fmt::print("{}\n", scene);
-        print(runRows(report, scene));
-        print(stageRows(report, scene));
-        print(deviceRows(report, scene));
+        fmt::print("{}\n", tableText(runRows(report, scene)));
+        fmt::print("{}\n", tableText(stageRows(report, scene)));
+        fmt::print("{}\n", tableText(deviceRows(report, scene)));
     }
 }
 

@@ -119,12 +119,6 @@ std::vector<std::string> remarks(const Comparison& comparison, unsigned width) {
     return lines;
 }
 
-std::string tableText(const std::vector<TableRow>& rows) {
-    TextTable table(rows.front());
-    for (size_t i = 1; i < rows.size(); ++i) table.add(rows[i]);
-    return table.text();
-}
-
 void printJson(const CompareOptions& options, const Comparison& comparison, const std::vector<std::string>& exceeded) {
     nlohmann::json report = comparisonJson(comparison);
     report["version"] = QUASILUX_VERSION;

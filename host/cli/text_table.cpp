@@ -20,6 +20,12 @@ std::string TextTable::text(const std::string& indent) const {
     return out;
 }
 
+std::string tableText(const std::vector<std::vector<std::string>>& rows) {
+    TextTable table(rows.front());
+    for (size_t i = 1; i < rows.size(); ++i) table.add(rows[i]);
+    return table.text();
+}
+
 std::string bytesText(uint64_t bytes) {
     const char* units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
     auto value = static_cast<double>(bytes);

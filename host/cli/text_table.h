@@ -19,6 +19,9 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
+/// The first row is the headings.
+std::string tableText(const std::vector<std::vector<std::string>>& rows);
+
 /// "512 B", "1.5 MiB".
 std::string bytesText(uint64_t bytes);
 

@@ -11,18 +11,11 @@ namespace quasilux {
 
 namespace {
 
-constexpr const char* head = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>{}</title><style>
-body {{ font: 15px/1.45 system-ui, sans-serif; margin: 24px; color: #222; background: #fafafa; }}
-figure {{ display: inline-block; margin: 0 16px 16px 0; vertical-align: top; width: min-content; }}
-canvas, img {{ image-rendering: pixelated; width: {}px; max-width: 95vw; display: block; background: #888; }}
-canvas {{ cursor: crosshair; }}
-table {{ border-collapse: collapse; margin: 12px 0; }}
-td, th {{ padding: 3px 12px; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }}
-td:first-child, th:first-child {{ text-align: left; }}
+/// With the width of pictures.
+constexpr const char* style = R"(canvas, img {{ width: {}px; max-width: 95vw; background: #888; }}
+canvas {{ image-rendering: pixelated; display: block; cursor: crosshair; }}
 input {{ width: 320px; vertical-align: middle; }}
 output {{ font-family: monospace; }}
-</style></head><body>
 )";
 
 /// Canvases hold radiance decoded once; every change of exposure encodes it as sRGB anew.
@@ -108,16 +101,11 @@ std::string canvas(const RadianceImage& image, const std::string& name, double s
                        pngDataUri(sharedExponentPicture(image), image.width, 2 * image.height), name);
 }
 
-std::string figure(const RadianceImage& image, const Picture& picture, const std::string& caption) {
-    return fmt::format("<figure><img alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>\n", caption,
-                       pngDataUri(picture, image.width, image.height));
-}
-
 } // namespace
 
 std::string htmlPage(const RadianceImage& image, const RadianceImage& reference, const Comparison& comparison,
                      const PageText& text) {
-    std::string out = fmt::format(head, htmlEscaped(text.title), std::clamp(image.width, 256u, 640u));
+    std::string out = htmlHead(text.title, fmt::format(style, std::clamp(image.width, 256u, 640u)));
     out += fmt::format("<h1>{}</h1>\n", htmlEscaped(text.title));
     for (const auto& remark : text.remarks) out += fmt::format("<p>{}</p>\n", htmlEscaped(remark));
     out += htmlTable(text.regions);
@@ -126,16 +114,16 @@ std::string htmlPage(const RadianceImage& image, const RadianceImage& reference,
            "<br><output id=\"readout\">&nbsp;</output></p>\n";
     const double scale = automaticScale(reference);
     out += canvas(image, "image", scale) + canvas(reference, "reference", scale) + "<br>\n";
-    out += figure(
-        image, signedPicture(image, reference),
-        fmt::format("relative difference of luminance: blue -{0:g} %, white 0, red +{0:g} %", 100 * signedScale));
-    out +=
-        figure(image, squarePicture(comparison),
-               fmt::format("relMSE, logarithmic: black {:g}, red, yellow, white {:g}", squareScaleFrom, squareScaleTo));
+    const auto figure = [&](const Picture& picture, const std::string& caption) {
+        out += htmlFigure(picture, image.width, image.height, caption);
+    };
+    figure(signedPicture(image, reference),
+           fmt::format("relative difference of luminance: blue -{0:g} %, white 0, red +{0:g} %", 100 * signedScale));
+    figure(squarePicture(comparison),
+           fmt::format("relMSE, logarithmic: black {:g}, red, yellow, white {:g}", squareScaleFrom, squareScaleTo));
     if (const Picture errors = standardErrorPicture(image, reference); !errors.empty())
-        out +=
-            figure(image, errors,
-                   fmt::format("difference in standard errors: blue -{0:g}, white 0, red +{0:g}", standardErrorScale));
+        figure(errors,
+               fmt::format("difference in standard errors: blue -{0:g}, white 0, red +{0:g}", standardErrorScale));
     out += "<p>Magenta: pixels that are not finite.</p>\n<h2>Worst pixels</h2>\n" + htmlTable(text.worst);
     return out + script;
 }

@@ -64,8 +64,8 @@ void intersectSurfaces(const Surface& surface, SurfaceBorders& borders) {
             const SurfaceTriangle &a = *candidates.triangles[i], &b = *candidates.triangles[j];
             primitiveA = a.primitive;
             primitiveB = b.primitive;
-            noteOverlap(coplanarOverlap(surface, a, b), primitiveA, primitiveB, borders);
             if (patchOfPrimitive[primitiveA] == patchOfPrimitive[primitiveB] && shareCorner(a, b)) return;
+            noteOverlap(coplanarOverlap(surface, a, b), primitiveA, primitiveB, borders);
             if (const std::optional<CutSegment> cut = cutTriangles(surface, a, b)) cuts.push_back(*cut);
         } else if (i < triangleCount) {
             const SurfaceSphere& sphere = *candidates.spheres[j - triangleCount];

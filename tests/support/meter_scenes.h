@@ -69,6 +69,13 @@ inline std::string meterFacing(const std::string& axis, const std::string& place
                        half, turns.at(axis), place, bsdf, irradiancemeter());
 }
 
+/// Smooth glass in air of index 1.
+inline std::string glass(double index) {
+    return fmt::format("<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"{}\"/>"
+                       "<float name=\"ext_ior\" value=\"1\"/></bsdf>",
+                       index);
+}
+
 /// Parallel light of irradiance 1 along "x,y,z".
 inline std::string beam(const std::string& direction) {
     return fmt::format("<emitter type=\"directional\"><vector name=\"direction\" value=\"{}\"/></emitter>", direction);
