@@ -118,6 +118,18 @@ TEST_F(BenchCommand, ReportsEveryMethod) {
     EXPECT_THAT(page, Not(HasSubstr("http"))) << "the page needs nothing besides itself";
 }
 
+TEST_F(BenchCommand, ScenesOfOneNameStayApart) {
+    std::filesystem::create_directory(folder / "other");
+    std::filesystem::copy_file(folder / "scene.xml", folder / "other/scene.xml");
+    const Outcome outcome =
+        run({"bench", "scene.xml", "other/scene.xml", "--time", "0.05", "--method", "scene", "--json"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    const json report = json::parse(outcome.output, nullptr, false);
+    ASSERT_EQ(report.at("runs").size(), 2u);
+    EXPECT_EQ(report["runs"][0]["scene"], "scene.xml");
+    EXPECT_EQ(report["runs"][1]["scene"], "other/scene.xml");
+}
+
 TEST_F(BenchCommand, BadInputIsRefused) {
     expectRefused(with({"--method", "mian"}), "--method mian: 'mian' is not known");
     expectRefused(with({"--reference", "nowhere.exr"}), "nowhere.exr");

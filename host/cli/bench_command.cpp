@@ -11,14 +11,11 @@
 #include "util/error.h"
 
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
-
-std::string fileName(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 std::array<double, 3> loadAverage() {
     std::array<double, 3> load{};
@@ -56,7 +53,7 @@ void readReferences(const BenchOptions& options, const std::vector<Scene>& scene
             throw InputError(fmt::format("{} is {} x {}, the film of {} {} x {}; they must agree",
                                          options.references[k], reference.image.width, reference.image.height,
                                          options.scenes[k], sensor.width, sensor.height));
-        report.references.emplace(fileName(options.scenes[k]), std::move(reference));
+        report.references.emplace(options.scenes[k], std::move(reference));
     }
 }
 
@@ -67,7 +64,7 @@ void runAll(const BenchOptions& options, const std::vector<Scene>& scenes, const
     for (size_t s = 0; s < scenes.size(); ++s)
         for (const BenchMethod& method : methods)
             for (size_t d = 0; d < devices.size() && !interruptFlag(); ++d) {
-                const std::string name = fileName(options.scenes[s]);
+                const std::string& name = options.scenes[s];
                 const auto reference = report.references.find(name);
                 Progress progress;
                 progress.phase = fmt::format("{} of {}: {}, {}", report.runs.size() + 1, total, name, method.name);
