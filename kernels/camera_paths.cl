@@ -90,6 +90,10 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
     const float3 even = pixelNumbers(index, params->pass, seed);
     path.ray = cameraRay(&params->camera, pixel, even.xy);
     path.firstChoice = even.z;
+    path.strata = strataOfPath(seed, params->pass, index);
+#ifdef ADAPTIVE_RADIUS
+    path.radiusBlock = radiusBlock(params, pixel);
+#endif
     path.throughput = 1;
     path.d = path.q = path.depth = 0;
     path.passed = 0;
@@ -175,10 +179,19 @@ __kernel void addMeterSamples(__global const float* samples, __global uint* sums
 #elif !defined(MAP_CAMERA)
 __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                                __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
-                               __global float* film, __global CameraCounters* counters, const CameraParams params) {
+                               __global float* film, __global CameraCounters* counters, const CameraParams params
+#ifdef ADAPTIVE_RADIUS
+                               ,
+                               __global const float* radiusScales
+#endif
+) {
     const uint pixel = get_global_id(0);
     if (pixel >= params.camera.width * params.camera.height) return;
-    const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
+    const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map},
+#ifdef ADAPTIVE_RADIUS
+                         radiusScales,
+#endif
+                         &params};
     float3 components[FILM_SAMPLES];
     countCut(counters, traceCameraPath(&world, pixel, components));
     addFiniteSample(film, counters, pixel, components, params.batchWeight);

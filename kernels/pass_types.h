@@ -76,11 +76,12 @@ typedef struct {
 
 /* One indexed map per photon class, all in one cell table and one sorted set of photons (kernels/photon_grid.clh). */
 typedef struct {
-    float radius[LIGHT_CLASSES]; /* density radius of this pass on surfaces = cell size */
-    float volumeScale;           /* of this pass's kernels in media to those of pass 0 (Medium) */
-    unsigned int media;          /* SceneTables::media */
-    unsigned int cellMask;       /* cells of one class - 1, a power of two - 1 */
-    unsigned int chunks;         /* stable counting sort: each chunk counts and scatters in order */
+    float
+        radius[LIGHT_CLASSES]; /* density radius of this pass on surfaces, before any scale of the pixel = cell size */
+    float volumeScale;         /* of this pass's kernels in media to those of pass 0 (Medium) */
+    unsigned int media;        /* SceneTables::media */
+    unsigned int cellMask;     /* cells of one class - 1, a power of two - 1 */
+    unsigned int chunks;       /* stable counting sort: each chunk counts and scatters in order */
     unsigned int regions, regionCapacity;
     unsigned int photonStride; /* capacity of the sorted arrays, photons */
     unsigned int scanBlocks;
@@ -92,11 +93,31 @@ typedef struct {
     unsigned int pass;
     unsigned int bdd;
     unsigned int maxDepth;
+    unsigned int radiusBlock; /* pixels of a row and column that share a density radius */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
     Camera camera;
     MapParams map;
     SceneTables scene;
 } CameraParams;
+
+/* ---- density radius by pixel (kernels/adaptive_radius.cl) ---- */
+
+/* What the pilot tells of one class of light in one of its pixels, relative to the radiance there. */
+typedef struct {
+    float
+        curvature; /* squared: the bias at radius r, in units of MapParams::radius of the first pass, is r^2 times its root */
+    float curvatureNoise; /* of its estimate */
+    float variance;       /* of a pass of radius 1, from photons */
+} RadiusMeasure;
+
+typedef struct {
+    unsigned int width, height; /* of the pilot */
+    unsigned int passes;        /* of it */
+    float squaredRadii;     /* sum over them of the squared radius, in units of MapParams::radius of the first pass */
+    float inverseSquares;   /* of its inverse */
+    float noiseToCurvature; /* variance / (2 curvature) of a pass times this is the best radius to the sixth power */
+    float largest;          /* radius, in units of MapParams::radius */
+} RadiusParams;
 
 /* ---- camera map: points of camera paths are stored and photons splatted to them (docs/architecture.md) ---- */
 

@@ -63,6 +63,14 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->check(wholeNumber(0, UINT64_MAX))
         ->group(group);
     command
+        .add_option(
+            "--radius", options.radius,
+            "Radius of the density estimate: adaptive, chosen for each pixel from its noise and bias, or fixed, "
+            "the same for all (default: adaptive)")
+        ->type_name("NAME")
+        ->check(oneOf({"adaptive", "fixed"}))
+        ->group(group);
+    command
         .add_option("--radius-scale", options.radiusScale,
                     "Factor on the initial radius of the density estimate, a ratio (default: 1)")
         ->type_name("X")
@@ -181,6 +189,7 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
         result.quasiSpecular = *quasiSpecular;
         result.quasiSpecularFromCommandLine = true;
     }
+    if (radius) result.radius = parseRadiusChoice(*radius);
     result.radiusScale = radiusScale;
     result.energyBalance = energyBalance;
     result.genericKernels = kernels == "generic";

@@ -19,7 +19,7 @@ struct SceneOptions {
     std::vector<std::string> definitions; ///< "name=value"
     std::optional<unsigned> bdd, photons;
     std::optional<uint64_t> seed;
-    std::optional<std::string> variant, direct, map, quasiSpecular;
+    std::optional<std::string> variant, direct, map, quasiSpecular, radius;
     double radiusScale = 1;
     bool energyBalance = false;
     std::string kernels = "scene";

@@ -40,6 +40,7 @@ struct RenderRecord {
         visit("quasiSpecular", settings.quasiSpecular);
         visit("seed", settings.seed);
         visit("photonsPerPass", photonsPerPass());
+        visit("radius", name(settings.radius));
         visit("radiusScale", settings.radiusScale);
         visit("passes", counters.passes);
         visit("seconds", counters.renderSeconds);

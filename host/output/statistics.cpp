@@ -103,6 +103,7 @@ json settingsJson(const RenderSettings& settings) {
             {"quasiSpecularFromCommandLine", settings.quasiSpecularFromCommandLine},
             {"photonsPerPass", settings.photonsPerPass},
             {"seed", settings.seed},
+            {"radius", name(settings.radius)},
             {"radiusScale", settings.radiusScale},
             {"units", settings.photometric ? "photometric" : "radiometric"},
             {"kernels", settings.genericKernels ? "generic" : "scene"}};

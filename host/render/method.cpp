@@ -67,6 +67,14 @@ bool estimatesBias(const Features& features, const RenderSettings& settings) {
     return settings.estimateBias && settings.map == MapOrder::photons && !isMeter;
 }
 
+bool adaptsRadius(const Features& features, const RenderSettings& settings) {
+    RenderSettings specialised = settings; // generic kernels know media in every scene
+    specialised.genericKernels = false;
+    const unsigned classes = photonClasses(features, specialised);
+    return settings.radius == RadiusChoice::adaptive && estimatesBias(features, settings) && classes != 0 &&
+           classes >> LIGHT_CLASSES == 0;
+}
+
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {
     return meterClasses(features, settings) != 0;
 }
@@ -86,6 +94,7 @@ std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settin
     if (settings.direct == DirectLight::emitters) options += " -DDIRECT_BY_EMITTERS";
     if (settings.variant == Variant::alternative) options += " -DLAW_ALTERNATIVE";
     if (estimatesBias(scene.features, settings)) options += " -DESTIMATE_BIAS=1";
+    if (adaptsRadius(scene.features, settings)) options += " -DADAPTIVE_RADIUS";
     if (settings.mediumRule != MediumRule::right)
         options += fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(settings.mediumRule));
     if (settings.energyBalance) options += " -DENERGY_BALANCE";

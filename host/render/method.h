@@ -13,6 +13,8 @@ unsigned photonClasses(const Features& features, const RenderSettings& settings)
 
 /// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
 bool estimatesBias(const Features& features, const RenderSettings& settings);
+/// Is the density radius chosen by pixel? Where it is asked for, bias is estimated, and nothing is stored in media.
+bool adaptsRadius(const Features& features, const RenderSettings& settings);
 
 /// An irradiance meter scatters by its variant: genuine diffuse in the main one, else quasi-specular (METER_SCATTERING).
 bool meterIsGenuineDiffuse(const Features& features, const RenderSettings& settings);

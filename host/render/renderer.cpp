@@ -32,7 +32,10 @@ DeviceScene flatten(const Scene& scene, const RenderSettings& settings) {
     flattening.quasiSpecular = settings.quasiSpecular;
     flattening.photons = photons;
     flattening.overridesScene = settings.quasiSpecularFromCommandLine;
-    flattening.largestRadius = [&](double area) { return firstRadius(area, settings, photons); };
+    flattening.largestRadius = [&](double area) {
+        const bool mayAdapt = settings.radius == RadiusChoice::adaptive && scene.media.empty();
+        return firstRadius(area, settings, photons) * (mayAdapt ? largestAdaptiveRadius : 1);
+    };
     return flattenScene(scene, flattening);
 }
 
@@ -139,7 +142,8 @@ struct Renderer::Stages {
         photons.emplace(device, options, geometry, photon, classes, compiledFeatures(flat, settings).depthLimit);
         photons->thinVolume(thinning.keepProbability, thinning.expectedPhotons);
         if (path.scene.meter.kind == METER_NONE) {
-            camera.emplace(device, options, geometry, film, path);
+            if (adaptsRadius(flat.features, settings)) adaptive.emplace(device, options, flat.camera, classes);
+            camera.emplace(device, options, geometry, film, path, adaptive ? &*adaptive : nullptr);
             return;
         }
         meter.emplace(device, options, geometry, film, path, classes, meanRadiance(flat));
@@ -233,7 +237,8 @@ struct Renderer::Stages {
     std::string options;
     GeometryBuffers geometry;
     Film film;
-    std::optional<PhotonStage> photons; // this and one of the next two, or
+    std::optional<PhotonStage> photons;     // this and one of the next two, or
+    std::optional<AdaptiveRadius> adaptive; // where the camera stage has it
     std::optional<CameraStage> camera;
     std::optional<MeterStage> meter;
     std::optional<CameraMapStage> cameraMap; // this

@@ -31,6 +31,8 @@ const char* name(DirectLight direct) { return direct == DirectLight::emitters ? 
 
 const char* name(MapOrder map) { return map == MapOrder::photons ? "photons" : "camera"; }
 
+const char* name(RadiusChoice radius) { return radius == RadiusChoice::adaptive ? "adaptive" : "fixed"; }
+
 Variant parseVariant(const std::string& text) {
     if (text == "main") return Variant::main;
     if (text == "alternative") return Variant::alternative;
@@ -48,6 +50,12 @@ MapOrder parseMapOrder(const std::string& text) {
     if (text == "photons") return MapOrder::photons;
     if (text == "camera") return MapOrder::camera;
     throw InputError("unknown map '" + text + "', " + expectedNames(text, {"photons", "camera"}));
+}
+
+RadiusChoice parseRadiusChoice(const std::string& text) {
+    if (text == "adaptive") return RadiusChoice::adaptive;
+    if (text == "fixed") return RadiusChoice::fixed;
+    throw InputError("unknown choice of the radius '" + text + "', " + expectedNames(text, {"adaptive", "fixed"}));
 }
 
 } // namespace quasilux

@@ -11,6 +11,7 @@ namespace quasilux {
 
 enum class Variant { main, alternative };     ///< of the law, kernels/law.clh
 enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
+enum class RadiusChoice { adaptive, fixed };  ///< density radius by pixel, or one for all
 enum class MapOrder { photons, camera };      ///< what is stored and indexed, for the other to find
 
 /// The law, or one of its known wrong readings, which tests switch on as negative controls (kernels/law.clh).
@@ -35,6 +36,7 @@ struct RenderSettings {
     bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
     unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
     uint64_t seed = 1;
+    RadiusChoice radius = RadiusChoice::adaptive;
     double radiusScale = 1.0;    ///< factor on the initial density radius
     bool photometric = false;    ///< radiance is in cd/m^2, not W sr^-1 m^-2: only what readings in lux and cd/m^2 say
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
@@ -58,9 +60,11 @@ RenderSettings settingsFromScene(const Scene& scene);
 const char* name(Variant variant);
 const char* name(DirectLight direct);
 const char* name(MapOrder map);
+const char* name(RadiusChoice radius);
 /// Throw InputError that lists the known names.
 Variant parseVariant(const std::string& text);
 DirectLight parseDirect(const std::string& text);
 MapOrder parseMapOrder(const std::string& text);
+RadiusChoice parseRadiusChoice(const std::string& text);
 
 } // namespace quasilux

@@ -1,0 +1,69 @@
+/* Chooses the density radius of each block of pixels and class of light from the pilot's film.
+ * From: the pilot's film. To: radii of the passes to come.
+ *
+ * The bias of a pixel at radius r is c r^2, its variance v / r^2 a pass. Both are known from the estimate of bias
+ * (docs/accuracy.md): its mean is c r^2, and its variance BIAS_VARIANCE times that of the density estimate. The mean
+ * square error of many passes is least where r^6 = v / (2 c^2) * noiseToCurvature (docs/density.md). */
+#include "adaptive_radius.clh"
+#include "film.clh"
+
+/* Variance of the estimated bias, in units of that of the estimate itself (docs/accuracy.md). */
+#define BIAS_VARIANCE 1.6f
+/* Blocks on all sides that are averaged with one: a single one knows little but noise. */
+#define RADIUS_WINDOW 2
+/* A squared curvature below this share of its noise is taken to be as large. */
+#define CURVATURE_FLOOR 0.1f
+/* Squared bias counts this many times: it is told too low where features are narrow, and a smaller radius costs less time. */
+#define BIAS_CARE 3.0f
+#define RADIUS_SCALE_MIN 0.3f
+
+inline float sumAt(__global const float* sums, uint channel) { return sums[channel] + sums[channel + 3]; }
+
+__kernel void measureRadii(__global const float* film, __global RadiusMeasure* measures, const RadiusParams params) {
+    const uint pixel = get_global_id(0);
+    if (pixel >= params.width * params.height) return;
+    const float n = params.passes;
+    __global const float* sums = film + (size_t)pixel * FILM_PIXEL_FLOATS;
+    for (uint c = 0; c < LIGHT_CLASSES; ++c) {
+        if (!(PHOTON_CLASSES >> c & 1)) continue;
+        __global const float* bias = sums + FILM_BIAS_SUMS + c * 9;
+        float square = 0, noise = 0;
+        for (uint channel = 0; channel < 3; ++channel) {
+            float radiance = 0;
+            for (uint k = 0; k < FILM_COMPONENTS; ++k) radiance += sumAt(sums + k * FILM_SUM_FLOATS, channel) / n;
+            if (!(radiance > 0)) continue;
+            const float mean = bias[channel] / n;
+            square += mean * mean / (radiance * radiance);
+            noise += max(bias[3 + channel] - bias[channel] * mean, 0.f) / (n * (n - 1)) / (radiance * radiance);
+        }
+        if (!isfinite(square + noise)) square = noise = 0;
+        const float perRadius = n / params.squaredRadii;
+        __global RadiusMeasure* measure = measures + radiusIndex(pixel, c);
+        measure->curvature = (square - noise) * perRadius * perRadius;
+        measure->curvatureNoise = noise * perRadius * perRadius;
+        measure->variance = noise * n * n / (BIAS_VARIANCE * params.inverseSquares);
+    }
+}
+
+__kernel void chooseRadii(__global const RadiusMeasure* measures, __global float* scales, const RadiusParams params) {
+    const uint pixel = get_global_id(0);
+    if (pixel >= params.width * params.height) return;
+    const int x = pixel % params.width, y = pixel / params.width;
+    const int left = max(x - RADIUS_WINDOW, 0), right = min(x + RADIUS_WINDOW, (int)params.width - 1);
+    const int top = max(y - RADIUS_WINDOW, 0), bottom = min(y + RADIUS_WINDOW, (int)params.height - 1);
+    for (uint c = 0; c < LIGHT_CLASSES; ++c) {
+        if (!(PHOTON_CLASSES >> c & 1)) continue;
+        float curvature = 0, noise = 0, variance = 0;
+        for (int v = top; v <= bottom; ++v)
+            for (int u = left; u <= right; ++u) {
+                __global const RadiusMeasure* measure = measures + radiusIndex(v * params.width + u, c);
+                curvature += measure->curvature;
+                noise += measure->curvatureNoise;
+                variance += measure->variance;
+            }
+        curvature = max(curvature, CURVATURE_FLOOR * noise);
+        const float sixth = params.noiseToCurvature * variance / (2 * BIAS_CARE * curvature);
+        if (!(sixth > 0 && isfinite(sixth))) continue; /* no such light here */
+        scales[radiusIndex(pixel, c)] = clamp(exp2(log2(sixth) / 6), RADIUS_SCALE_MIN, params.largest);
+    }
+}

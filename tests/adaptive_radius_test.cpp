@@ -1,0 +1,122 @@
+// Density radius by pixel: the choice against its closed form, from films made by hand, and its effect on a render.
+//
+// Nothing here is left to chance: the films are computed, and the renders have fixed seeds.
+#include "render/adaptive_radius.h"
+#include "support/render_statistics.h"
+#include "support/test_kernels.h"
+
+#include <OpenImageIO/imageio.h>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace quasilux {
+namespace {
+
+// Layout of kernels/film.clh with ESTIMATE_BIAS.
+constexpr unsigned sumFloats = 6, totals = (FILM_COMPONENTS + 1 + LIGHT_CLASSES) * sumFloats,
+                   biasSums = totals + (1 + LIGHT_CLASSES) * 3, pixelFloats = biasSums + LIGHT_CLASSES * 9 + 6;
+constexpr unsigned width = 32, height = 8, passes = 16;
+constexpr double noiseToCurvature = 0.4, squaredRadii = 20, inverseSquares = 14;
+
+/// Of the light in a pixel, relative to its radiance: bias at radius 1, and its variance in one pass of radius 1.
+struct Light {
+    double curvature, variance;
+};
+
+// A film whose sums say just this, of radiance `radiance`: the mean of the bias by its squared radii, the scatter of
+// single passes by their inverse; the estimate of bias has 1.6 times the image's variance.
+void put(std::vector<float>& film, unsigned pixel, const Light& light, double radiance) {
+    float* sums = film.data() + size_t(pixel) * pixelFloats;
+    const double mean = radiance * light.curvature * squaredRadii / passes;
+    const double scatter = 1.6 * radiance * radiance * light.variance * inverseSquares / passes; // of a pass
+    for (unsigned channel = 0; channel < 3; ++channel) {
+        sums[LIGHT_DIFFUSE * sumFloats + channel] = static_cast<float>(radiance * passes);
+        float* bias = sums + biasSums + LIGHT_DIFFUSE * 9;
+        bias[channel] = static_cast<float>(mean * passes);
+        bias[3 + channel] = static_cast<float>(passes * mean * mean + (passes - 1) * scatter);
+    }
+}
+
+std::vector<float> chooseRadii(const std::vector<float>& film, double largest = 2) {
+    Program program(testDevice(), "adaptive_radius.cl",
+                    "-DPHOTON_CLASSES=8u -DBVH_STACK_SIZE=32 -DESTIMATE_BIAS=1 -DADAPTIVE_RADIUS");
+    Buffer<float> sums(testDevice(), film, "film"), scales(testDevice(), size_t{width} * height, "scales");
+    Buffer<shared::RadiusMeasure> measures(testDevice(), size_t{width} * height, "measures");
+    scales.fill(1);
+    const shared::RadiusParams params{
+        width, height, passes, squaredRadii, inverseSquares, noiseToCurvature, static_cast<float>(largest)};
+    program.kernel("measureRadii").launch(size_t{width} * height, sums, measures, params);
+    program.kernel("chooseRadii").launch(size_t{width} * height, measures, scales, params);
+    return scales.read();
+}
+
+// docs/density.md: r^6 = N v / (2 * 3 c^2), with c^2 net of the noise of its estimate, and not below a tenth of it.
+double bestRadius(const Light& light) {
+    const double noise =
+        3 * 1.6 * light.variance * inverseSquares / passes / passes * std::pow(passes / squaredRadii, 2);
+    const double told = 3 * light.curvature * light.curvature - noise;
+    return std::pow(noiseToCurvature * 3 * light.variance / (2 * 3 * std::max(told, 0.1 * noise)), 1.0 / 6);
+}
+
+TEST(AdaptiveRadius, BalancesNoiseAndBias) {
+    const Light left{0.1, 0.01}, right{0.02, 0.002};
+    std::vector<float> film(size_t{width} * height * pixelFloats);
+    for (unsigned pixel = 0; pixel < width * height; ++pixel)
+        put(film, pixel, pixel % width < width / 2 ? left : right,
+            pixel % 3 + 0.5); // relative: brightness is none of it
+    const auto scales = chooseRadii(film);
+    for (unsigned y = 0; y < height; ++y) {
+        EXPECT_NEAR(scales[y * width + 4], bestRadius(left), 1e-3);
+        EXPECT_NEAR(scales[y * width + width - 4], bestRadius(right), 1e-3);
+    }
+    EXPECT_GT(bestRadius(right), 1.2 * bestRadius(left)); // else the test could not tell them apart
+}
+
+TEST(AdaptiveRadius, IsBoundedAndNeedsLight) {
+    std::vector<float> film(size_t{width} * height * pixelFloats);
+    for (unsigned pixel = 0; pixel < width * height; ++pixel)
+        if (pixel % width < 10)
+            put(film, pixel, {0, 0.01}, 1); // no bias in sight
+        else if (pixel % width < 20)
+            put(film, pixel, {100, 0.01}, 1);
+    const auto scales = chooseRadii(film, 1.5);
+    EXPECT_FLOAT_EQ(scales[3], 1.5f);
+    EXPECT_FLOAT_EQ(scales[15], 0.3f);
+    EXPECT_FLOAT_EQ(scales[28], 1); // black: as it was
+}
+
+double relativeError(const RenderSettings& settings, unsigned passesOfRender) {
+    constexpr unsigned resolution = 64;
+    const auto file = OIIO::ImageInput::open(std::string(QUASILUX_SOURCE_DIR) + "/tests/data/cornell_phong_64.exr");
+    std::vector<float> reference(size_t(resolution) * resolution * 4);
+    if (!file || !file->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, reference.data()))
+        throw std::runtime_error("cannot read the reference image");
+    Renderer renderer(testDevice(), projectScene("cornell_phong.xml", {{"resolution", "64"}}), settings);
+    for (unsigned pass = 0; pass < passesOfRender; ++pass) renderer.renderPass(pass);
+    const auto image = renderer.develop();
+    double mean = 0, sum = 0;
+    for (size_t k = 0; k < reference.size(); ++k)
+        if (k % 4 < 3) mean += reference[k] / (reference.size() * 0.75);
+    for (size_t pixel = 0; pixel < reference.size() / 4; ++pixel)
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const double expected = reference[4 * pixel + channel],
+                         error = image.radiance[3 * pixel + channel] - expected;
+            sum += error * error / (expected * expected + 0.01 * mean * mean);
+        }
+    return sum / (reference.size() * 0.75);
+}
+
+// Each of the fixed radii that the choice ranges over is worse in the whole image.
+TEST(AdaptiveRadius, HasLessErrorThanAnyFixedRadius) {
+    RenderSettings settings;
+    settings.photonsPerPass = 100'000;
+    const double adaptive = relativeError(settings, 64);
+    settings.radius = RadiusChoice::fixed;
+    for (const double scale : {0.3, 1.0, 2.0}) {
+        settings.radiusScale = scale;
+        EXPECT_LT(1.1 * adaptive, relativeError(settings, 64)) << "fixed radius times " << scale;
+    }
+}
+
+} // namespace
+} // namespace quasilux
