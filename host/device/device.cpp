@@ -58,6 +58,16 @@ cl::Device pick(int index) {
     return devices.front();
 }
 
+/// Throws cl::Error where the device cannot be divided.
+cl::Device partOf(cl::Device& device, unsigned computeUnits) {
+    const cl_device_partition_property counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
+                                                   static_cast<cl_device_partition_property>(computeUnits),
+                                                   CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    std::vector<cl::Device> parts;
+    device.createSubDevices(counts, &parts);
+    return parts.at(0);
+}
+
 } // namespace
 
 std::vector<DeviceInfo> listDevices() {
@@ -66,10 +76,14 @@ std::vector<DeviceInfo> listDevices() {
     return list;
 }
 
-Device::Device(int index, unsigned workGroupSize) : workGroupSize_(workGroupSize) {
+Device::Device(int index, unsigned workGroupSize, unsigned computeUnits) : workGroupSize_(workGroupSize) {
     device_ = pick(index);
     info_ = describe(device_);
     try {
+        if (computeUnits > 0 && computeUnits < info_.computeUnits) {
+            device_ = partOf(device_, computeUnits);
+            info_.computeUnits = computeUnits;
+        }
         context_ = cl::Context(device_);
         queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
     } catch (const cl::Error& error) {
