@@ -2,7 +2,11 @@
 
 #include "util/error.h"
 
+#include <cstdlib>
 #include <fmt/format.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 namespace quasilux {
 
@@ -68,6 +72,26 @@ cl::Device partOf(cl::Device& device, unsigned computeUnits) {
     return parts.at(0);
 }
 
+constexpr size_t hugePage = size_t(2) << 20;
+
+/// Rays through a large tree touch pages at random: with 4 KiB pages most of the time goes into finding these.
+bool hugePagesHelp(const DeviceInfo& device, size_t bytes) { return device.isCpu && bytes >= hugePage; }
+
+/// Memory of the host that a CPU device uses as it is.
+cl::Buffer bufferOfHugePages(cl::Context& context, size_t bytes) {
+    const size_t whole = (bytes + hugePage - 1) / hugePage * hugePage;
+    void* memory = std::aligned_alloc(hugePage, whole);
+    if (!memory) throw cl::Error(CL_MEM_OBJECT_ALLOCATION_FAILURE, "aligned_alloc");
+    std::unique_ptr<void, decltype(&std::free)> owner(memory, &std::free);
+#ifdef MADV_HUGEPAGE
+    madvise(memory, whole, MADV_HUGEPAGE); // where the system refuses, pages stay small
+#endif
+    cl::Buffer buffer(context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory);
+    buffer.setDestructorCallback([](cl_mem, void* pages) { std::free(pages); }, memory);
+    static_cast<void>(owner.release());
+    return buffer;
+}
+
 } // namespace
 
 std::vector<DeviceInfo> listDevices() {
@@ -98,7 +122,8 @@ cl::Buffer Device::allocate(size_t bytes, const std::string& label) {
         throw DeviceError(fmt::format("buffer '{}' needs {:.1f} MiB, but device {} allows {:.1f} MiB in one allocation",
                                       label, bytes / mib, info_.name, info_.maximumAllocation / mib));
     try {
-        cl::Buffer buffer(context_, CL_MEM_READ_WRITE, bytes);
+        cl::Buffer buffer = hugePagesHelp(info_, bytes) ? bufferOfHugePages(context_, bytes)
+                                                        : cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
         auto& known = allocations_[label];
         allocated_ += bytes - known;
         known = bytes;
