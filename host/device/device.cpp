@@ -62,14 +62,19 @@ cl::Device pick(int index) {
     return devices.front();
 }
 
-/// Throws cl::Error where the device cannot be divided.
+/// Throws cl::Error where the device cannot be divided. Parts are kept until the program ends: PoCL 3.1 looks at the device
+/// of an event once more after the queue has finished, and crashes if that is a part which has been released by then.
 cl::Device partOf(cl::Device& device, unsigned computeUnits) {
+    static std::map<std::pair<cl_device_id, unsigned>, cl::Device>& known =
+        *new std::map<std::pair<cl_device_id, unsigned>, cl::Device>;
+    cl::Device& part = known[{device(), computeUnits}];
+    if (part() != nullptr) return part;
     const cl_device_partition_property counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
                                                    static_cast<cl_device_partition_property>(computeUnits),
                                                    CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
     std::vector<cl::Device> parts;
     device.createSubDevices(counts, &parts);
-    return parts.at(0);
+    return part = parts.at(0);
 }
 
 constexpr size_t hugePage = size_t(2) << 20;
