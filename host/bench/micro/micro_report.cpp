@@ -76,7 +76,7 @@ json microJson(const MicroReport& report) {
                         {"ratios", figuresJson(row.ratios)},
                         {"compared", row.compared},
                         {"differing", row.differing}});
-    return {{"device", report.device.name}, {"triangles", report.triangles}, {"rows", rows}};
+    return {{"device", report.device.name}, {"rows", rows}};
 }
 
 std::string microSection(const MicroReport& report) {

@@ -22,7 +22,6 @@ struct MicroRow {
 
 struct MicroReport {
     DeviceInfo device;
-    size_t triangles = 0; ///< of the largest scene
     std::vector<MicroRow> rows;
 };
 
