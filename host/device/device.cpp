@@ -62,8 +62,8 @@ cl::Device pick(int index) {
     return devices.front();
 }
 
-/// Throws cl::Error where the device cannot be divided. Parts are kept until the program ends: PoCL 3.1 looks at the device
-/// of an event once more after the queue has finished, and crashes if that is a part which has been released by then.
+/// Throws cl::Error where the device cannot be divided. Parts are kept until the program ends: PoCL 3.1 looks at the
+/// device of an event once more after the queue has finished, and crashes if that is a part which has been released by then.
 cl::Device partOf(cl::Device& device, unsigned computeUnits) {
     static std::map<std::pair<cl_device_id, unsigned>, cl::Device>& known =
         *new std::map<std::pair<cl_device_id, unsigned>, cl::Device>;

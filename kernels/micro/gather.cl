@@ -1,4 +1,5 @@
-/* gatherPhotons about whole discs, as the density estimate does away from borders: per query the sum of flux times kernel. */
+/* gatherPhotons about whole discs, as the density estimate does away from borders: per query the sum of flux times
+ * kernel. */
 #include "density.clh"
 #include "micro/gather_types.h"
 
