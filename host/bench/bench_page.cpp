@@ -81,6 +81,7 @@ std::string benchPage(const BenchReport& report) {
         out += "<h3>Stages</h3>\n" + htmlTable(stageRows(report, scene));
         out += "<h3>Devices</h3>\n" + htmlTable(deviceRows(report, scene));
     }
+    if (report.micro) out += microSection(*report.micro);
     return out + "</body></html>\n";
 }
 

@@ -161,10 +161,15 @@ json benchJson(const BenchReport& report) {
     for (const BenchRun& run : report.runs) runs.push_back(runJson(report, run));
     for (const auto& [scene, reference] : report.references)
         references[scene] = {{"file", reference.image.path}, {"noise", reference.noise}};
-    return {{"version", QUASILUX_VERSION},       {"secondsPerRun", report.seconds},
-            {"interrupted", report.interrupted}, {"loadBefore", report.loadBefore},
-            {"loadAfter", report.loadAfter},     {"devices", devices},
-            {"references", references},          {"runs", runs}};
+    return {{"version", QUASILUX_VERSION},
+            {"secondsPerRun", report.seconds},
+            {"interrupted", report.interrupted},
+            {"loadBefore", report.loadBefore},
+            {"loadAfter", report.loadAfter},
+            {"devices", devices},
+            {"references", references},
+            {"runs", runs},
+            {"micro", report.micro ? microJson(*report.micro) : json()}};
 }
 
 } // namespace quasilux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench/bench_run.h"
+#include "bench/micro/micro_report.h"
 #include "compare/html_parts.h"
 
 #include <map>
@@ -15,6 +16,7 @@ struct BenchReport {
     std::vector<BenchRun> runs;                       ///< by scene, then method, then device
     std::array<double, 3> loadBefore{}, loadAfter{};  ///< of the machine, runnable processes: 1, 5, 15 minutes
     double seconds = 0;                               ///< of each run
+    std::optional<MicroReport> micro;                 ///< where asked for
     bool interrupted = false;
 };
 

@@ -2,6 +2,7 @@
 #include "cli/bench_command.h"
 
 #include "bench/bench_report.h"
+#include "bench/micro/micro_bench.h"
 #include "cli/interrupt.h"
 #include "cli/option_checks.h"
 #include "cli/text_table.h"
@@ -85,6 +86,20 @@ void runAll(const BenchOptions& options, const std::vector<Scene>& scenes, const
             }
 }
 
+void runMicroParts(const BenchOptions& options, const std::vector<std::string>& parts, BenchReport& report) {
+    ProgressLine line(stderr, !options.quiet);
+    MicroSettings settings;
+    settings.device = options.devices.empty() ? -1 : options.devices.front();
+    settings.parts = parts;
+    const auto onProgress = [&](const std::string& what) {
+        catchInterrupt();
+        Progress progress;
+        progress.phase = what;
+        line.update(progress);
+    };
+    report.micro = runMicro(settings, onProgress, interruptFlag());
+}
+
 void printTables(const BenchReport& report) {
     fmt::print("{:g} s a run, load average {:.1f} before, {:.1f} after{}\n\n", report.seconds, report.loadBefore[0],
                report.loadAfter[0], report.interrupted ? ", interrupted" : "");
@@ -94,6 +109,9 @@ void printTables(const BenchReport& report) {
         fmt::print("{}\n", tableText(stageRows(report, scene)));
         fmt::print("{}\n", tableText(deviceRows(report, scene)));
     }
+    if (!report.micro) return;
+    for (const std::string& part : partsOf(*report.micro))
+        fmt::print("{}\n", tableText(microTable(*report.micro, part)));
 }
 
 } // namespace
@@ -102,6 +120,9 @@ int benchCommand(const BenchOptions& options) {
     exitOnInterrupt();
     if (!options.output.empty()) checkOutputPath(options.output, "--output", ".json");
     if (!options.html.empty()) checkOutputPath(options.html, "--html", ".html");
+    if (options.scenes.empty() && !options.micro)
+        throw InputError("nothing to measure: expected scene files, or --micro; see `quasilux bench --help`");
+    const auto microNames = options.micro ? parseMicroParts(*options.micro) : std::vector<std::string>{};
     const auto methods = chooseMethods(options);
     const auto scenes = loadScenes(options);
     BenchReport report;
@@ -111,9 +132,10 @@ int benchCommand(const BenchOptions& options) {
     for (const int device : devices) report.devices.push_back(Device(device).info());
     report.loadBefore = loadAverage();
     runAll(options, scenes, methods, devices, report);
+    if (options.micro && !interruptFlag()) runMicroParts(options, microNames, report);
     report.loadAfter = loadAverage();
     report.interrupted = interruptFlag();
-    if (report.runs.empty()) return 130;
+    if (report.runs.empty() && (!report.micro || report.micro->rows.empty())) return 130;
 
     if (!options.output.empty()) writeJson(options.output, benchJson(report));
     if (!options.html.empty()) writeText(options.html, benchPage(report));

@@ -7,7 +7,7 @@ namespace quasilux {
 
 void declareBench(CLI::App& app, BenchOptions& options) {
     CLI::App& command = *app.add_subcommand("bench", "Measure speed against error, of scenes, methods and devices");
-    command.add_option("SCENE", options.scenes, "Scene files, Mitsuba 3 XML")->required()->type_name("FILE");
+    command.add_option("SCENE", options.scenes, "Scene files, Mitsuba 3 XML")->type_name("FILE");
     command
         .add_option("--method", options.methods,
                     "Way to render: scene, standard, main or alternative, then, each after a colon, a BDD, photons, "
@@ -25,6 +25,14 @@ void declareBench(CLI::App& app, BenchOptions& options) {
     command.add_option("--time", options.seconds, "Time of each render, in seconds (default: 10)")
         ->type_name("SECONDS")
         ->check(numberAbove(0, 1e9));
+    command
+        .add_option_function<std::string>(
+            "--micro", [&options](const std::string& parts) { options.micro = parts; },
+            "Times single stages against native code, of these parts between commas: traversal, map, gather, samplers, "
+            "tree (default: off; without PARTS all of them). Needs no scene; scenes go before it")
+        ->type_name("PARTS")
+        ->expected(0, 1)
+        ->default_str("all");
     command
         .add_option("--reference", options.references,
                     "Image that counts as right, one for each scene in their order, - for none (default: none; errors "

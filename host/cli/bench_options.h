@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +15,8 @@ struct BenchOptions {
     std::vector<double> referenceNoise;  ///< one for each reference, or none
     std::vector<int> devices;            ///< empty = the default one
     double seconds = 10;
-    std::string output, html; ///< paths; empty = not asked for
+    std::optional<std::string> micro; ///< parts of micro-benchmarks, as parseMicroParts takes them
+    std::string output, html;         ///< paths; empty = not asked for
     bool json = false, quiet = false;
 };
 

@@ -2,7 +2,11 @@
 
 #include "util/error.h"
 
+#include <cstdlib>
 #include <fmt/format.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 namespace quasilux {
 
@@ -58,6 +62,41 @@ cl::Device pick(int index) {
     return devices.front();
 }
 
+/// Throws cl::Error where the device cannot be divided. Parts are kept until the program ends: PoCL 3.1 looks at the
+/// device of an event once more after the queue has finished, and crashes if that is a part which has been released by then.
+cl::Device partOf(cl::Device& device, unsigned computeUnits) {
+    static std::map<std::pair<cl_device_id, unsigned>, cl::Device>& known =
+        *new std::map<std::pair<cl_device_id, unsigned>, cl::Device>;
+    cl::Device& part = known[{device(), computeUnits}];
+    if (part() != nullptr) return part;
+    const cl_device_partition_property counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
+                                                   static_cast<cl_device_partition_property>(computeUnits),
+                                                   CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    std::vector<cl::Device> parts;
+    device.createSubDevices(counts, &parts);
+    return part = parts.at(0);
+}
+
+constexpr size_t hugePage = size_t(2) << 20;
+
+/// Rays through a large tree touch pages at random: with 4 KiB pages most of the time goes into finding these.
+bool hugePagesHelp(const DeviceInfo& device, size_t bytes) { return device.isCpu && bytes >= hugePage; }
+
+/// Memory of the host that a CPU device uses as it is.
+cl::Buffer bufferOfHugePages(cl::Context& context, size_t bytes) {
+    const size_t whole = (bytes + hugePage - 1) / hugePage * hugePage;
+    void* memory = std::aligned_alloc(hugePage, whole);
+    if (!memory) throw cl::Error(CL_MEM_OBJECT_ALLOCATION_FAILURE, "aligned_alloc");
+    std::unique_ptr<void, decltype(&std::free)> owner(memory, &std::free);
+#ifdef MADV_HUGEPAGE
+    madvise(memory, whole, MADV_HUGEPAGE); // where the system refuses, pages stay small
+#endif
+    cl::Buffer buffer(context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory);
+    buffer.setDestructorCallback([](cl_mem, void* pages) { std::free(pages); }, memory);
+    static_cast<void>(owner.release());
+    return buffer;
+}
+
 } // namespace
 
 std::vector<DeviceInfo> listDevices() {
@@ -66,10 +105,14 @@ std::vector<DeviceInfo> listDevices() {
     return list;
 }
 
-Device::Device(int index, unsigned workGroupSize) : workGroupSize_(workGroupSize) {
+Device::Device(int index, unsigned workGroupSize, unsigned computeUnits) : workGroupSize_(workGroupSize) {
     device_ = pick(index);
     info_ = describe(device_);
     try {
+        if (computeUnits > 0 && computeUnits < info_.computeUnits) {
+            device_ = partOf(device_, computeUnits);
+            info_.computeUnits = computeUnits;
+        }
         context_ = cl::Context(device_);
         queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
     } catch (const cl::Error& error) {
@@ -84,7 +127,8 @@ cl::Buffer Device::allocate(size_t bytes, const std::string& label) {
         throw DeviceError(fmt::format("buffer '{}' needs {:.1f} MiB, but device {} allows {:.1f} MiB in one allocation",
                                       label, bytes / mib, info_.name, info_.maximumAllocation / mib));
     try {
-        cl::Buffer buffer(context_, CL_MEM_READ_WRITE, bytes);
+        cl::Buffer buffer = hugePagesHelp(info_, bytes) ? bufferOfHugePages(context_, bytes)
+                                                        : cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
         auto& known = allocations_[label];
         allocated_ += bytes - known;
         known = bytes;

@@ -32,7 +32,8 @@ struct KernelTiming {
 class Device {
 public:
     /// `index` as in listDevices(); -1 takes the first GPU, else the first device. Throws InputError if there is none.
-    explicit Device(int index = -1, unsigned workGroupSize = 64);
+    /// `computeUnits` of it alone are used; 0 = all.
+    explicit Device(int index = -1, unsigned workGroupSize = 64, unsigned computeUnits = 0);
 
     const DeviceInfo& info() const { return info_; }
     cl::Context& context() { return context_; }

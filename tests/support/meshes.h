@@ -1,18 +1,11 @@
-// Procedural meshes for the tests of the tree and its traversal.
+// Procedural primitives for the tests of the tree and its traversal, besides those of the micro-benchmarks.
 #pragma once
 
-#include "prepare/bvh.h"
+#include "bench/micro/scenes.h"
 
 #include <vector>
 
 namespace quasilux {
-
-/// Box of five walls at -1 and 1, open at z = 1, with two boxes turned about y and a lamp below the ceiling: 36
-/// triangles.
-std::vector<BvhPrimitive> cornellBoxPrimitives();
-
-/// Sphere of radius about 1 with bumps, 2 * rings * segments triangles (less the two degenerate rows at the poles).
-std::vector<BvhPrimitive> bumpySpherePrimitives(unsigned rings, unsigned segments);
 
 /// Random triangles in [-1, 1]^3: some plain, and, in equal shares, points, collinear ones, slivers (width 1e-4) and
 /// exact duplicates of earlier ones.

@@ -28,6 +28,6 @@ TraversalDevice::TraversalDevice(const std::vector<BvhPrimitive>& primitives, co
                                  const KernelSources& replaced)
     : bvh_(buildBvh(primitives)), nodes_(testDevice(), bvh_.nodes, "nodes"),
       blocks_(testDevice(), bvh_.blocks, "blocks"),
-      program_(mutantProgram("traversal.cl", bvhOptions(bvh_) + " " + options, replaced)) {}
+      program_(testDevice(), "micro/traversal.cl", bvhOptions(bvh_) + " " + options, replaced) {}
 
 } // namespace quasilux

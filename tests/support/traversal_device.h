@@ -1,4 +1,4 @@
-// A tree on the device and the kernels of tests/kernels/traversal.cl, as they are or with mistakes put in.
+// A tree on the device and the kernels of kernels/micro/traversal.cl, as they are or with mistakes put in.
 #pragma once
 
 #include "support/test_kernels.h"

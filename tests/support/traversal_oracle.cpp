@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <limits>
 #include <ostream>
@@ -83,15 +82,6 @@ std::array<ExactHit, 2> exactSphere(const BvhPrimitive& primitive, const TestRay
     return hits;
 }
 
-RTCRay embreeRay(const TestRay& ray) {
-    RTCRay result{};
-    result.org_x = ray.origin.x, result.org_y = ray.origin.y, result.org_z = ray.origin.z;
-    result.dir_x = ray.direction.x, result.dir_y = ray.direction.y, result.dir_z = ray.direction.z;
-    result.tnear = ray.tMin, result.tfar = ray.tMax;
-    result.mask = ~0u;
-    return result;
-}
-
 bool agree(float a, float b) { return std::abs(a - b) <= sameDistance * std::max(std::abs(a), std::abs(b)); }
 
 std::string text(const TestRay& ray) {
@@ -100,54 +90,6 @@ std::string text(const TestRay& ray) {
 }
 
 } // namespace
-
-struct EmbreeOracle::Scene {
-    RTCDevice device = rtcNewDevice(nullptr);
-    RTCScene scene = rtcNewScene(device);
-    ~Scene() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
-    }
-};
-
-EmbreeOracle::EmbreeOracle(const std::vector<BvhPrimitive>& triangles) : scene_(std::make_unique<Scene>()) {
-    RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * triangles.size()));
-    auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), triangles.size()));
-    for (unsigned i = 0; i < triangles.size(); ++i) {
-        vertices[3 * i] = triangles[i].v0;
-        vertices[3 * i + 1] = triangles[i].v1;
-        vertices[3 * i + 2] = triangles[i].v2;
-        indices[i] = {3 * i, 3 * i + 1, 3 * i + 2};
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_->scene);
-}
-
-EmbreeOracle::~EmbreeOracle() = default;
-
-TestHit EmbreeOracle::closest(const TestRay& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit query;
-    query.ray = embreeRay(ray);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_->scene, &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {ray.tMax, 0, 0, QL_NONE, QL_NONE};
-    return {query.ray.tfar, query.hit.u, query.hit.v, QL_NONE, query.hit.primID};
-}
-
-bool EmbreeOracle::occluded(const TestRay& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay query = embreeRay(ray);
-    rtcOccluded1(scene_->scene, &context, &query);
-    return query.tfar < 0;
-}
 
 std::array<ExactHit, 2> exactHits(const BvhPrimitive& primitive, const TestRay& ray) {
     return primitive.isSphere ? exactSphere(primitive, ray) : std::array{exactTriangle(primitive, ray), ExactHit{}};

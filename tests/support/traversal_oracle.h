@@ -2,42 +2,17 @@
 // differ.
 #pragma once
 
-#include "prepare/bvh.h"
+#include "bench/micro/embree_scene.h"
 
 #include <array>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace quasilux {
 
-/// As tests/kernels/traversal.cl reads it.
-struct TestRay {
-    glm::vec3 origin, direction;
-    float tMin, tMax;
-};
-
-/// As kernels/bvh.clh writes it.
-struct TestHit {
-    float t, u, v;
-    unsigned slot, primitive;
-
-    bool missed() const { return primitive == QL_NONE; }
-    unsigned index() const { return primitive & PRIMITIVE_INDEX_MASK; }
-};
-
-/// rtcIntersect1 and rtcOccluded1 over the same triangles (no spheres, no null primitives).
-class EmbreeOracle {
-public:
-    explicit EmbreeOracle(const std::vector<BvhPrimitive>& triangles);
-    ~EmbreeOracle();
-    TestHit closest(const TestRay& ray) const;
-    bool occluded(const TestRay& ray) const;
-
-private:
-    struct Scene;
-    std::unique_ptr<Scene> scene_;
-};
+using TestRay = MicroRay;
+using TestHit = MicroHit;
+using EmbreeOracle = EmbreeScene;
 
 /// Where a ray meets a primitive, in double precision. `undecided`: no condition of the hit fails by more than what
 /// single precision can err by, and at least one is within that of failing (docs/traversal.md, "When two answers tie").

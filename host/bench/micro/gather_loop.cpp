@@ -1,0 +1,138 @@
+// Compiled with -O3 -ffast-math (CMakeLists.txt), for the processor it runs on: the compiler vectorises the inner loop.
+#include "bench/micro/gather_loop.h"
+
+#include "bench/micro/native_grid.h"
+
+namespace quasilux {
+
+namespace {
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
+#define EVERY_PROCESSOR                                                                                                \
+    __attribute__((target_clones("arch=sapphirerapids", "arch=skylake-avx512", "arch=haswell", "default")))
+#else
+#define EVERY_PROCESSOR
+#endif
+#define INTO_EVERY_CLONE inline __attribute__((always_inline))
+
+struct Sums {
+    float r = 0, g = 0, b = 0, biasR = 0, biasG = 0, biasB = 0;
+};
+
+INTO_EVERY_CLONE void gatherRun(const NativeMap& photons, const shared::GatherQuery& query, size_t begin, size_t end,
+                                bool bias, Sums& sums) {
+    const size_t stride = photons.map.photonStride;
+    const float* field = reinterpret_cast<const float*>(photons.sorted);
+    const float *x = field, *y = x + stride, *z = y + stride, *r = z + stride, *g = r + stride, *b = g + stride;
+    const uint32_t* patchSide = photons.sorted + fieldPatchSide * stride;
+    const float radius = photons.map.radius[LIGHT_DIFFUSE], radiusSquared = radius * radius;
+    const float scale = 1 / radiusSquared;
+    float sumR = 0, sumG = 0, sumB = 0, biasR = 0, biasG = 0, biasB = 0;
+    for (size_t i = begin; i < end; ++i) {
+        const float dx = x[i] - query.position.x, dy = y[i] - query.position.y, dz = z[i] - query.position.z;
+        const float distanceSquared = dx * dx + dy * dy + dz * dz;
+        // Without branches, so that the compiler sees what it can do for many photons at once.
+        const int inside = int(distanceSquared < radiusSquared) & int(patchSide[i] == query.patchSide);
+        const float weight = (1 - distanceSquared * scale) * float(inside);
+        sumR += weight * r[i];
+        sumG += weight * g[i];
+        sumB += weight * b[i];
+        if (bias) {
+            const float biasWeight = weight * (4 - 6 * weight);
+            biasR += biasWeight * r[i];
+            biasG += biasWeight * g[i];
+            biasB += biasWeight * b[i];
+        }
+    }
+    sums.r += sumR, sums.g += sumG, sums.b += sumB;
+    sums.biasR += biasR, sums.biasG += biasG, sums.biasB += biasB;
+}
+
+/// Photons of cells that follow each other in one row.
+struct Run {
+    size_t begin, end;
+    CellCoordinate row;
+};
+
+struct Runs {
+    Run run[18]; // nine rows, each of which may wrap around the end of the table
+    unsigned count = 0;
+
+    void add(size_t begin, size_t end, const CellCoordinate& row) {
+        if (begin < end) run[count++] = {begin, end, row};
+    }
+    /// Only where rows collide in the hashed table.
+    bool overlap() const {
+        for (unsigned a = 1; a < count; ++a)
+            for (unsigned b = 0; b < a; ++b)
+                if (run[a].begin < run[b].end && run[b].begin < run[a].end) return true;
+        return false;
+    }
+};
+
+INTO_EVERY_CLONE Runs findRuns(const NativeMap& photons, const shared::GatherQuery& query) {
+    const CellCoordinate cell = nativeCoordinate(query.position, photons.map.radius[LIGHT_DIFFUSE]);
+    const unsigned mask = photons.map.cellMask;
+    const uint32_t* start = photons.cellStart;
+    Runs runs;
+    for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy) {
+            const CellCoordinate row{cell.x - 1, cell.y + dy, cell.z + dz};
+            const unsigned first = nativeCell(row, mask);
+            if (first + 2 <= mask) {
+                runs.add(start[first], start[first + 3], row);
+            } else {
+                runs.add(start[first], start[mask + 1], row);
+                runs.add(start[0], start[first + 3 - (mask + 1)], row);
+            }
+        }
+    return runs;
+}
+
+INTO_EVERY_CLONE bool isOfRow(const NativeMap& photons, size_t i, const CellCoordinate& row) {
+    const size_t stride = photons.map.photonStride;
+    const float* field = reinterpret_cast<const float*>(photons.sorted);
+    const shared::Packed3 position{field[i], field[stride + i], field[2 * stride + i]};
+    const CellCoordinate own = nativeCoordinate(position, photons.map.radius[LIGHT_DIFFUSE]);
+    return own.y == row.y && own.z == row.z;
+}
+
+INTO_EVERY_CLONE void gatherAll(const NativeMap& photons, const shared::GatherQuery* queries, shared::GatherSum* sums,
+                                size_t count, bool bias) {
+    for (size_t k = 0; k < count; ++k) {
+        Sums sum;
+        const Runs runs = findRuns(photons, queries[k]);
+        const bool checkRow = runs.overlap();
+        for (unsigned n = 0; n < runs.count; ++n) {
+            const Run& run = runs.run[n];
+            if (!checkRow) {
+                gatherRun(photons, queries[k], run.begin, run.end, bias, sum);
+                continue;
+            }
+            for (size_t i = run.begin; i < run.end; ++i)
+                if (isOfRow(photons, i, run.row)) gatherRun(photons, queries[k], i, i + 1, bias, sum);
+        }
+        sums[k] = {{sum.r, sum.g, sum.b}, {sum.biasR, sum.biasG, sum.biasB}};
+    }
+}
+
+} // namespace
+
+EVERY_PROCESSOR void gatherLoop(const NativeMap& photons, const shared::GatherQuery* queries, shared::GatherSum* sums,
+                                size_t count, bool bias) {
+    if (bias)
+        gatherAll(photons, queries, sums, count, true);
+    else
+        gatherAll(photons, queries, sums, count, false);
+}
+
+uint64_t photonsTested(const NativeMap& photons, const shared::GatherQuery* queries, size_t count) {
+    uint64_t tested = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const Runs runs = findRuns(photons, queries[k]);
+        for (unsigned n = 0; n < runs.count; ++n) tested += runs.run[n].end - runs.run[n].begin;
+    }
+    return tested;
+}
+
+} // namespace quasilux

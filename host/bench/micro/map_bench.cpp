@@ -1,0 +1,82 @@
+// The render's index of photons (kernels/cell_sort.clh) against a plain counting sort in C++.
+#include "bench/micro/contest.h"
+#include "bench/micro/native_grid.h"
+#include "bench/micro/parts.h"
+#include "bench/micro/photon_index.h"
+
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace quasilux {
+
+namespace {
+
+class NativeSort {
+public:
+    NativeSort(const MicroPhotons& photons, const shared::MapParams& map)
+        : photons_(photons.photons), map_(map), cellStart_(map.cellMask + 2),
+          sorted_(microPhotonFields * map.photonStride) {}
+
+    void run() {
+        std::fill(cellStart_.begin(), cellStart_.end(), 0);
+        for (const shared::Photon& photon : photons_) ++cellStart_[cellOf(photon) + 1];
+        for (size_t cell = 1; cell < cellStart_.size(); ++cell) cellStart_[cell] += cellStart_[cell - 1];
+        next_ = cellStart_;
+        for (const shared::Photon& photon : photons_) place(photon, next_[cellOf(photon)]++);
+    }
+    const std::vector<uint32_t>& sorted() const { return sorted_; }
+    const std::vector<uint32_t>& cellStart() const { return cellStart_; }
+
+private:
+    unsigned cellOf(const shared::Photon& photon) const {
+        return nativeCell(nativeCoordinate(photon.position, map_.radius[LIGHT_DIFFUSE]), map_.cellMask);
+    }
+    void place(const shared::Photon& photon, size_t at) {
+        const uint32_t words[microPhotonFields] = {std::bit_cast<uint32_t>(photon.position.x),
+                                                   std::bit_cast<uint32_t>(photon.position.y),
+                                                   std::bit_cast<uint32_t>(photon.position.z),
+                                                   std::bit_cast<uint32_t>(photon.flux.r),
+                                                   std::bit_cast<uint32_t>(photon.flux.g),
+                                                   std::bit_cast<uint32_t>(photon.flux.b),
+                                                   photon.patchSide,
+                                                   photon.direction};
+        for (size_t field = 0; field < microPhotonFields; ++field)
+            sorted_[field * map_.photonStride + at] = words[field];
+    }
+
+    const std::vector<shared::Photon>& photons_;
+    shared::MapParams map_;
+    std::vector<uint32_t> cellStart_, next_, sorted_;
+};
+
+} // namespace
+
+void benchMap(const MicroRun& run) {
+    run.progress("map");
+    const MicroPhotons photons = makePhotons(run.settings.photons, 64);
+    constexpr float perDisc = 50;
+    const float radius = std::sqrt(perDisc / (float(photons.density) * std::numbers::pi_v<float>));
+    for (const unsigned threads : run.threads) {
+        if (run.interrupted) return;
+        Device device(run.settings.device, 64, threads);
+        MicroIndex index(device, photons, radius);
+        NativeSort native(photons, index.index().map());
+        std::vector<Contender> contenders{{"quasilux", [&] { index.sort(); }}, {"C++ sort", [&] { native.run(); }}};
+        timeInTurns(contenders, run.settings.rounds, device.info());
+        MicroRow row{"map", fmt::format("{} photons", photons.photons.size()), threads, "Mrecords/s and thread", {},
+                     {}};
+        const double million = 1e-6 * double(photons.photons.size());
+        for (const Contender& contender : contenders)
+            row.values.emplace_back(contender.name, million / contender.seconds);
+        row.ratios.emplace_back("quasilux / C++", contenders[1].seconds / contenders[0].seconds);
+        const auto ours = index.index().sorted().read(), starts = index.index().cellStart().read();
+        row.compared = ours.size() + starts.size();
+        for (size_t i = 0; i < ours.size(); ++i) row.differing += ours[i] != native.sorted()[i] ? 1 : 0;
+        for (size_t i = 0; i < starts.size(); ++i) row.differing += starts[i] != native.cellStart()[i] ? 1 : 0;
+        run.report.rows.push_back(row);
+    }
+}
+
+} // namespace quasilux

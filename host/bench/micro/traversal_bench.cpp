@@ -1,0 +1,143 @@
+// Closest hits and occlusion of kernels/bvh.clh against Embree's on the same rays.
+#include "bench/micro/contest.h"
+#include "bench/micro/parts.h"
+#include "bench/micro/ray_sets.h"
+#include "device/program.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+/// A tree on a device, with both forms of the lane mask (kernels/bvh_lanes.clh).
+struct DeviceTree {
+    DeviceTree(Device& device, const Bvh& bvh)
+        : nodes(device, bvh.nodes, "tree nodes"), blocks(device, bvh.blocks, "primitives"),
+          fast(device, "micro/traversal.cl", bvhOptions(bvh)),
+          portable(device, "micro/traversal.cl", bvhOptions(bvh) + " -DPORTABLE_MASK") {}
+
+    Buffer<shared::BvhNode> nodes;
+    Buffer<shared::PrimitiveBlock> blocks;
+    Program fast, portable;
+};
+
+struct RaySet {
+    std::string name;
+    const std::vector<MicroRay>& rays;
+    bool coherent, occlusion;
+};
+
+constexpr float sameDistance = 1e-4f; ///< relative
+
+bool differ(const MicroHit& ours, const MicroHit& theirs) {
+    if (ours.missed() || theirs.missed()) return ours.missed() != theirs.missed();
+    return !(std::abs(ours.t - theirs.t) <= sameDistance * theirs.t);
+}
+bool differ(unsigned ours, unsigned theirs) { return ours != theirs; }
+
+/// `Hit` is MicroHit or, of occlusion, unsigned; `Hits` what Embree writes for eight rays.
+template <typename Hit, typename Hits>
+class Contest {
+public:
+    Contest(Device& device, unsigned threads, DeviceTree& tree, const EmbreeScene& embree, const RaySet& set)
+        : device_(device), tree_(tree), kernel_(set.occlusion ? "occlusion" : "closestHits"),
+          rays_(device, set.rays, "rays"), answers_(device, set.rays.size(), "answers") {
+        const unsigned hostThreads = std::max(1u, threads);
+        theirs_.resize(set.rays.size());
+        const auto packets = std::make_shared<std::vector<RayPacket>>(packetsOf(set.rays));
+        const auto theirPackets = std::make_shared<std::vector<Hits>>(set.rays.size());
+        contenders_ = {{"quasilux", [this] { launch(tree_.fast); }},
+                       {"portable", [this] { launch(tree_.portable); }},
+                       {set.occlusion ? "rtcOccluded1" : "rtcIntersect1",
+                        [&, hostThreads] {
+                            onThreads(hostThreads, set.rays.size(),
+                                      [&](size_t begin, size_t end) { one(embree, set, begin, end); });
+                        }},
+                       {set.occlusion ? "rtcOccluded8" : "rtcIntersect8", [&, hostThreads, packets, theirPackets] {
+                            onThreads(hostThreads, set.rays.size(), [&](size_t begin, size_t end) {
+                                eight(embree, set, *packets, *theirPackets, begin, end);
+                            });
+                        }}};
+    }
+
+    MicroRow measure(unsigned rounds, unsigned threads, const RaySet& set, const std::string& scene) {
+        timeInTurns(contenders_, rounds, device_.info());
+        MicroRow row{"traversal", fmt::format("{}, {}", scene, set.name), threads, "Mrays/s and thread", {}, {}};
+        const double million = 1e-6 * double(set.rays.size());
+        for (const Contender& contender : contenders_)
+            row.values.emplace_back(contender.name, million / contender.seconds);
+        const auto ratio = [&](size_t ours, size_t theirs) {
+            row.ratios.emplace_back(fmt::format("{} / {}", contenders_[ours].name, contenders_[theirs].name.substr(3)),
+                                    contenders_[theirs].seconds / contenders_[ours].seconds);
+        };
+        ratio(0, 2);
+        ratio(1, 2);
+        ratio(0, 3);
+        const std::vector<Hit> ours = answers_.read();
+        row.compared = ours.size();
+        for (size_t i = 0; i < ours.size(); ++i) row.differing += differ(ours[i], theirs_[i]) ? 1 : 0;
+        return row;
+    }
+
+private:
+    void launch(Program& program) {
+        program.kernel(kernel_).launch(rays_.size(), tree_.nodes, tree_.blocks, rays_, answers_, cl_uint(rays_.size()));
+        device_.finish();
+    }
+    void one(const EmbreeScene& embree, const RaySet& set, size_t begin, size_t end) {
+        if constexpr (std::is_same_v<Hit, MicroHit>)
+            embree.closest(&set.rays[begin], &theirs_[begin], end - begin);
+        else
+            embree.occluded(&set.rays[begin], &theirs_[begin], end - begin);
+    }
+    static void eight(const EmbreeScene& embree, const RaySet& set, const std::vector<RayPacket>& packets,
+                      std::vector<Hits>& hits, size_t begin, size_t end) {
+        const size_t first = begin / packetSize, count = (end - begin) / packetSize;
+        if constexpr (std::is_same_v<Hit, MicroHit>)
+            embree.closest(&packets[first], &hits[first], count, set.coherent);
+        else
+            embree.occluded(&packets[first], &hits[begin], count, set.coherent);
+    }
+
+    Device& device_;
+    DeviceTree& tree_;
+    std::string kernel_;
+    Buffer<MicroRay> rays_;
+    Buffer<Hit> answers_;
+    std::vector<Hit> theirs_;
+    std::vector<Contender> contenders_;
+};
+
+void benchScene(const MicroRun& run, const MicroScene& scene) {
+    run.progress("traversal: " + scene.name);
+    const EmbreeScene embree(scene.triangles);
+    const RaySets sets = makeRaySets(scene, embree, run.settings.rays);
+    const Bvh bvh = buildBvh(scene.triangles);
+    const RaySet raySets[] = {{"primary", sets.primary, true, false},
+                              {"diffuse, random order", sets.random, false, false},
+                              {"diffuse, ordered", sets.ordered, false, false},
+                              {"shadow", sets.shadow, true, true}};
+    for (const unsigned threads : run.threads) {
+        Device device(run.settings.device, 64, threads);
+        DeviceTree tree(device, bvh);
+        for (const RaySet& set : raySets) {
+            if (run.interrupted) return;
+            run.report.rows.push_back(set.occlusion ? Contest<unsigned, unsigned>(device, threads, tree, embree, set)
+                                                          .measure(run.settings.rounds, threads, set, scene.name)
+                                                    : Contest<MicroHit, HitPacket>(device, threads, tree, embree, set)
+                                                          .measure(run.settings.rounds, threads, set, scene.name));
+        }
+    }
+}
+
+} // namespace
+
+void benchTraversal(const MicroRun& run) {
+    benchScene(run, cornellScene());
+    if (!run.interrupted) benchScene(run, sphereScene(run.settings.sphereRings));
+    if (!run.interrupted) benchScene(run, forestScene(run.settings.forestTriangles));
+}
+
+} // namespace quasilux
