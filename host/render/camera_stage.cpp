@@ -2,10 +2,16 @@
 
 namespace quasilux {
 
-CameraStage::CameraStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
-                         shared::CameraParams params)
-    : geometry_(geometry), film_(film), program_(device, "camera_paths.cl", options),
-      traceCameraPaths_(program_.kernel("traceCameraPaths")), params_(params) {}
+CameraStage::CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params)
+    : geometry_(geometry), film_(film), traceCameraPaths_(pass.kernel("traceCameraPaths")), params_(params) {}
+
+void CameraStage::compile(const PhotonStage& photons) {
+    shared::CameraParams nothing = params_;
+    nothing.camera.width = nothing.camera.height = 0;
+    traceCameraPaths_.launch(film_.pixels(), geometry_.nodes, geometry_.blocks, geometry_.tables,
+                             photons.index().cellStart(), photons.index().sorted(), film_.sums(), film_.counterBuffer(),
+                             nothing);
+}
 
 void CameraStage::run(unsigned pass, const PhotonStage& photons) {
     params_.pass = pass;

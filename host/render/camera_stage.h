@@ -8,17 +8,17 @@ namespace quasilux {
 
 class CameraStage {
 public:
-    CameraStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
-                shared::CameraParams params);
+    CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params);
+
+    /// Has the runtime compile the kernel, by a launch of as many work-items as a pass has, which do nothing.
+    void compile(const PhotonStage& photons);
 
     /// One path per pixel.
     void run(unsigned pass, const PhotonStage& photons);
-    double buildSeconds() const { return program_.buildSeconds(); }
 
 private:
     const GeometryBuffers& geometry_;
     Film& film_;
-    Program program_;
     Kernel traceCameraPaths_;
     shared::CameraParams params_;
 };

@@ -12,6 +12,8 @@ public:
     /// `estimatesBias`: the kernels were compiled with ESTIMATE_BIAS.
     Film(Device& device, unsigned width, unsigned height, bool estimatesBias);
 
+    static size_t floatsPerPixel(bool estimatesBias);
+
     /// What the kernels are to know of a pass that adds to the film.
     struct Pass {
         float batchWeight; ///< shared::CameraParams::batchWeight
