@@ -15,12 +15,12 @@ constexpr size_t vectorWidth = 8; // records are read eight at a time: the last 
 
 // A few cells per disc's worth of records: collisions only cost tests.
 unsigned cellsPerSlot(uint64_t records) {
-    return static_cast<unsigned>(std::clamp<uint64_t>(std::bit_ceil(records / 4), 4096, 1u << 28));
+    return static_cast<unsigned>(std::clamp<uint64_t>(std::bit_ceil(records / 8), 4096, 1u << 28));
 }
 
-// On a CPU a few long chunks; on a GPU enough of them to occupy it.
+// On a CPU a long chunk for each core, since each has counts of its own for all cells; on a GPU enough of them to occupy it.
 unsigned chunksFor(const DeviceInfo& device, unsigned regions) {
-    return std::min(regions, device.isCpu ? 2 * device.computeUnits : 256u);
+    return std::min(regions, device.isCpu ? device.computeUnits : 256u);
 }
 
 unsigned scanBlocksFor(size_t cells) {
