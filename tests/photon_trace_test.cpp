@@ -27,7 +27,8 @@ std::vector<std::array<double, LIGHT_CLASSES>> storedFlux(const DeviceScene& fla
     params.paths = paths;
     params.maxDepth = QL_NONE;
     params.scene = flat.offsets;
-    PhotonStage stage(testDevice(), kernelOptions(flat, settings), geometry, params, classes, false);
+    const Program program(testDevice(), "photon_map_pass.cl", kernelOptions(flat, settings));
+    PhotonStage stage(testDevice(), program, geometry, params, classes, false);
     std::vector<std::array<double, LIGHT_CLASSES>> flux(passes);
     for (unsigned pass = 0; pass < passes; ++pass) {
         const auto count = stage.run(pass, {0.1f, 0.1f, 0.1f, 0.1f}, 1);

@@ -57,6 +57,7 @@ json runJson(const BenchReport& report, const BenchRun& run) {
               {"compile", run.counters.compileSeconds},
               {"firstPass", run.counters.firstPassSeconds}}},
             {"peakBufferBytes", run.peakBufferBytes},
+            {"peakHostBytes", run.peakHostBytes},
             {"differenceToFirstDevice", difference ? json{{"mean", difference->mean},
                                                           {"meanStandardError", difference->meanStandardError},
                                                           {"beyondThreeStandardErrors", difference->beyondThree}}

@@ -1,6 +1,7 @@
 #include "bench/bench_run.h"
 
 #include "compare/measures.h"
+#include "util/process_memory.h"
 
 #include <chrono>
 #include <cmath>
@@ -80,6 +81,7 @@ BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, d
     run.counters = renderer.counters();
     run.kernels = opened.timings();
     run.peakBufferBytes = opened.allocatedBytes();
+    run.peakHostBytes = peakResidentBytes();
     return run;
 }
 

@@ -30,6 +30,7 @@ struct BenchRun {
     RenderCounters counters;
     std::map<std::string, KernelTiming> kernels;
     uint64_t peakBufferBytes = 0;
+    uint64_t peakHostBytes = 0; ///< of the process, runs before this one included
     FilmImage image;
 };
 

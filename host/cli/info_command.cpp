@@ -89,6 +89,13 @@ void printBuffers(const std::map<std::string, uint64_t>& buffers) {
     fmt::print("\n{}", table.text());
 }
 
+void printMemory(const MemoryForecast& forecast) {
+    TextTable table({"peak of a render, predicted", "memory"});
+    table.add({"device buffers", bytesText(forecast.deviceBytes)});
+    table.add({"host process", bytesText(forecast.hostPeakBytes)});
+    fmt::print("\n{}", table.text());
+}
+
 } // namespace
 
 void infoCommand(const SceneOptions& options) {
@@ -97,7 +104,7 @@ void infoCommand(const SceneOptions& options) {
     if (!options.quiet)
         for (const auto& warning : scene.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
     const RenderSettings settings = options.settings(scene);
-    Device device(options.device, options.workGroupSize);
+    Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
     ProgressLine progress(stderr, !options.quiet);
     progress.update({.phase = "preparing"});
@@ -130,6 +137,7 @@ void infoCommand(const SceneOptions& options) {
     printMedia(report);
     printRadii(report);
     printBuffers(report.bufferBytes);
+    printMemory(report.forecast);
     printEnergy(renderer.counters().energy);
 }
 

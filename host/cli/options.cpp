@@ -96,6 +96,13 @@ void declareDevice(CLI::App& command, SceneOptions& options) {
         ->check(wholeNumber(1, 4096))
         ->group(group);
     command
+        .add_option("--device-memory", options.deviceMemory,
+                    "Bytes of device memory that the render may take; one that needs more ends before it starts "
+                    "(default: what the device has)")
+        ->type_name("BYTES")
+        ->check(wholeNumber(1, UINT64_MAX))
+        ->group(group);
+    command
         .add_option("--kernels", options.kernels,
                     "Features compiled: scene (those that the scene needs) or generic (all) (default: scene)")
         ->type_name("NAME")

@@ -9,6 +9,7 @@
 #include "output/meter_reading.h"
 #include "output/progress_line.h"
 #include "output/statistics.h"
+#include "util/process_memory.h"
 
 #include <chrono>
 #include <cmath>
@@ -154,6 +155,7 @@ RenderRecord makeRecord(const RenderOptions& options, const RenderSettings& sett
     record.meter = meter;
     record.kernels = device.timings();
     record.peakBufferBytes = device.allocatedBytes();
+    record.peakHostBytes = peakResidentBytes();
     record.interrupted = interruptFlag();
     return record;
 }
@@ -173,7 +175,7 @@ int renderCommand(const RenderOptions& options) {
     for (const auto& warning : scene.warnings) warn(options, warning);
     const RenderSettings settings = options.settings(scene);
 
-    Device device(options.device, options.workGroupSize);
+    Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
     progress.update({.phase = "preparing"});
     Renderer renderer(device, scene, settings);

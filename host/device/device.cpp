@@ -2,6 +2,7 @@
 
 #include "util/error.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
 #ifdef __linux__
@@ -105,9 +106,14 @@ std::vector<DeviceInfo> listDevices() {
     return list;
 }
 
-Device::Device(int index, unsigned workGroupSize, unsigned computeUnits) : workGroupSize_(workGroupSize) {
+Device::Device(int index, unsigned workGroupSize, uint64_t memoryLimit, unsigned computeUnits)
+    : workGroupSize_(workGroupSize) {
     device_ = pick(index);
     info_ = describe(device_);
+    if (memoryLimit > 0) {
+        info_.globalMemory = std::min(info_.globalMemory, memoryLimit);
+        info_.maximumAllocation = std::min(info_.maximumAllocation, memoryLimit);
+    }
     try {
         if (computeUnits > 0 && computeUnits < info_.computeUnits) {
             device_ = partOf(device_, computeUnits);
@@ -124,8 +130,16 @@ Device::Device(int index, unsigned workGroupSize, unsigned computeUnits) : workG
 cl::Buffer Device::allocate(size_t bytes, const std::string& label) {
     constexpr double mib = 1024.0 * 1024.0;
     if (bytes > info_.maximumAllocation)
-        throw DeviceError(fmt::format("buffer '{}' needs {:.1f} MiB, but device {} allows {:.1f} MiB in one allocation",
-                                      label, bytes / mib, info_.name, info_.maximumAllocation / mib));
+        throw InputError(fmt::format("buffer '{}' needs {:.1f} MiB, but device {} allows {:.1f} MiB in one buffer: use "
+                                     "fewer --photons or a smaller film",
+                                     label, bytes / mib, info_.name, info_.maximumAllocation / mib));
+    const auto before = allocations_.find(label);
+    const uint64_t others = allocated_ - (before == allocations_.end() ? 0 : before->second);
+    if (others + bytes > info_.globalMemory)
+        throw InputError(fmt::format("buffer '{}' of {:.1f} MiB comes to {:.1f} MiB in use, but device {} has {:.1f} "
+                                     "MiB, {:.1f} MiB too little: use fewer --photons or a smaller film",
+                                     label, bytes / mib, (others + bytes) / mib, info_.name, info_.globalMemory / mib,
+                                     (others + bytes - info_.globalMemory) / mib));
     try {
         cl::Buffer buffer = hugePagesHelp(info_, bytes) ? bufferOfHugePages(context_, bytes)
                                                         : cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
@@ -151,6 +165,12 @@ void Device::finish() {
 void Device::addTiming(const std::string& kernel, uint64_t privateBytes, const cl::Event& event) {
     timings_[kernel].privateBytes = privateBytes;
     pending_.emplace_back(kernel, event);
+}
+
+void Device::clearTimings() {
+    finish();
+    pending_.clear();
+    timings_.clear();
 }
 
 const std::map<std::string, KernelTiming>& Device::timings() {

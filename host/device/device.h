@@ -32,8 +32,9 @@ struct KernelTiming {
 class Device {
 public:
     /// `index` as in listDevices(); -1 takes the first GPU, else the first device. Throws InputError if there is none.
-    /// `computeUnits` of it alone are used; 0 = all.
-    explicit Device(int index = -1, unsigned workGroupSize = 64, unsigned computeUnits = 0);
+    /// `memoryLimit`, bytes: the device is taken to have no more; 0: what it has. `computeUnits` of it alone are used; 0 =
+    /// all.
+    explicit Device(int index = -1, unsigned workGroupSize = 64, uint64_t memoryLimit = 0, unsigned computeUnits = 0);
 
     const DeviceInfo& info() const { return info_; }
     cl::Context& context() { return context_; }
@@ -51,6 +52,8 @@ public:
     void finish();
 
     void addTiming(const std::string& kernel, uint64_t privateBytes, const cl::Event& event);
+    /// Forgets what was launched so far.
+    void clearTimings();
     /// Waits, then sums what addTiming collected.
     const std::map<std::string, KernelTiming>& timings();
 

@@ -105,7 +105,7 @@ Program::Program(Device& device, const std::string& file, const std::string& opt
     buildSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Kernel Program::kernel(const std::string& name) {
+Kernel Program::kernel(const std::string& name) const {
     try {
         return Kernel(*device_, cl::Kernel(program_, name.c_str()), name);
     } catch (const cl::Error& error) {

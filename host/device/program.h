@@ -57,7 +57,7 @@ public:
     Program(Device& device, const std::string& file, const std::string& options,
             const std::map<std::string, std::string>& extra = {});
 
-    Kernel kernel(const std::string& name);
+    Kernel kernel(const std::string& name) const;
     double buildSeconds() const { return buildSeconds_; }
 
 private:

@@ -121,19 +121,21 @@ json sceneReportJson(const SceneReport& report) {
                          {"why", row.why},
                          {"kernelRadius", row.kernelRadius},
                          {"kernelHalfHeight", row.kernelHalfHeight}});
-    return {{"triangles", report.triangles},
-            {"spheres", report.spheres},
-            {"patches", report.patches},
-            {"borderSegments", report.borderSegments},
-            {"features", report.features},
-            {"emitters", emitters},
-            {"lobes", lobes},
-            {"media", media},
-            {"photonClasses", report.photonClasses},
-            {"bufferBytes", report.bufferBytes},
-            {"photonsPerPass", report.photonsPerPass},
-            {"initialRadius", report.initialRadius},
-            {"warnings", report.warnings}};
+    return {
+        {"triangles", report.triangles},
+        {"spheres", report.spheres},
+        {"patches", report.patches},
+        {"borderSegments", report.borderSegments},
+        {"features", report.features},
+        {"emitters", emitters},
+        {"lobes", lobes},
+        {"media", media},
+        {"photonClasses", report.photonClasses},
+        {"bufferBytes", report.bufferBytes},
+        {"forecast", {{"deviceBytes", report.forecast.deviceBytes}, {"hostPeakBytes", report.forecast.hostPeakBytes}}},
+        {"photonsPerPass", report.photonsPerPass},
+        {"initialRadius", report.initialRadius},
+        {"warnings", report.warnings}};
 }
 
 json statisticsJson(const RenderRecord& record, const FilmImage& image) {
@@ -157,7 +159,8 @@ json statisticsJson(const RenderRecord& record, const FilmImage& image) {
             {"error", errorJson(record.error)},
             {"kernels", kernelsJson(record.kernels)},
             {"phases", phasesJson(record)},
-            {"peakBufferBytes", record.peakBufferBytes}};
+            {"peakBufferBytes", record.peakBufferBytes},
+            {"peakHostBytes", record.peakHostBytes}};
 }
 
 void writeJson(const std::string& path, const json& value) {

@@ -5,6 +5,7 @@
 #include "prepare/bvh_block.h"
 
 #include <algorithm>
+#include <atomic>
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <limits>
@@ -17,37 +18,50 @@ namespace {
 constexpr size_t maximumPrimitives = size_t(PRIMITIVE_INDEX_MASK); // the mask itself is left to QL_NONE
 constexpr size_t maximumBlocks = size_t(BVH_LEAF_FIRST_MASK) + 1;
 
-/// What Embree's builder makes of the tree before it is flattened; lives in Embree's own arena.
+/// What Embree's builder makes of the tree before it is flattened; lives in Embree's own arena. Leaves are many: they
+/// take a tenth of an inner node.
 struct BuildItem {
     unsigned count; // children, or primitives of a leaf
     bool isLeaf;
-    unsigned primitive[BVH_WIDTH]; // leaf only
-    BuildItem* child[BVH_WIDTH];   // inner node only
-    RTCBounds bounds[BVH_WIDTH];   // inner node only
+};
+struct BuildLeaf : BuildItem {
+    unsigned primitive[BVH_WIDTH];
+};
+struct BuildNode : BuildItem {
+    BuildItem* child[BVH_WIDTH];
+    RTCBounds bounds[BVH_WIDTH];
 };
 
-BuildItem* allocateItem(RTCThreadLocalAllocator allocator) {
-    return new (rtcThreadLocalAlloc(allocator, sizeof(BuildItem), 16)) BuildItem;
+/// Counted as the builder's threads go, so that the flat tree is allocated once.
+struct BuildCounts {
+    std::atomic<size_t> nodes = 0, leaves = 0;
+};
+
+template <typename Item>
+Item* allocateItem(RTCThreadLocalAllocator allocator) {
+    return new (rtcThreadLocalAlloc(allocator, sizeof(Item), 16)) Item;
 }
 
-void* createNode(RTCThreadLocalAllocator allocator, unsigned childCount, void*) {
-    BuildItem* item = allocateItem(allocator);
-    item->isLeaf = false;
-    item->count = childCount;
-    return item;
+void* createNode(RTCThreadLocalAllocator allocator, unsigned childCount, void* counts) {
+    auto* node = allocateItem<BuildNode>(allocator);
+    node->isLeaf = false;
+    node->count = childCount;
+    ++static_cast<BuildCounts*>(counts)->nodes;
+    return node;
 }
 
 void setChildren(void* node, void** children, unsigned childCount, void*) {
     for (unsigned i = 0; i < childCount; ++i)
-        static_cast<BuildItem*>(node)->child[i] = static_cast<BuildItem*>(children[i]);
+        static_cast<BuildNode*>(node)->child[i] = static_cast<BuildItem*>(children[i]);
 }
 
 void setBounds(void* node, const RTCBounds** bounds, unsigned childCount, void*) {
-    for (unsigned i = 0; i < childCount; ++i) static_cast<BuildItem*>(node)->bounds[i] = *bounds[i];
+    for (unsigned i = 0; i < childCount; ++i) static_cast<BuildNode*>(node)->bounds[i] = *bounds[i];
 }
 
-void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count, void*) {
-    BuildItem* item = allocateItem(allocator);
+void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count, void* counts) {
+    auto* item = allocateItem<BuildLeaf>(allocator);
+    ++static_cast<BuildCounts*>(counts)->leaves;
     item->isLeaf = true;
     item->count = unsigned(count);
     for (size_t i = 0; i < count; ++i) item->primitive[i] = primitives[i].primID;
@@ -56,7 +70,7 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     return item;
 }
 
-RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, size_t count) {
+RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, BuildCounts& counts) {
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = BVH_WIDTH;
@@ -64,12 +78,13 @@ RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& pri
     arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = BVH_WIDTH;
     arguments.bvh = bvh;
     arguments.primitives = primitives.data();
-    arguments.primitiveCount = count;
+    arguments.primitiveCount = primitives.size();
     arguments.primitiveArrayCapacity = primitives.size();
     arguments.createNode = createNode;
     arguments.setNodeChildren = setChildren;
     arguments.setNodeBounds = setBounds;
     arguments.createLeaf = createLeaf;
+    arguments.userPtr = &counts;
     return arguments;
 }
 
@@ -115,20 +130,21 @@ public:
 
     /// Appends `item` and what lies below it; returns the reference that a parent's slot holds.
     unsigned append(const BuildItem& item, unsigned depth) {
-        if (item.isLeaf) return appendLeaf(item);
+        if (item.isLeaf) return appendLeaf(static_cast<const BuildLeaf&>(item));
+        const auto& node = static_cast<const BuildNode&>(item);
         const unsigned index = unsigned(bvh_.nodes.size());
         bvh_.depth = std::max(bvh_.depth, depth);
         bvh_.nodes.push_back(emptyNode());
         for (unsigned slot = 0; slot < item.count; ++slot) {
-            setSlot(bvh_.nodes[index], slot, item.bounds[slot]);
-            const unsigned reference = append(*item.child[slot], depth + 1);
+            setSlot(bvh_.nodes[index], slot, node.bounds[slot]);
+            const unsigned reference = append(*node.child[slot], depth + 1);
             bvh_.nodes[index].child[slot] = reference;
         }
         return index;
     }
 
 private:
-    unsigned appendLeaf(const BuildItem& item) {
+    unsigned appendLeaf(const BuildLeaf& item) {
         const size_t block = bvh_.blocks.size();
         if (block >= maximumBlocks)
             throw InputError(
@@ -179,12 +195,15 @@ Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
     if (!device)
         throw std::runtime_error(fmt::format("Embree did not start (error {})", int(rtcGetDeviceError(nullptr))));
     const std::unique_ptr<RTCBVHTy, EmbreeRelease> arena(rtcNewBVH(device.get()));
-    const RTCBuildArguments arguments = buildArguments(arena.get(), bounded, bounded.size());
+    BuildCounts counts;
+    const RTCBuildArguments arguments = buildArguments(arena.get(), bounded, counts);
     const BuildItem* root = static_cast<const BuildItem*>(rtcBuildBVH(&arguments));
     if (!root)
         throw std::runtime_error(fmt::format("Embree could not build the tree over {} primitives (error {})",
                                              primitives.size(), int(rtcGetDeviceError(device.get()))));
 
+    bvh.nodes.reserve(std::max<size_t>(1, counts.nodes));
+    bvh.blocks.reserve(counts.leaves);
     Flattener flattener(primitives, bvh);
     if (root->isLeaf) {
         bvh.nodes.push_back(emptyNode());

@@ -42,7 +42,8 @@ PrimitiveBounds triangleBounds(const BvhPrimitive& primitive) {
 bool isDegenerate(const glm::vec3& e1, const glm::vec3& e2) {
     constexpr double smallestSine = 4e-7;
     const glm::dvec3 a(e1), b(e2);
-    return glm::length(glm::cross(a, b)) <= smallestSine * glm::length(a) * glm::length(b);
+    const glm::dvec3 normal = glm::cross(a, b);
+    return glm::dot(normal, normal) <= smallestSine * smallestSine * glm::dot(a, a) * glm::dot(b, b);
 }
 
 } // namespace

@@ -43,18 +43,36 @@ shared::Camera coarseCamera(shared::Camera camera, unsigned block) {
     return camera;
 }
 
+size_t scaleCount(const shared::Camera& pilot, unsigned classes) {
+    return size_t(pilot.width) * pilot.height * size_t(std::popcount(classes));
+}
+
 } // namespace
 
-AdaptiveRadius::AdaptiveRadius(Device& device, const std::string& options, const shared::Camera& camera,
-                               unsigned classes)
+AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes)
     : block_(blockSize(camera)), camera_(coarseCamera(camera, block_)),
-      film_(std::in_place, device, camera_.width, camera_.height, true),
-      program_(device, "adaptive_radius.cl", options), measureRadii_(program_.kernel("measureRadii")),
-      chooseRadii_(program_.kernel("chooseRadii")),
-      scales_(device, film_->pixels() * size_t(std::popcount(classes)), "radii"),
-      pilotScales_(device, scales_.size(), "radii of the pilot"), measures_(device, scales_.size(), "radii measured") {
+      film_(std::in_place, device, camera_.width, camera_.height, true, "pilot's "),
+      measureRadii_(pass.kernel("measureRadii")), chooseRadii_(pass.kernel("chooseRadii")),
+      scales_(device, scaleCount(camera_, classes), "radii"), pilotScales_(device, scales_.size(), "pilot's radii"),
+      measures_(device, scales_.size(), "pilot's measures") {
     scales_.fill(1);
     pilotScales_.fill(largestAdaptiveRadius);
+}
+
+std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
+    const shared::Camera pilot = coarseCamera(camera, blockSize(camera));
+    const uint64_t scales = scaleCount(pilot, classes);
+    return {{"pilot's film", uint64_t(pilot.width) * pilot.height * Film::floatsPerPixel(true) * sizeof(float)},
+            {"pilot's camera counters", sizeof(shared::CameraCounters)},
+            {"radii", scales * sizeof(float)},
+            {"pilot's radii", scales * sizeof(float)},
+            {"pilot's measures", scales * sizeof(shared::RadiusMeasure)}};
+}
+
+void AdaptiveRadius::compile() {
+    const shared::RadiusParams nothing{};
+    measureRadii_.launch(film_->pixels(), film_->sums(), measures_, nothing);
+    chooseRadii_.launch(film_->pixels(), measures_, scales_, nothing);
 }
 
 void AdaptiveRadius::endPilotPass(unsigned pass) {

@@ -4,7 +4,9 @@
 #include "device/program.h"
 #include "render/film.h"
 
+#include <map>
 #include <optional>
+#include <string>
 
 namespace quasilux {
 
@@ -13,8 +15,13 @@ inline constexpr float largestAdaptiveRadius = 2;
 
 class AdaptiveRadius {
 public:
-    /// `options`: as of the camera's kernels, with ADAPTIVE_RADIUS. `classes`: bits of the photon classes in use.
-    AdaptiveRadius(Device& device, const std::string& options, const shared::Camera& camera, unsigned classes);
+    /// `pass`: with ADAPTIVE_RADIUS among its options. `classes`: bits of the photon classes in use.
+    AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes);
+
+    /// Bytes of its buffers by label, as Device::allocations() has them.
+    static std::map<std::string, uint64_t> plan(const shared::Camera& camera, unsigned classes);
+    /// Has the runtime compile the kernels.
+    void compile();
 
     /// Is the next pass one of the pilot's: is the bias of coarse pixels to be estimated, at the largest radius, with its
     /// photons?
@@ -34,7 +41,6 @@ private:
     unsigned block_;
     shared::Camera camera_;
     std::optional<Film> film_; ///< until the pilot has ended
-    Program program_;
     Kernel measureRadii_, chooseRadii_;
     Buffer<float> scales_, pilotScales_;
     Buffer<shared::RadiusMeasure> measures_;

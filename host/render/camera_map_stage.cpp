@@ -20,16 +20,13 @@ unsigned divideUp(size_t count, unsigned by) { return static_cast<unsigned>((cou
 
 } // namespace
 
-CameraMapStage::CameraMapStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
+CameraMapStage::CameraMapStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                                shared::CameraParams camera, shared::PhotonParams photons, unsigned classes,
                                double meanRadiance)
-    : device_(device), geometry_(geometry), film_(film),
-      cameraTracing_(device, "camera_paths.cl", options + " -DMAP_CAMERA"),
-      photonTracing_(device, "photon_trace.cl", options + " -DMAP_CAMERA"),
-      traceCameraPoints_(cameraTracing_.kernel("traceCameraPoints")), addSamples_(cameraTracing_.kernel("addSamples")),
-      splatPhotons_(photonTracing_.kernel("splatPhotons")),
-      index_(device, "camera_point_map.cl", options, classes, pointFields, "camera point"), cameraParams_(camera),
-      photonParams_(photons), classes_(classes) {
+    : device_(device), geometry_(geometry), film_(film), traceCameraPoints_(pass.kernel("traceCameraPoints")),
+      addSamples_(pass.kernel("addSamples")), splatPhotons_(pass.kernel("splatPhotons")),
+      index_(device, pass, classes, pointFields, "camera point"), cameraParams_(camera), photonParams_(photons),
+      classes_(classes) {
     photonParams_.pathsPerRegion = photonsPerRegion;
     photonParams_.regions = divideUp(photonParams_.paths, photonsPerRegion);
     std::fill_n(photonParams_.keepProbability, LIGHT_CLASSES, 1.f);
@@ -92,12 +89,23 @@ void CameraMapStage::splatPhotons(CameraMapPassCount& total) {
     for (const auto& count : photonRegions_.read()) total.add(count);
 }
 
-CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius,
-                                       float volumeScale) {
+void CameraMapStage::beginPass(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale) {
     std::copy(radius.begin(), radius.end(), index_.map().radius);
     index_.map().volumeScale = volumeScale;
     cameraParams_.pass = photonParams_.pass = pass;
     cameraParams_.map = points_.map = index_.map();
+}
+
+void CameraMapStage::makeRoom(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale) {
+    beginPass(pass, radius, volumeScale);
+    uint64_t stored = 0;
+    for (const auto& count : traceCameraPoints()) stored += count.stored;
+    index_.reserve(stored + stored / 32);
+}
+
+CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius,
+                                       float volumeScale) {
+    beginPass(pass, radius, volumeScale);
     CameraMapPassCount total;
     uint64_t stored = 0;
     for (const auto& count : traceCameraPoints()) {

@@ -16,9 +16,9 @@ struct CameraMapPassCount : TraceCount {
 
 class CameraMapStage {
 public:
-    /// `classes` as PhotonStage takes them. `meanRadiance`, of the order of the scene's, W sr^-1 m^-2, decides the unit
+    /// `pass` is camera_map_pass.cl; `classes` as PhotonStage takes them. `meanRadiance`, of the order of the scene's, W sr^-1 m^-2, decides the unit
     /// of the sums of splats.
-    CameraMapStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
+    CameraMapStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                    shared::CameraParams camera, shared::PhotonParams photons, unsigned classes, double meanRadiance);
 
     /// One path per pixel and all photons of the pass, into the film. `radius` and `volumeScale` as PhotonStage::run
@@ -28,6 +28,9 @@ public:
     /// From now on photons in media are splatted with these probabilities, by class, and weigh accordingly more.
     void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
 
+    /// Enlarges the buffers to what a trial pass of camera paths stores, so that their sizes are known before the first.
+    void makeRoom(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
+
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : photonParams_.paths; }
     /// Bytes of a camera point, as traced and in the index, and of the border record that some have.
@@ -35,6 +38,7 @@ public:
     static size_t borderBytes() { return sizeof(shared::PointBorder); }
 
 private:
+    void beginPass(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
     std::vector<shared::PointRegionCount> traceCameraPoints();
     unsigned pathsPerPixel() const { return cameraParams_.scene.meter.samples; }
     void makeRegions(); // of points as traced, for the capacity of the regions
@@ -43,7 +47,6 @@ private:
     Device& device_;
     const GeometryBuffers& geometry_;
     Film& film_;
-    Program cameraTracing_, photonTracing_;
     Kernel traceCameraPoints_, addSamples_, splatPhotons_;
     CellIndex index_;
     shared::CameraParams cameraParams_;

@@ -9,21 +9,24 @@ namespace quasilux {
 class CameraStage {
 public:
     /// `radii`: of the pixels, or null where they are one radius (then the options do not say ADAPTIVE_RADIUS).
-    CameraStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
-                shared::CameraParams params, AdaptiveRadius* radii);
+    CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params,
+                AdaptiveRadius* radii);
+
+    /// Has the runtime compile the kernels, by a launch of as many work-items as a pass has, which do nothing.
+    void compile(const PhotonStage& photons);
 
     /// One path per pixel.
     void run(unsigned pass, const PhotonStage& photons);
-    double buildSeconds() const { return program_.buildSeconds(); }
 
 private:
-    const GeometryBuffers& geometry_;
-    void launch(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
+    void trace(Film& film, const shared::CameraParams& params, const Buffer<float>* radiusScales,
+               const PhotonStage& photons);
+    void runOn(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
     void runPilot(const PhotonStage& photons);
 
+    const GeometryBuffers& geometry_;
     Film& film_;
     AdaptiveRadius* radii_;
-    Program program_;
     Kernel traceCameraPaths_;
     shared::CameraParams params_;
 };

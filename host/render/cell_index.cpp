@@ -14,27 +14,45 @@ constexpr unsigned scanBlocksMax = 64;
 constexpr size_t vectorWidth = 8; // records are read eight at a time: the last group may reach beyond the last record
 
 // A few cells per disc's worth of records: collisions only cost tests.
-unsigned cellsPerSlot(unsigned records) { return std::max(4096u, std::bit_ceil(records / 4)); }
+unsigned cellsPerSlot(uint64_t records) {
+    return static_cast<unsigned>(std::clamp<uint64_t>(std::bit_ceil(records / 8), 4096, 1u << 28));
+}
+
+// On a CPU a long chunk for each core, since each has counts of its own for all cells; on a GPU enough of them to occupy it.
+unsigned chunksFor(const DeviceInfo& device, unsigned regions) {
+    return std::min(regions, device.isCpu ? device.computeUnits : 256u);
+}
+
+unsigned scanBlocksFor(size_t cells) {
+    return static_cast<unsigned>(std::clamp<size_t>(cells / 256, 1, scanBlocksMax));
+}
 
 } // namespace
 
-CellIndex::CellIndex(Device& device, const std::string& file, const std::string& options, unsigned slots, size_t fields,
-                     std::string noun)
-    : device_(device), program_(device, file, options), countRecords_(program_.kernel("countRecords")),
-      sumBlocks_(program_.kernel("sumBlocks")), scanCells_(program_.kernel("scanCells")),
-      scatterRecords_(program_.kernel("scatterRecords")), slots_(slots), fields_(fields), noun_(std::move(noun)) {}
+CellIndex::CellIndex(Device& device, const Program& pass, unsigned slots, size_t fields, std::string noun)
+    : device_(device), countRecords_(pass.kernel("countRecords")), sumBlocks_(pass.kernel("sumBlocks")),
+      scanCells_(pass.kernel("scanCells")), scatterRecords_(pass.kernel("scatterRecords")), slots_(slots),
+      fields_(fields), noun_(std::move(noun)) {}
 
-void CellIndex::makeTable(unsigned expected, unsigned regions) {
+void CellIndex::makeTable(uint64_t expected, unsigned regions) {
     map_.regions = regions;
     map_.cellMask = cellsPerSlot(expected) - 1;
-    // On a CPU a few long chunks; on a GPU enough of them to occupy it.
-    map_.chunks = std::min(regions, device_.info().isCpu ? 2 * device_.info().computeUnits : 256u);
+    map_.chunks = chunksFor(device_.info(), regions);
     const size_t cells = size_t(std::popcount(slots_)) * (map_.cellMask + 1);
-    map_.scanBlocks = static_cast<unsigned>(std::clamp<size_t>(cells / 256, 1, scanBlocksMax));
+    map_.scanBlocks = scanBlocksFor(cells);
     counts_ = Buffer<uint32_t>(device_, cells * map_.chunks, noun_ + " cell counts");
     blockSums_ = Buffer<uint32_t>(device_, map_.scanBlocks, noun_ + " scan blocks");
     cellStart_ = Buffer<uint32_t>(device_, cells + 1, noun_ + " cells");
     reserve(expected);
+}
+
+BufferSizes CellIndex::plan(unsigned slots, uint64_t expected, unsigned regions, size_t fields, const std::string& noun,
+                            const DeviceInfo& device) {
+    const size_t cells = size_t(std::popcount(slots)) * cellsPerSlot(expected);
+    return {{noun + " cell counts", std::max<size_t>(1, cells * chunksFor(device, regions)) * sizeof(uint32_t)},
+            {noun + " scan blocks", scanBlocksFor(cells) * sizeof(uint32_t)},
+            {noun + " cells", (cells + 1) * sizeof(uint32_t)},
+            {noun + "s sorted", fields * (expected + vectorWidth) * sizeof(uint32_t)}};
 }
 
 void CellIndex::reserve(uint64_t records) {

@@ -5,6 +5,7 @@
 #include "device/program.h"
 #include "pass_types.h"
 #include "render/geometry_buffers.h"
+#include "render/memory_plan.h"
 
 #include <array>
 #include <cstdint>
@@ -13,13 +14,18 @@ namespace quasilux {
 
 class CellIndex {
 public:
-    /// `file` holds the kernels for this kind of record; `slots` are the bits 1 << slot that occur; `fields` are 32-bit
+    /// `pass` holds the kernels for this kind of record; `slots` are the bits 1 << slot that occur; `fields` are 32-bit
     /// words of a record in the index; `noun` names the records in labels of buffers and in messages.
-    CellIndex(Device& device, const std::string& file, const std::string& options, unsigned slots, size_t fields,
-              std::string noun);
+    CellIndex(Device& device, const Program& pass, unsigned slots, size_t fields, std::string noun);
 
     /// Makes a table for about `expected` records, which come from this many regions.
-    void makeTable(unsigned expected, unsigned regions);
+    void makeTable(uint64_t expected, unsigned regions);
+    /// The buffers that it then takes, by label.
+    static BufferSizes plan(unsigned slots, uint64_t expected, unsigned regions, size_t fields, const std::string& noun,
+                            const DeviceInfo& device);
+
+    /// Room for so many records, with some to spare where it has proved too small.
+    void reserve(uint64_t records);
 
     /// Indexes `count` records that stand in regions as `map().regionCapacity` says. All kernels see `map()`, so its
     /// radii must be set.
@@ -42,13 +48,9 @@ public:
     const Buffer<uint32_t>& sorted() const { return sorted_; }
     /// Of a record in the index.
     size_t recordBytes() const { return fields_ * sizeof(uint32_t); }
-    double buildSeconds() const { return program_.buildSeconds(); }
 
 private:
-    void reserve(uint64_t records); // in the sorted arrays
-
     Device& device_;
-    Program program_;
     Kernel countRecords_, sumBlocks_, scanCells_, scatterRecords_;
     unsigned slots_;
     size_t fields_;

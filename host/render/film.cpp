@@ -80,10 +80,12 @@ bool isBlack(const std::vector<float>& values) {
 
 } // namespace
 
-Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias)
-    : width_(width), height_(height), estimatesBias_(estimatesBias),
-      pixelFloats_(biasSums + (estimatesBias ? biasFloats : 0)), sums_(device, pixelFloats_ * width * height, "film"),
-      counters_(device, 1, "camera counters") {
+size_t Film::floatsPerPixel(bool estimatesBias) { return biasSums + (estimatesBias ? biasFloats : 0); }
+
+Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias, const std::string& owner)
+    : width_(width), height_(height), estimatesBias_(estimatesBias), pixelFloats_(floatsPerPixel(estimatesBias)),
+      sums_(device, pixelFloats_ * width * height, owner + "film"),
+      counters_(device, 1, owner + "camera counters") {
     sums_.fill(0);
     counters_.write({shared::CameraCounters{0, 0, 0}});
 }

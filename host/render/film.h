@@ -9,8 +9,10 @@ namespace quasilux {
 
 class Film {
 public:
-    /// `estimatesBias`: the kernels were compiled with ESTIMATE_BIAS.
-    Film(Device& device, unsigned width, unsigned height, bool estimatesBias);
+    /// `estimatesBias`: the kernels were compiled with ESTIMATE_BIAS. `owner` goes before the buffers' labels.
+    Film(Device& device, unsigned width, unsigned height, bool estimatesBias, const std::string& owner = "");
+
+    static size_t floatsPerPixel(bool estimatesBias);
 
     /// What the kernels are to know of a pass that adds to the film.
     struct Pass {

@@ -8,12 +8,24 @@ constexpr size_t sampleFloats = size_t{3} * FILM_COMPONENTS; // SAMPLE_FLOATS of
 
 } // namespace
 
-MeterStage::MeterStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
+MeterStage::MeterStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                        shared::CameraParams params, unsigned classes, double meanRadiance)
-    : geometry_(geometry), film_(film), program_(device, "camera_paths.cl", options),
-      traceMeterPaths_(program_.kernel("traceMeterPaths")), addMeterSamples_(program_.kernel("addMeterSamples")),
-      params_(params), counted_(device, classes, film.pixels(), meanRadiance),
+    : geometry_(geometry), film_(film), traceMeterPaths_(pass.kernel("traceMeterPaths")),
+      addMeterSamples_(pass.kernel("addMeterSamples")), params_(params),
+      counted_(device, classes, film.pixels(), meanRadiance),
       samples_(device, sampleFloats * film.pixels() * params.scene.meter.samples, "meter samples") {}
+
+size_t MeterStage::sampleBytes(size_t paths) { return sampleFloats * paths * sizeof(float); }
+
+void MeterStage::compile(const PhotonStage& photons) {
+    shared::CameraParams nothing = params_;
+    nothing.camera.width = nothing.camera.height = 0;
+    traceMeterPaths_.launch(film_.pixels() * params_.scene.meter.samples, geometry_.nodes, geometry_.blocks,
+                            geometry_.tables, photons.index().cellStart(), photons.index().sorted(), samples_,
+                            film_.counterBuffer(), nothing);
+    addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(), 0u, 0u, 0.f,
+                            counted_.quantaPerRadiance, 0.f);
+}
 
 void MeterStage::run(unsigned pass, const PhotonStage& photons) {
     const shared::Meter& meter = params_.scene.meter;

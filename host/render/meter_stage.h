@@ -10,8 +10,14 @@ namespace quasilux {
 class MeterStage {
 public:
     /// `classes` as PhotonStage takes them; `meanRadiance` as CameraMapStage.
-    MeterStage(Device& device, const std::string& options, const GeometryBuffers& geometry, Film& film,
+    MeterStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                shared::CameraParams params, unsigned classes, double meanRadiance);
+
+    /// Of the buffer that holds what `paths` take before it is summed.
+    static size_t sampleBytes(size_t paths);
+
+    /// As CameraStage::compile.
+    void compile(const PhotonStage& photons);
 
     /// All paths of a pass; what was counted() since the last one is added.
     void run(unsigned pass, const PhotonStage& photons);
@@ -20,7 +26,6 @@ public:
 private:
     const GeometryBuffers& geometry_;
     Film& film_;
-    Program program_;
     Kernel traceMeterPaths_, addMeterSamples_;
     shared::CameraParams params_;
     MeterSums counted_;

@@ -4,25 +4,17 @@
 
 namespace quasilux {
 
-namespace {
-
-constexpr unsigned pathsPerRegion = 256;
-
-} // namespace
-
-PhotonStage::PhotonStage(Device& device, const std::string& options, const GeometryBuffers& geometry,
-                         shared::PhotonParams params, unsigned classes, bool storesDepth)
-    : device_(device), geometry_(geometry), tracing_(device, "photon_trace.cl", options),
-      tracePhotons_(tracing_.kernel("tracePhotons")),
-      index_(device, "photon_map.cl", options, classes, storesDepth ? 9 : 8, "photon"), params_(params),
-      classes_(classes) {
+PhotonStage::PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry,
+                         shared::PhotonParams params, unsigned classes, bool storesDepth, const PhotonRoom& room)
+    : device_(device), geometry_(geometry), tracePhotons_(pass.kernel("tracePhotons")),
+      index_(device, pass, classes, mapFields(storesDepth), "photon"), params_(params), classes_(classes) {
     params_.pathsPerRegion = pathsPerRegion;
-    params_.regions = (params_.paths + pathsPerRegion - 1) / pathsPerRegion;
+    params_.regions = regionCount(params_.paths);
     std::fill_n(params_.keepProbability, LIGHT_CLASSES, 1.f);
-    makeRegions(pathsPerRegion);
+    makeRegions(room.ofRegion ? room.ofRegion : pathsPerRegion);
     regions_ = Buffer<shared::RegionCount>(device, params_.regions, "photon regions");
     index_.map().media = params_.scene.media;
-    index_.makeTable(params_.paths, params_.regions);
+    index_.makeTable(room.inMap ? room.inMap : params_.paths, params_.regions);
 }
 
 std::vector<shared::RegionCount> PhotonStage::trace() {
@@ -50,9 +42,8 @@ void PhotonStage::makeRegions(unsigned capacity) {
     photons_ = Buffer<shared::Photon>(device_, size_t(params_.regions) * capacity, "photons as traced");
 }
 
-void PhotonStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability, double expectedPhotons) {
+void PhotonStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability) {
     std::copy(keepProbability.begin(), keepProbability.end(), params_.keepProbability);
-    makeRegions(std::max(pathsPerRegion, static_cast<unsigned>(1.5 * expectedPhotons / params_.regions)));
 }
 
 PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale) {
@@ -64,6 +55,7 @@ PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CL
     uint64_t stored = 0;
     for (const auto& count : trace()) {
         stored += count.stored;
+        total.fullestRegion = std::max(total.fullestRegion, count.stored);
         total.add(count);
     }
     index_.map().regionCapacity = params_.regionCapacity;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/cell_index.h"
+#include "render/memory_plan.h"
 #include "render/meter_sums.h"
 #include "render/trace_count.h"
 
@@ -13,22 +14,28 @@ namespace quasilux {
 /// What one pass traced and stored.
 struct PhotonPassCount : TraceCount {
     std::array<uint64_t, PHOTON_SLOTS> stored{}; ///< by slot of the map: classes on surfaces, then in media
+    unsigned fullestRegion = 0;                  ///< most photons that one region stored
 };
 
 class PhotonStage {
 public:
-    /// `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where the kernels are compiled with HAS_DEPTH_LIMIT.
-    PhotonStage(Device& device, const std::string& options, const GeometryBuffers& geometry,
-                shared::PhotonParams params, unsigned classes, bool storesDepth);
+    static constexpr unsigned pathsPerRegion = 256;
+    static unsigned regionCount(unsigned paths) { return (paths + pathsPerRegion - 1) / pathsPerRegion; }
+    /// 32-bit words of a photon in the map.
+    static size_t mapFields(bool storesDepth) { return storesDepth ? 9 : 8; }
+
+    /// `pass` is photon_map_pass.cl; `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where the kernels are compiled with HAS_DEPTH_LIMIT;
+    /// `room` saves enlarging the buffers later.
+    PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry, shared::PhotonParams params,
+                unsigned classes, bool storesDepth, const PhotonRoom& room = {});
 
     /// Traces the photons of a pass and indexes them with these radii, by class. A photon buffer that proves too small
     /// is enlarged and the pass traced again, so none is lost. `volumeScale` is that of kernels in media to their first
     /// size.
     PhotonPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
 
-    /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more;
-    /// about `expectedPhotons` are then stored in a pass.
-    void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability, double expectedPhotons);
+    /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more.
+    void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
 
     /// From now on photons that cross the meter are counted; kernels are compiled with HAS_METER_PHOTONS then.
     void countAt(MeterSums& meter) { meter_ = &meter; }
@@ -39,7 +46,6 @@ public:
     size_t photonBytes() const { return sizeof(shared::Photon) + index_.recordBytes(); }
 
     const CellIndex& index() const { return index_; }
-    double buildSeconds() const { return tracing_.buildSeconds() + index_.buildSeconds(); }
 
 private:
     std::vector<shared::RegionCount> trace();
@@ -47,7 +53,6 @@ private:
 
     Device& device_;
     const GeometryBuffers& geometry_;
-    Program tracing_;
     Kernel tracePhotons_;
     CellIndex index_;
     shared::PhotonParams params_;

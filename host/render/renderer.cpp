@@ -4,7 +4,9 @@
 #include "render/camera_stage.h"
 #include "render/meter_stage.h"
 #include "render/method.h"
+#include "render/pilot.h"
 #include "render/radius.h"
+#include "util/process_memory.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -13,11 +15,6 @@
 namespace quasilux {
 
 namespace {
-
-constexpr unsigned pilotPaths = 2048;
-constexpr unsigned pilotPass = UINT32_MAX; // no render gets there
-// Kept of a class, per photon emitted: those of one path tell much the same (docs/media.md).
-constexpr double volumePhotonsPerPath = 3;
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -126,54 +123,80 @@ SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSe
 
 struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_)
-        : device(device_), settings(settings_), flat(std::move(flat_)), options(kernelOptions(flat, settings)),
+        : device(device_), settings(settings_), flat(std::move(flat_)),
+          program(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
+                  kernelOptions(flat, settings)),
           geometry(device, flat),
           film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
           report(describe(scene, flat, settings)) {
         const auto photon = photonParams(scene, flat, settings);
         const auto path = cameraParams(flat, settings, photon.maxDepth);
         const unsigned classes = photonClasses(flat.features, settings);
-        const Thinning thinning = flat.media.empty() ? Thinning{} : pilot(photon, classes);
-        if (settings.map == MapOrder::camera) {
-            cameraMap.emplace(device, options, geometry, film, path, photon, classes, meanRadiance(flat));
-            cameraMap->thinVolume(thinning.keepProbability);
-            return;
-        }
-        photons.emplace(device, options, geometry, photon, classes, compiledFeatures(flat, settings).depthLimit);
-        photons->thinVolume(thinning.keepProbability, thinning.expectedPhotons);
-        if (path.scene.meter.kind == METER_NONE) {
-            if (adaptsRadius(flat.features, settings)) adaptive.emplace(device, options, flat.camera, classes);
-            camera.emplace(device, options, geometry, film, path, adaptive ? &*adaptive : nullptr);
-            return;
-        }
-        meter.emplace(device, options, geometry, film, path, classes, meanRadiance(flat));
+        if (settings.map == MapOrder::camera)
+            prepareCameraMap(path, photon, classes);
+        else
+            preparePhotonMap(path, photon, classes);
+        device.clearTimings(); // those of passes alone tell
+        flat.bvh = {};         // on the device now
+        flat.tables = {};
+    }
+
+    void preparePhotonMap(const shared::CameraParams& path, const shared::PhotonParams& photon, unsigned classes) {
+        if (path.scene.meter.kind == METER_NONE)
+            prepareCamera(path, classes);
+        else
+            meter.emplace(device, program, geometry, film, path, classes, meanRadiance(flat));
+        const PilotResult expected = pilot(program, photon, classes, true);
+        const BufferSizes sizes = planPass(flat, settings, expected.room, device.info());
+        checkFits(sizes, device.info(), flat, settings);
+        forecast(sizes, sumOf(sizes) - sumOf(planScene(flat, settings)));
+        photons.emplace(device, program, geometry, photon, classes, storesDepth(), expected.room);
+        photons->thinVolume(expected.keepProbability);
         if (meterCountsPhotons(flat.features, settings)) photons->countAt(meter->counted());
     }
 
-    // Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
-    struct Thinning {
-        std::array<float, LIGHT_CLASSES> keepProbability{1, 1, 1, 1};
-        double expectedPhotons = 0;
-    };
+    void prepareCamera(const shared::CameraParams& path, unsigned classes) {
+        if (adaptsRadius(flat.features, settings)) adaptive.emplace(device, program, flat.camera, classes);
+        camera.emplace(program, geometry, film, path, adaptive ? &*adaptive : nullptr);
+    }
 
-    // Traces a few photons apart from all passes and counts what they leave.
-    Thinning pilot(shared::PhotonParams params, unsigned classes) const {
+    void prepareCameraMap(const shared::CameraParams& path, const shared::PhotonParams& photon, unsigned classes) {
+        PilotResult expected;
+        if (!flat.media.empty()) {
+            const Program photonMap(device, "photon_map_pass.cl", kernelOptions(flat, settings));
+            expected = pilot(photonMap, photon, classes, false);
+        }
+        cameraMap.emplace(device, program, geometry, film, path, photon, classes, meanRadiance(flat));
+        cameraMap->thinVolume(expected.keepProbability);
+        cameraMap->makeRoom(pilotPass, radii(0), volumeScale(0));
+        // All else has been written to; of points as traced not even that much, as regions have room to spare.
+        const BufferSizes& sizes = device.allocations();
+        forecast(sizes, sizes.at("camera point cell counts") + sizes.at("camera point cells"));
+    }
+
+    // Traces a few photons apart from all passes and counts what they leave. The runtime compiles kernels when they are
+    // first launched: this is the time, `compilesCamera` also for those of camera paths.
+    PilotResult pilot(const Program& photonMap, shared::PhotonParams params, unsigned classes, bool compilesCamera) {
         params.paths = std::min(pilotPaths, params.paths);
-        PhotonStage stage(device, options, geometry, params, classes, compiledFeatures(flat, settings).depthLimit);
+        PhotonStage stage(device, photonMap, geometry, params, classes, storesDepth());
         std::optional<MeterSums> uncounted;
         if (meterCountsPhotons(flat.features, settings))
             stage.countAt(uncounted.emplace(device, classes, film.pixels(), meanRadiance(flat)));
-        const auto counted = stage.run(pilotPass, radii(0), volumeScale(0)).stored;
-        const double passesOverPilot = double(report.photonsPerPass) / params.paths;
-        Thinning thinning;
-        for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
-            const double expected = passesOverPilot * double(counted[VOLUME_SLOT(c)]);
-            const double wanted = volumePhotonsPerPath * report.photonsPerPass;
-            thinning.keepProbability[c] = static_cast<float>(std::min(1.0, wanted / std::max(expected, 1.0)));
-            thinning.expectedPhotons += thinning.keepProbability[c] * expected + passesOverPilot * double(counted[c]);
-        }
-        return thinning;
+        const PhotonPassCount counted = stage.run(pilotPass, radii(0), volumeScale(0));
+        if (compilesCamera && camera) camera->compile(stage);
+        if (compilesCamera && meter) meter->compile(stage);
+        device.finish();
+        return expectPass(counted, report.photonsPerPass);
     }
+
+    // `untouched` bytes of the buffers are still to become resident: those of a CPU device are memory of this process.
+    void forecast(const BufferSizes& sizes, uint64_t untouched) {
+        report.forecast.deviceBytes = sumOf(sizes);
+        const uint64_t toCome = developBytes(flat, settings) + (device.info().isCpu ? untouched : 0);
+        report.forecast.hostPeakBytes = std::max(peakResidentBytes(), residentBytes() + toCome);
+    }
+
+    bool storesDepth() const { return compiledFeatures(flat, settings).depthLimit; }
 
     float volumeScale(unsigned pass) const { return static_cast<float>(settings.radiusScale * volumeShrink(pass)); }
 
@@ -234,7 +257,7 @@ struct Renderer::Stages {
     Device& device;
     RenderSettings settings;
     DeviceScene flat;
-    std::string options;
+    Program program;
     GeometryBuffers geometry;
     Film film;
     std::optional<PhotonStage> photons;     // this and one of the next two, or
@@ -251,6 +274,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     const auto start = Clock::now();
     DeviceScene flat = flatten(scene, settings);
     const double prepareSeconds = since(start);
+    checkFits(planScene(flat, settings), device.info(), flat, settings);
     stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat));
     stages_->counters.prepareSeconds = prepareSeconds;
     stages_->counters.compileSeconds = since(start) - prepareSeconds;

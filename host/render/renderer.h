@@ -16,6 +16,12 @@ namespace quasilux {
 
 class Device;
 
+/// Memory that the whole render takes at most, told before its first pass.
+struct MemoryForecast {
+    uint64_t deviceBytes = 0;
+    uint64_t hostPeakBytes = 0; ///< of the process; buffers of a CPU device included
+};
+
 /// What a scene needs and what was chosen for it: `quasilux info` prints it, statistics record it.
 struct SceneReport {
     size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
@@ -37,6 +43,7 @@ struct SceneReport {
     std::vector<MediumRow> media;
     std::vector<std::string> photonClasses; ///< stored
     std::map<std::string, uint64_t> bufferBytes;
+    MemoryForecast forecast;
     unsigned photonsPerPass = 0;
     std::map<std::string, double> initialRadius; ///< scene units, by photon class
     std::vector<std::string> warnings;           ///< DeviceScene::warnings

@@ -1,0 +1,103 @@
+#include "render/memory_plan.h"
+
+#include "render/adaptive_radius.h"
+#include "render/cell_index.h"
+#include "render/film.h"
+#include "render/meter_stage.h"
+#include "render/meter_sums.h"
+#include "render/method.h"
+#include "render/photon_stage.h"
+#include "util/error.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <vector>
+
+namespace quasilux {
+
+namespace {
+
+template <typename T>
+uint64_t bytesOf(const std::vector<T>& data) {
+    return std::max<uint64_t>(1, data.size()) * sizeof(T);
+}
+
+uint64_t pixelsOf(const DeviceScene& scene) { return uint64_t(scene.camera.width) * scene.camera.height; }
+
+std::string mebibytes(uint64_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024 * 1024)); }
+
+std::string advice(const DeviceScene& scene, const RenderSettings& settings) {
+    return fmt::format("use fewer --photons (now {}), a smaller film (now {} x {}), simpler meshes (now {} triangles), "
+                       "or a device with more memory",
+                       photonsPerPass(settings, scene.camera), scene.camera.width, scene.camera.height,
+                       scene.triangles);
+}
+
+/// The three largest, for the user to see what it is.
+std::string largest(const BufferSizes& sizes) {
+    std::vector<std::pair<uint64_t, std::string>> sorted;
+    for (const auto& [label, bytes] : sizes) sorted.emplace_back(bytes, label);
+    std::sort(sorted.rbegin(), sorted.rend());
+    std::string text;
+    for (size_t k = 0; k < std::min<size_t>(3, sorted.size()); ++k)
+        text += fmt::format("{}{} {}", k ? ", " : "", sorted[k].second, mebibytes(sorted[k].first));
+    return text;
+}
+
+} // namespace
+
+uint64_t sumOf(const BufferSizes& sizes) {
+    uint64_t sum = 0;
+    for (const auto& [label, bytes] : sizes) sum += bytes;
+    return sum;
+}
+
+BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings) {
+    return {{"tree nodes", bytesOf(scene.bvh.nodes)},
+            {"primitives", bytesOf(scene.bvh.blocks)},
+            {"scene tables", bytesOf(scene.tables)},
+            {"film", pixelsOf(scene) * Film::floatsPerPixel(estimatesBias(scene.features, settings)) * sizeof(float)},
+            {"camera counters", sizeof(shared::CameraCounters)}};
+}
+
+BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, const PhotonRoom& room,
+                     const DeviceInfo& device) {
+    BufferSizes sizes = planScene(scene, settings);
+    const unsigned classes = photonClasses(scene.features, settings);
+    const unsigned regions = PhotonStage::regionCount(photonsPerPass(settings, scene.camera));
+    sizes["photons as traced"] = uint64_t(regions) * room.ofRegion * sizeof(shared::Photon);
+    sizes["photon regions"] = regions * sizeof(shared::RegionCount);
+    sizes.merge(CellIndex::plan(classes, room.inMap, regions,
+                                PhotonStage::mapFields(compiledFeatures(scene, settings).depthLimit), "photon",
+                                device));
+    if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes));
+    if (const shared::Meter& meter = scene.offsets.meter; meter.kind != METER_NONE) {
+        sizes["meter"] = splatWords(classes) * pixelsOf(scene) * sizeof(uint32_t);
+        sizes["meter samples"] = MeterStage::sampleBytes(pixelsOf(scene) * meter.samples);
+    }
+    return sizes;
+}
+
+uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings) {
+    const bool bias = estimatesBias(scene.features, settings);
+    const uint64_t layers = 2 + FILM_COMPONENTS + LIGHT_CLASSES + (bias ? 2 + 2 * LIGHT_CLASSES : 0);
+    return pixelsOf(scene) * (Film::floatsPerPixel(bias) + 3 * layers) * sizeof(float);
+}
+
+void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
+               const RenderSettings& settings) {
+    for (const auto& [label, bytes] : sizes)
+        if (bytes > device.maximumAllocation)
+            throw InputError(
+                fmt::format("buffer '{}' needs {}, but device {} allows {} in one buffer, {} too little: {}", label,
+                            mebibytes(bytes), device.name, mebibytes(device.maximumAllocation),
+                            mebibytes(bytes - device.maximumAllocation), advice(scene, settings)));
+    const uint64_t sum = sumOf(sizes);
+    if (sum > device.globalMemory)
+        throw InputError(
+            fmt::format("the render needs {} of device memory, but device {} has {}, {} too little (largest: {}): {}",
+                        mebibytes(sum), device.name, mebibytes(device.globalMemory),
+                        mebibytes(sum - device.globalMemory), largest(sizes), advice(scene, settings)));
+}
+
+} // namespace quasilux

@@ -1,0 +1,39 @@
+// What a render will take of memory, before it takes it (docs/memory.md).
+#pragma once
+
+#include "device/device.h"
+#include "prepare/device_scene.h"
+#include "render/settings.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace quasilux {
+
+/// Bytes of device buffers by label, as Device::allocations() has them.
+using BufferSizes = std::map<std::string, uint64_t>;
+
+uint64_t sumOf(const BufferSizes& sizes);
+
+/// Room for the photons of a pass.
+struct PhotonRoom {
+    unsigned ofRegion = 0; ///< photons that one region may store
+    uint64_t inMap = 0;    ///< photons that the index may hold
+};
+
+/// Buffers that depend on the scene and the film alone.
+BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings);
+
+/// All buffers of a pass of --map photons.
+BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, const PhotonRoom& room,
+                     const DeviceInfo& device);
+
+/// Bytes on the host while the film is developed: its copy and the layers of the image.
+uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings);
+
+/// Throws InputError that says by how much the buffers exceed the device's memory, and what to do.
+void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
+               const RenderSettings& settings);
+
+} // namespace quasilux

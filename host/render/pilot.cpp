@@ -1,0 +1,42 @@
+#include "render/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quasilux {
+
+namespace {
+
+// Kept of a class, per photon emitted: those of one path tell much the same (docs/media.md).
+constexpr double volumePhotonsPerPath = 3;
+// Standard deviations of room: what does not fit is traced again, which takes time only.
+constexpr double spread = 4;
+
+/// Photons of `count` paths that leave `perPath` on average: path lengths vary as roulette makes them, geometrically.
+double upperBound(double perPath, double count) {
+    return perPath * count + spread * std::sqrt(count * perPath * (perPath + 1));
+}
+
+} // namespace
+
+PilotResult expectPass(const PhotonPassCount& counted, unsigned paths) {
+    PilotResult result;
+    const double traced = std::min(pilotPaths, paths), passesOverPilot = paths / traced;
+    double kept = 0, all = 0;
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
+        const auto inVolume = double(counted.stored[VOLUME_SLOT(c)]), onSurfaces = double(counted.stored[c]);
+        const double keep = std::min(1.0, volumePhotonsPerPath * paths / std::max(passesOverPilot * inVolume, 1.0));
+        result.keepProbability[c] = static_cast<float>(keep);
+        kept += keep * inVolume + onSurfaces;
+        all += inVolume + onSurfaces;
+    }
+    // The pilot itself may have met fewer than is usual.
+    const double perPath = upperBound(kept / traced, traced) / traced;
+    const double fullestRegion = all > 0 ? counted.fullestRegion * kept / all : 0;
+    const double perPathThere = std::max(perPath, fullestRegion / PhotonStage::pathsPerRegion);
+    result.room.ofRegion = static_cast<unsigned>(std::ceil(upperBound(perPathThere, PhotonStage::pathsPerRegion))) + 8;
+    result.room.inMap = static_cast<uint64_t>(std::ceil(upperBound(perPath, paths))) + 8;
+    return result;
+}
+
+} // namespace quasilux

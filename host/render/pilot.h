@@ -1,0 +1,22 @@
+// A few photons traced apart from all passes: how many a pass will store decides its buffers and how they are thinned.
+#pragma once
+
+#include "render/memory_plan.h"
+#include "render/photon_stage.h"
+
+namespace quasilux {
+
+/// What a pass is to expect.
+struct PilotResult {
+    /// Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
+    std::array<float, LIGHT_CLASSES> keepProbability{1, 1, 1, 1};
+    PhotonRoom room;
+};
+
+constexpr unsigned pilotPaths = 2048;
+constexpr unsigned pilotPass = UINT32_MAX; // no render gets there
+
+/// From the count of `pilotPaths` photons, or of all where a pass has fewer, to a pass of `paths`.
+PilotResult expectPass(const PhotonPassCount& counted, unsigned paths);
+
+} // namespace quasilux

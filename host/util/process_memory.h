@@ -1,0 +1,14 @@
+// Memory of this process, as the operating system counts it.
+#pragma once
+
+#include <cstdint>
+
+namespace quasilux {
+
+/// Bytes in physical memory now; 0 where the system does not tell.
+uint64_t residentBytes();
+
+/// The most that ever were.
+uint64_t peakResidentBytes();
+
+} // namespace quasilux

@@ -1,0 +1,117 @@
+// Memory is told before it is taken, of the device and of the process, and a render that does not fit does not start.
+#include "support/program_runner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace quasilux {
+namespace {
+
+using testing::HasSubstr;
+using Arguments = std::vector<std::string>;
+
+/// Share by which a forecast may miss.
+constexpr double tolerance = 0.1;
+
+struct Case {
+    std::string name;
+    Arguments arguments; ///< the scene, and options
+};
+
+std::string scene(const char* name) { return std::string(QUASILUX_SOURCE_DIR "/scenes/") + name; }
+
+/// Film, photons and what the process is without them each dominate in one of them.
+std::vector<Case> cases() {
+    return {{"film", {scene("cornell_phong.xml"), "-D", "resolution=640", "--photons", "50000"}},
+            {"photons", {scene("cornell_phong.xml"), "-D", "resolution=64", "--photons", "2000000"}},
+            {"media", {scene("fog_caustic.xml")}},
+            {"camera map", {scene("cornell_phong.xml"), "--map", "camera", "-D", "resolution=384"}}};
+}
+
+struct Bytes {
+    double device = 0, host = 0;
+};
+
+class MemoryTest : public CommandLineTest {
+protected:
+    nlohmann::json runJson(Arguments arguments, const std::string& command) const {
+        arguments.insert(arguments.begin(), command);
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+        return nlohmann::json::parse(outcome.output, nullptr, false);
+    }
+
+    Bytes forecast(Arguments arguments) const {
+        arguments.insert(arguments.end(), {"--json", "--quiet"});
+        const auto report = runJson(arguments, "info").at("sceneReport").at("forecast");
+        return {report.at("deviceBytes"), report.at("hostPeakBytes")};
+    }
+
+    Bytes taken(Arguments arguments) const {
+        arguments.insert(arguments.end(), {"--json", "--quiet", "--passes", "3", "--stats", "stats.json"});
+        runJson(arguments, "render");
+        const auto statistics = nlohmann::json::parse(readText(folder / "stats.json"), nullptr, false);
+        double buffers = 0;
+        for (const auto& [label, bytes] : statistics.at("sceneReport").at("bufferBytes").items())
+            buffers += bytes.get<double>();
+        EXPECT_EQ(buffers, statistics.at("peakBufferBytes").get<double>());
+        return {buffers, statistics.at("peakHostBytes")};
+    }
+};
+
+bool isClose(double told, double taken) { return std::abs(told - taken) <= tolerance * taken; }
+
+TEST_F(MemoryTest, IsToldBeforeItIsTaken) {
+    for (const auto& [name, arguments] : cases()) {
+        SCOPED_TRACE(name);
+        taken(arguments); // kernels come from the runtime's cache from now on: compiling them takes memory, too
+        const Bytes told = forecast(arguments), real = taken(arguments);
+        EXPECT_TRUE(isClose(told.device, real.device)) << told.device << " told, taken " << real.device;
+        EXPECT_TRUE(isClose(told.host, real.host)) << told.host << " told, taken " << real.host;
+    }
+}
+
+// Negative control: the forecast of a film, or of photons, that differ by a fifth is told from the right one.
+TEST_F(MemoryTest, OfAnotherRenderDiffers) {
+    const Bytes film = taken(cases()[0].arguments), photons = taken(cases()[1].arguments);
+    const Bytes smaller = forecast({scene("cornell_phong.xml"), "-D", "resolution=540", "--photons", "50000"});
+    const Bytes fewer = forecast({scene("cornell_phong.xml"), "-D", "resolution=64", "--photons", "1500000"});
+    EXPECT_FALSE(isClose(smaller.device, film.device));
+    EXPECT_FALSE(isClose(smaller.host, film.host));
+    EXPECT_FALSE(isClose(fewer.device, photons.device));
+}
+
+// A render that just fits runs; with a byte less it ends before it starts, and says what it lacks.
+TEST_F(MemoryTest, RenderThatDoesNotFitDoesNotStart) {
+    const Arguments arguments{scene("cornell_phong.xml"), "-D", "resolution=64"};
+    const auto needed = static_cast<uint64_t>(forecast(arguments).device);
+    const auto within = [&](uint64_t bytes) {
+        Arguments all = arguments;
+        all.insert(all.end(), {"--passes", "1", "-o", "limited.exr", "--device-memory", std::to_string(bytes)});
+        return all;
+    };
+    Arguments fitting = within(needed);
+    fitting.insert(fitting.begin(), "render");
+    EXPECT_EQ(run(fitting).exitCode, 0);
+    std::filesystem::remove(folder / "limited.exr");
+
+    Arguments tight = within(needed - (1u << 20));
+    tight.insert(tight.begin(), "render");
+    expectRefused(tight, "1.0 MiB too little");
+    expectRefused(tight, "use fewer --photons (now 24576), a smaller film (now 64 x 64)");
+    Arguments tiny = within(1000); // less than the scene alone: nothing is compiled for it
+    tiny.insert(tiny.begin(), "render");
+    expectRefused(tiny, "in one buffer");
+    Arguments points = within(1u << 20);
+    points.insert(points.begin(), "render");
+    points.insert(points.end(), {"--map", "camera"});
+    expectRefused(points, "too little");
+}
+
+} // namespace
+} // namespace quasilux
