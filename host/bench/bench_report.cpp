@@ -57,6 +57,7 @@ json runJson(const BenchReport& report, const BenchRun& run) {
               {"compile", run.counters.compileSeconds},
               {"firstPass", run.counters.firstPassSeconds}}},
             {"peakBufferBytes", run.peakBufferBytes},
+            {"joules", run.joules ? json(*run.joules) : json()},
             {"differenceToFirstDevice", difference ? json{{"mean", difference->mean},
                                                           {"meanStandardError", difference->meanStandardError},
                                                           {"beyondThreeStandardErrors", difference->beyondThree}}
@@ -161,10 +162,12 @@ json benchJson(const BenchReport& report) {
     for (const BenchRun& run : report.runs) runs.push_back(runJson(report, run));
     for (const auto& [scene, reference] : report.references)
         references[scene] = {{"file", reference.image.path}, {"noise", reference.noise}};
-    return {{"version", QUASILUX_VERSION},       {"secondsPerRun", report.seconds},
-            {"interrupted", report.interrupted}, {"loadBefore", report.loadBefore},
-            {"loadAfter", report.loadAfter},     {"devices", devices},
-            {"references", references},          {"runs", runs}};
+    json all{{"version", QUASILUX_VERSION},       {"secondsPerRun", report.seconds},
+             {"interrupted", report.interrupted}, {"loadBefore", report.loadBefore},
+             {"loadAfter", report.loadAfter},     {"devices", devices},
+             {"references", references},          {"runs", runs}};
+    for (const BenchSection& section : report.sections) all[section.key] = section.figures;
+    return all;
 }
 
 } // namespace quasilux

@@ -2,6 +2,7 @@
 #include "cli/bench_command.h"
 
 #include "bench/bench_report.h"
+#include "cli/bench_parts.h"
 #include "cli/interrupt.h"
 #include "cli/option_checks.h"
 #include "cli/text_table.h"
@@ -24,6 +25,7 @@ std::array<double, 3> loadAverage() {
 }
 
 std::vector<BenchMethod> chooseMethods(const BenchOptions& options) {
+    if (options.methods.empty() && options.hasParts()) return {};
     if (options.methods.empty()) return defaultBenchMethods();
     std::vector<BenchMethod> methods;
     for (const auto& text : options.methods) methods.push_back(parseBenchMethod(text));
@@ -94,6 +96,9 @@ void printTables(const BenchReport& report) {
         fmt::print("{}\n", tableText(stageRows(report, scene)));
         fmt::print("{}\n", tableText(deviceRows(report, scene)));
     }
+    for (const BenchSection& section : report.sections)
+        for (const BenchTable& table : section.tables)
+            fmt::print("{}: {}\n{}{}\n\n", section.title, table.title, tableText(table.rows), table.note);
 }
 
 } // namespace
@@ -102,6 +107,7 @@ int benchCommand(const BenchOptions& options) {
     exitOnInterrupt();
     if (!options.output.empty()) checkOutputPath(options.output, "--output", ".json");
     if (!options.html.empty()) checkOutputPath(options.html, "--html", ".html");
+    checkParts(options);
     const auto methods = chooseMethods(options);
     const auto scenes = loadScenes(options);
     BenchReport report;
@@ -111,9 +117,10 @@ int benchCommand(const BenchOptions& options) {
     for (const int device : devices) report.devices.push_back(Device(device).info());
     report.loadBefore = loadAverage();
     runAll(options, scenes, methods, devices, report);
+    runParts(options, scenes, devices, report.sections);
     report.loadAfter = loadAverage();
     report.interrupted = interruptFlag();
-    if (report.runs.empty()) return 130;
+    if (report.runs.empty() && report.sections.empty()) return 130;
 
     if (!options.output.empty()) writeJson(options.output, benchJson(report));
     if (!options.html.empty()) writeText(options.html, benchPage(report));
