@@ -86,7 +86,8 @@ std::string rateText(double perSecond) { return perSecond > 0 ? fmt::format("{:.
 } // namespace
 
 bool SamePassDifference::isWithin() const {
-    return std::abs(mean) <= meanTolerance && (rms == 0 || ofNoise <= noiseTolerance);
+    // Equal images may be black, without a mean or noise to compare with.
+    return rms == 0 || (std::abs(mean) <= meanTolerance && ofNoise <= noiseTolerance);
 }
 
 std::vector<DeviceResult> compareDevices(const PartScene& scene, const std::vector<int>& devices, double seconds,

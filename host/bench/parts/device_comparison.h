@@ -14,7 +14,7 @@ struct SamePassDifference {
     double rms = 0;     ///< relative, the root of relMSE
     double ofNoise = 0; ///< rms over that of the noise of one image
 
-    static constexpr double meanTolerance = 1e-3, noiseTolerance = 0.3;
+    static constexpr double meanTolerance = 1e-3, noiseTolerance = 0.1;
     bool isWithin() const;
 };
 
