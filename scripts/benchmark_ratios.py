@@ -74,28 +74,19 @@ def growth_ratios(part):
                 law["exponent"], law["standardError"])
 
 
-def micro_ratios(found, path="micro"):
-    """Whatever is called a ratio, by where it stands."""
-    if isinstance(found, dict):
-        name = next((found[key] for key in ("name", "what", "scene") if isinstance(found.get(key), str)), None)
-        here = f"{path}, {name}" if name else path
-        for key, value in found.items():
-            if "ratio" in key.lower() and isinstance(value, (int, float)):
-                yield f"{here}, {key}", ratio(value, 0)
-            else:
-                yield from micro_ratios(value, here if isinstance(value, list) else f"{here}, {key}")
-    elif isinstance(found, list):
-        for k, value in enumerate(found):
-            yield from micro_ratios(value, f"{path} {k}")
+def micro_ratios(part):
+    """Of single stages to native code; the best of several turns, so the spread is not known."""
+    for row in (part.get("micro") or {}).get("rows", []):
+        for name, value in row["ratios"].items():
+            yield f"micro, {row['part']}, {row['case']}, {name}, threads: {row['threads']}", ratio(value, 0)
 
 
 def ratios_of(parts):
     """By a name that says what is divided, on which scene and platform."""
     found = {}
     for part in parts.values():
-        for collect in (error_ratios, kernel_ratios, thread_ratios, device_ratios, growth_ratios):
+        for collect in (error_ratios, kernel_ratios, thread_ratios, device_ratios, growth_ratios, micro_ratios):
             found.update(collect(part))
-        found.update(micro_ratios(part.get("micro")))
     return found
 
 

@@ -97,6 +97,7 @@ public:
 
 private:
     void say(const std::string& step) {
+        catchInterrupt();
         Progress progress;
         progress.phase = step;
         line_.update(progress);
@@ -107,7 +108,6 @@ private:
         for (const PartScene& scene : scenes_)
             for (size_t place = 0; place < devices_.size(); ++place) {
                 if (interruptFlag()) return;
-                catchInterrupt();
                 say(fmt::format("{}: {}, device {}", what, scene.path, place));
                 measure(scene, place);
             }
@@ -136,11 +136,20 @@ void runParts(const BenchOptions& options, const std::vector<Scene>& scenes, con
     Parts parts(options, scenes, devices);
     const bool growsOnItsOwn = std::any_of(options.growth.begin(), options.growth.end(),
                                            [](const std::string& subject) { return subject != "threads"; });
-    if (options.passTimes) sections.push_back(parts.passTimes());
-    if (growsOnItsOwn) sections.push_back(parts.growth());
-    if (isAskedFor(options, "threads")) sections.push_back(parts.threads());
-    if (options.compareDevices) sections.push_back(parts.devices());
-    if (options.compareKernels) sections.push_back(parts.kernels());
+    // Ctrl-C meets the children of a part too: then it has failed, and what the others measured is reported.
+    const auto add = [&](bool isWanted, BenchSection (Parts::*measure)()) {
+        if (!isWanted || interruptFlag()) return;
+        try {
+            sections.push_back((parts.*measure)());
+        } catch (const std::exception&) {
+            if (!interruptFlag()) throw;
+        }
+    };
+    add(options.passTimes, &Parts::passTimes);
+    add(growsOnItsOwn, &Parts::growth);
+    add(isAskedFor(options, "threads"), &Parts::threads);
+    add(options.compareDevices, &Parts::devices);
+    add(options.compareKernels, &Parts::kernels);
 }
 
 } // namespace quasilux
