@@ -65,7 +65,7 @@ TEST(Growth, ReportsWhereASeriesStopped) {
     for (const double size : {1.0, 10.0, 100.0}) {
         PassMeasurement measured;
         measured.least.cpu = measured.least.clock = 0.1 * size;
-        measured.least.kernels = {{"tracePhotons", 0.05 * size * size}, {"tiny", 1e-9}};
+        measured.least.kernelCosts = {{"tracePhotons", 0.05 * size * size}, {"tiny", 1e-9}};
         measured.bufferBytes = 1000;
         series.points.push_back({size, measured});
     }

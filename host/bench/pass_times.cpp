@@ -42,8 +42,21 @@ PassTimes TimedRenderer::pass(unsigned number) {
         if (timing.seconds > before) times.kernels[kernel] = timing.seconds - before;
         before = timing.seconds;
     }
+    const double share = times.cost(device_.info().isCpu) / times.clock;
+    for (const auto& [kernel, seconds] : times.kernels) times.kernelCosts[kernel] = share * seconds;
     return times;
 }
+
+namespace {
+
+void takeLeast(std::map<std::string, double>& least, const std::map<std::string, double>& others) {
+    for (const auto& [kernel, seconds] : others) {
+        const auto [known, isNew] = least.try_emplace(kernel, seconds);
+        if (!isNew) known->second = std::min(known->second, seconds);
+    }
+}
+
+} // namespace
 
 PassTimes leastOf(const std::vector<PassTimes>& passes) {
     PassTimes least = passes.front();
@@ -51,10 +64,8 @@ PassTimes leastOf(const std::vector<PassTimes>& passes) {
         least.clock = std::min(least.clock, pass.clock);
         least.cpu = std::min(least.cpu, pass.cpu);
         if (pass.joules) least.joules = std::min(least.joules.value_or(*pass.joules), *pass.joules);
-        for (const auto& [kernel, seconds] : pass.kernels) {
-            const auto [known, isNew] = least.kernels.try_emplace(kernel, seconds);
-            if (!isNew) known->second = std::min(known->second, seconds);
-        }
+        takeLeast(least.kernels, pass.kernels);
+        takeLeast(least.kernelCosts, pass.kernelCosts);
     }
     return least;
 }
@@ -91,6 +102,7 @@ json passMeasurementJson(const PassMeasurement& measured) {
             {"clock", least.clock},
             {"cpu", least.cpu},
             {"kernels", least.kernels},
+            {"kernelCosts", least.kernelCosts},
             {"joules", least.joules ? json(*least.joules) : json()},
             {"bufferBytes", measured.bufferBytes},
             {"triangles", measured.triangles},
@@ -106,6 +118,7 @@ PassMeasurement passMeasurementFromJson(const json& from) {
     measured.least.clock = from.at("clock");
     measured.least.cpu = from.at("cpu");
     measured.least.kernels = from.at("kernels").get<std::map<std::string, double>>();
+    measured.least.kernelCosts = from.at("kernelCosts").get<std::map<std::string, double>>();
     if (!from.at("joules").is_null()) measured.least.joules = from.at("joules").get<double>();
     measured.bufferBytes = from.at("bufferBytes");
     measured.triangles = from.at("triangles");

@@ -14,8 +14,9 @@ namespace quasilux {
 struct PassTimes {
     double clock = 0;
     double cpu = 0; ///< of this process: on a CPU device, what other programs on the machine do not change
-    std::map<std::string, double> kernels; ///< by the runtime's profiling counters
-    std::optional<double> joules;          ///< that the device reports
+    std::map<std::string, double> kernels;     ///< on the clock, by the runtime's profiling counters
+    std::map<std::string, double> kernelCosts; ///< of a CPU device their shares of `cpu`, else `kernels`
+    std::optional<double> joules;              ///< that the device reports
 
     /// What counts where other programs may run: CPU seconds of a CPU device, else those on the clock.
     double cost(bool isCpu) const { return isCpu ? cpu : clock; }

@@ -121,8 +121,8 @@ BenchSection deviceSection(const std::vector<DeviceResult>& all) {
                                 "compile, cold", "compile, warm", "J a pass", "image against the first device"}};
     for (const DeviceResult& one : all) {
         const PassTimes& least = one.warm.least;
-        const double photons = rate(one.warm.photons, least.kernels, "tracePhotons");
-        const double paths = rate(one.warm.cameraPaths, least.kernels, "traceCameraPaths");
+        const double photons = rate(one.warm.photons, least.kernelCosts, "tracePhotons");
+        const double paths = rate(one.warm.cameraPaths, least.kernelCosts, "traceCameraPaths");
         rows.push_back({one.scene, std::to_string(one.device), fmt::format("{:.1f}", 1e3 * least.clock),
                         fmt::format("{:.1f}", 1e3 * least.cpu), rateText(photons), rateText(paths),
                         fmt::format("{:.2f} s", one.cold.compiling()), fmt::format("{:.2f} s", one.warm.compiling()),
@@ -140,11 +140,12 @@ BenchSection deviceSection(const std::vector<DeviceResult>& all) {
     }
     section.tables.push_back(
         {"the same work on each device", "", rows,
-         fmt::format("Rates: of the kernels that trace photons and camera paths, by their own counters, the least of "
-                     "several passes. "
-                     "Images: {} passes of the same numbers; within is a mean to {:g} % and a distance below {:g} of "
-                     "the noise.",
-                     comparedPasses, 100 * SamePassDifference::meanTolerance, SamePassDifference::noiseTolerance)});
+         fmt::format(
+             "Rates: of the kernels that trace photons and camera paths, of CPU devices by CPU second; the least of "
+             "several passes. "
+             "Images: {} passes of the same numbers; within is a mean to {:g} % and a distance below {:g} of "
+             "the noise.",
+             comparedPasses, 100 * SamePassDifference::meanTolerance, SamePassDifference::noiseTolerance)});
     return section;
 }
 

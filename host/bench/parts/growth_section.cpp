@@ -21,15 +21,15 @@ using Points = std::vector<std::pair<double, double>>;
 std::vector<std::pair<std::string, Points>> costsOf(const GrowthSeries& series) {
     std::set<std::string> kernels;
     for (const auto& point : series.points)
-        for (const auto& [kernel, seconds] : point.measured.least.kernels)
-            if (seconds > smallestShare * point.measured.least.clock) kernels.insert(kernel);
+        for (const auto& [kernel, seconds] : point.measured.least.kernelCosts)
+            if (seconds > smallestShare * point.measured.least.cost(series.isCpu)) kernels.insert(kernel);
     std::vector<std::pair<std::string, Points>> costs{{"pass", {}}};
     for (const std::string& kernel : kernels) costs.push_back({kernel, {}});
     for (auto& [name, points] : costs)
         for (const auto& point : series.points) {
             const PassTimes& least = point.measured.least;
             if (name == "pass") points.emplace_back(point.size, least.cost(series.isCpu));
-            if (const auto found = least.kernels.find(name); found != least.kernels.end())
+            if (const auto found = least.kernelCosts.find(name); found != least.kernelCosts.end())
                 points.emplace_back(point.size, found->second);
         }
     Points preparing, bytes;
@@ -101,8 +101,9 @@ BenchSection growthSection(const std::vector<GrowthSeries>& all) {
     BenchSection section{"growth", "Growth", json::array(), {}};
     for (const GrowthSeries& series : all) {
         section.figures.push_back(seriesJson(series));
-        std::string note = fmt::format("Pass: {}, kernels by their own counters; the least of several passes.",
-                                       series.isCpu ? "CPU seconds" : "seconds on the clock");
+        std::string note =
+            fmt::format("{}; of kernels by their shares of it, by their own counters. The least of several passes.",
+                        series.isCpu ? "CPU time" : "Time on the clock");
         if (!series.stopped.empty()) note += " Stopped at " + series.stopped;
         section.tables.push_back({fmt::format("{}, device {}", axisTitle(series.subject), series.device),
                                   plotOf(series), rowsOf(series), note});

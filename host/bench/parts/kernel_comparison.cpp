@@ -38,12 +38,13 @@ std::string ratioText(const PairedRatio& ratio) {
     return fmt::format("{:.2f} +- {:.2f}", ratio.ratio, ratio.standardError);
 }
 
-std::map<std::string, PairedRatio> kernelRatios(const Side& specialised, const Side& generic) {
+std::map<std::string, PairedRatio> kernelRatios(const Side& specialised, const Side& generic, bool isCpu) {
     std::map<std::string, std::vector<double>> ratios;
     for (size_t k = 0; k < specialised.passes.size(); ++k)
-        for (const auto& [kernel, seconds] : specialised.passes[k].kernels) {
-            const auto other = generic.passes[k].kernels.find(kernel);
-            if (other == generic.passes[k].kernels.end() || seconds < smallestShare * specialised.passes[k].clock)
+        for (const auto& [kernel, seconds] : specialised.passes[k].kernelCosts) {
+            const auto other = generic.passes[k].kernelCosts.find(kernel);
+            if (other == generic.passes[k].kernelCosts.end() ||
+                seconds < smallestShare * specialised.passes[k].cost(isCpu))
                 continue;
             ratios[kernel].push_back(other->second / seconds);
         }
@@ -71,7 +72,7 @@ KernelComparison compareKernels(const PartScene& scene, int device, double secon
     }
     result.pairs = ratios.size();
     result.pass = medianRatio(ratios);
-    result.kernels = kernelRatios(specialised, generic);
+    result.kernels = kernelRatios(specialised, generic, result.isCpu);
     result.specialised = specialised.result();
     result.generic = generic.result();
     return result;
@@ -104,7 +105,7 @@ BenchSection kernelSection(const std::vector<KernelComparison>& all) {
     section.tables.push_back(
         {"generic over specialised, median of pairs", "", rows,
          "Above 1 specialised kernels are faster. Pass: CPU seconds of a CPU device, else those on the "
-         "clock; kernels by their own counters. Passes of both by turns."});
+         "clock; kernels by their shares of it. Passes of both by turns."});
     return section;
 }
 
