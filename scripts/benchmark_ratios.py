@@ -51,8 +51,11 @@ def kernel_ratios(part):
 
 
 def thread_ratios(part):
+    """Where other programs took a tenth of the cores or more, the speed-up is theirs, and left out."""
     for one in part.get("threads", []):
         for point in one["points"][1:]:
+            if point["pass"]["cpu"] < 0.9 * point["threads"] * point["pass"]["clock"]:
+                continue
             yield f"{point['threads']} threads / 1, {one['scene']}, {platform(part, one['device'])}", ratio(
                 point["speedUp"]["pass"], point["rounds"]["standardError"])
 
