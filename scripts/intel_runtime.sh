@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs Intel's OpenCL runtime for CPUs from PyPI below build/, as a second OpenCL device, and prints the environment that
-# makes it visible beside the devices that are there already:
+# Installs Intel's OpenCL runtime for CPUs from PyPI below build/, as a second OpenCL device, and prints the
+# environment that makes it visible beside the devices that are there already:
 #     eval "$(bash scripts/intel_runtime.sh)"
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -25,8 +25,8 @@ public:
         enqueue(count, device_->workGroupSize());
     }
 
-    /// The same for work-items that are long, such as a region of paths: on a CPU each is a group of its own, since a group runs
-    /// on one core and a few large ones leave the others idle at the end.
+    /// The same for work-items that are long, such as a region of paths: on a CPU each is a group of its own, since a
+    /// group runs on one core and a few large ones leave the others idle at the end.
     template <typename... Args>
     void launchLong(size_t count, const Args&... args) {
         cl_uint index = 0;
