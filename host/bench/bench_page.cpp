@@ -65,6 +65,15 @@ std::string deviceList(const BenchReport& report) {
     return htmlTable(rows);
 }
 
+std::string sectionText(const BenchSection& section) {
+    std::string out = fmt::format("<h2>{}</h2>\n", htmlEscaped(section.title));
+    for (const BenchTable& table : section.tables) {
+        out += fmt::format("<h3>{}</h3>\n", htmlEscaped(table.title)) + table.plot + htmlTable(table.rows);
+        if (!table.note.empty()) out += fmt::format("<p>{}</p>\n", htmlEscaped(table.note));
+    }
+    return out;
+}
+
 } // namespace
 
 std::string benchPage(const BenchReport& report) {
@@ -82,6 +91,7 @@ std::string benchPage(const BenchReport& report) {
         out += "<h3>Devices</h3>\n" + htmlTable(deviceRows(report, scene));
     }
     if (report.micro) out += microSection(*report.micro);
+    for (const BenchSection& section : report.sections) out += sectionText(section);
     return out + "</body></html>\n";
 }
 

@@ -58,6 +58,7 @@ json runJson(const BenchReport& report, const BenchRun& run) {
               {"firstPass", run.counters.firstPassSeconds}}},
             {"peakBufferBytes", run.peakBufferBytes},
             {"peakHostBytes", run.peakHostBytes},
+            {"joules", run.joules ? json(*run.joules) : json()},
             {"differenceToFirstDevice", difference ? json{{"mean", difference->mean},
                                                           {"meanStandardError", difference->meanStandardError},
                                                           {"beyondThreeStandardErrors", difference->beyondThree}}
@@ -162,15 +163,13 @@ json benchJson(const BenchReport& report) {
     for (const BenchRun& run : report.runs) runs.push_back(runJson(report, run));
     for (const auto& [scene, reference] : report.references)
         references[scene] = {{"file", reference.image.path}, {"noise", reference.noise}};
-    return {{"version", QUASILUX_VERSION},
-            {"secondsPerRun", report.seconds},
-            {"interrupted", report.interrupted},
-            {"loadBefore", report.loadBefore},
-            {"loadAfter", report.loadAfter},
-            {"devices", devices},
-            {"references", references},
-            {"runs", runs},
-            {"micro", report.micro ? microJson(*report.micro) : json()}};
+    json all{{"version", QUASILUX_VERSION},       {"secondsPerRun", report.seconds},
+             {"interrupted", report.interrupted}, {"loadBefore", report.loadBefore},
+             {"loadAfter", report.loadAfter},     {"devices", devices},
+             {"references", references},          {"runs", runs}};
+    all["micro"] = report.micro ? microJson(*report.micro) : json();
+    for (const BenchSection& section : report.sections) all[section.key] = section.figures;
+    return all;
 }
 
 } // namespace quasilux

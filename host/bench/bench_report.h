@@ -2,11 +2,10 @@
 #pragma once
 
 #include "bench/bench_run.h"
+#include "bench/bench_section.h"
 #include "bench/micro/micro_report.h"
-#include "compare/html_parts.h"
 
 #include <map>
-#include <nlohmann/json.hpp>
 
 namespace quasilux {
 
@@ -14,6 +13,7 @@ struct BenchReport {
     std::vector<DeviceInfo> devices;                  ///< in the order asked for; BenchRun::device counts along it
     std::map<std::string, BenchReference> references; ///< by scene, where given
     std::vector<BenchRun> runs;                       ///< by scene, then method, then device
+    std::vector<BenchSection> sections;               ///< of the parts that were asked for besides
     std::array<double, 3> loadBefore{}, loadAfter{};  ///< of the machine, runnable processes: 1, 5, 15 minutes
     double seconds = 0;                               ///< of each run
     std::optional<MicroReport> micro;                 ///< where asked for

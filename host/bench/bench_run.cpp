@@ -1,11 +1,11 @@
 #include "bench/bench_run.h"
 
+#include "bench/pass_times.h"
+#include "bench/power_law.h"
 #include "compare/measures.h"
 #include "util/process_memory.h"
 
-#include <chrono>
 #include <cmath>
-#include <sys/resource.h>
 
 namespace quasilux {
 
@@ -13,17 +13,6 @@ namespace {
 
 constexpr unsigned firstPoint = 4;    // passes before an error estimate means anything
 constexpr unsigned firstOfSlope = 16; // before it the first radii weigh too much
-
-double clockSeconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double processSeconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 double relMseOf(const FilmImage& image, const BenchReference& reference) {
     CompareSettings settings;
@@ -56,8 +45,8 @@ BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, d
     run.method = method.name;
     run.settings = settingsFromScene(scene);
     method.apply(run.settings);
-    Device opened(device);
-    Renderer renderer(opened, scene, run.settings);
+    TimedRenderer timed(device, scene, run.settings);
+    Renderer& renderer = timed.renderer();
     double clock = 0, cpu = 0;
     unsigned passes = 0, next = firstPoint;
     const auto addPoint = [&] {
@@ -67,11 +56,10 @@ BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, d
         run.points.push_back(point);
     };
     while (passes == 0 || (clock < seconds && !interrupted)) {
-        const double clockBefore = clockSeconds(), cpuBefore = processSeconds();
-        renderer.renderPass(passes++);
-        opened.finish();
-        clock += clockSeconds() - clockBefore;
-        cpu += processSeconds() - cpuBefore;
+        const PassTimes times = timed.pass(passes++);
+        clock += times.clock;
+        cpu += times.cpu;
+        if (times.joules) run.joules = run.joules.value_or(0) + *times.joules;
         onProgress(passes, clock);
         if (passes != next) continue;
         addPoint();
@@ -79,26 +67,18 @@ BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, d
     }
     if (run.points.empty() || run.points.back().passes != passes) addPoint();
     run.counters = renderer.counters();
-    run.kernels = opened.timings();
-    run.peakBufferBytes = opened.allocatedBytes();
+    run.kernels = timed.device().timings();
+    run.peakBufferBytes = timed.device().allocatedBytes();
     run.peakHostBytes = peakResidentBytes();
     return run;
 }
 
 std::optional<double> convergenceSlope(const BenchRun& run) {
-    double n = 0, sumX = 0, sumY = 0, sumXX = 0, sumXY = 0;
-    for (const BenchPoint& point : run.points) {
-        if (point.passes < firstOfSlope || !isKnown(errorOf(point))) continue;
-        const double x = std::log(point.seconds), y = std::log(errorOf(point));
-        n += 1;
-        sumX += x;
-        sumY += y;
-        sumXX += x * x;
-        sumXY += x * y;
-    }
-    const double spread = n * sumXX - sumX * sumX;
-    if (n < 3 || !(spread > 0)) return std::nullopt;
-    return (n * sumXY - sumX * sumY) / spread;
+    std::vector<std::pair<double, double>> points;
+    for (const BenchPoint& point : run.points)
+        if (point.passes >= firstOfSlope) points.emplace_back(point.seconds, errorOf(point));
+    const auto law = fitPowerLaw(points);
+    return law ? std::optional(law->exponent) : std::nullopt;
 }
 
 std::optional<TimeToError> timeToError(const BenchRun& run, double relativeError) {

@@ -29,6 +29,7 @@ struct BenchRun {
     std::vector<BenchPoint> points; ///< passes 4, 8, 16, … and the last one
     RenderCounters counters;
     std::map<std::string, KernelTiming> kernels;
+    std::optional<double> joules; ///< of all passes, where the device reports them
     uint64_t peakBufferBytes = 0;
     uint64_t peakHostBytes = 0; ///< of the process, runs before this one included
     FilmImage image;

@@ -3,6 +3,7 @@
 
 #include "bench/bench_report.h"
 #include "bench/micro/micro_bench.h"
+#include "cli/bench_parts.h"
 #include "cli/interrupt.h"
 #include "cli/option_checks.h"
 #include "cli/text_table.h"
@@ -25,6 +26,7 @@ std::array<double, 3> loadAverage() {
 }
 
 std::vector<BenchMethod> chooseMethods(const BenchOptions& options) {
+    if (options.methods.empty() && options.hasParts()) return {};
     if (options.methods.empty()) return defaultBenchMethods();
     std::vector<BenchMethod> methods;
     for (const auto& text : options.methods) methods.push_back(parseBenchMethod(text));
@@ -109,6 +111,9 @@ void printTables(const BenchReport& report) {
         fmt::print("{}\n", tableText(stageRows(report, scene)));
         fmt::print("{}\n", tableText(deviceRows(report, scene)));
     }
+    for (const BenchSection& section : report.sections)
+        for (const BenchTable& table : section.tables)
+            fmt::print("{}: {}\n{}{}\n\n", section.title, table.title, tableText(table.rows), table.note);
     if (!report.micro) return;
     for (const std::string& part : partsOf(*report.micro))
         fmt::print("{}\n", tableText(microTable(*report.micro, part)));
@@ -120,8 +125,7 @@ int benchCommand(const BenchOptions& options) {
     exitOnInterrupt();
     if (!options.output.empty()) checkOutputPath(options.output, "--output", ".json");
     if (!options.html.empty()) checkOutputPath(options.html, "--html", ".html");
-    if (options.scenes.empty() && !options.micro)
-        throw InputError("nothing to measure: expected scene files, or --micro; see `quasilux bench --help`");
+    checkParts(options);
     const auto microNames = options.micro ? parseMicroParts(*options.micro) : std::vector<std::string>{};
     const auto methods = chooseMethods(options);
     const auto scenes = loadScenes(options);
@@ -132,10 +136,11 @@ int benchCommand(const BenchOptions& options) {
     for (const int device : devices) report.devices.push_back(Device(device).info());
     report.loadBefore = loadAverage();
     runAll(options, scenes, methods, devices, report);
+    runParts(options, scenes, devices, report.sections);
     if (options.micro && !interruptFlag()) runMicroParts(options, microNames, report);
     report.loadAfter = loadAverage();
     report.interrupted = interruptFlag();
-    if (report.runs.empty() && (!report.micro || report.micro->rows.empty())) return 130;
+    if (report.runs.empty() && report.sections.empty() && (!report.micro || report.micro->rows.empty())) return 130;
 
     if (!options.output.empty()) writeJson(options.output, benchJson(report));
     if (!options.html.empty()) writeText(options.html, benchPage(report));

@@ -5,9 +5,47 @@
 
 namespace quasilux {
 
+namespace {
+
+/// Where one of these is given, error over time is measured only if --method is given too.
+void declareParts(CLI::App& command, BenchOptions& options) {
+    const char* group = "Parts (besides error over time, which needs --method then)";
+    command
+        .add_option("--growth", options.growth,
+                    "How the cost of a pass grows: triangles, photons, pixels, bdd, of a scene made in code, and "
+                    "threads, of each SCENE; several with commas between")
+        ->type_name("LIST")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(oneOf({"triangles", "photons", "pixels", "bdd", "threads"}))
+        ->group(group);
+    command
+        .add_option("--growth-steps", options.growthSteps,
+                    "Sizes measured of each, from the least one on, a count (default: all)")
+        ->type_name("N")
+        ->check(wholeNumber(1, 100))
+        ->group(group);
+    command
+        .add_flag("--compare-devices", options.compareDevices,
+                  "The same work on each --device: rates, compile times cold and warm, energy, difference of images")
+        ->group(group);
+    command
+        .add_flag("--compare-kernels", options.compareKernels,
+                  "Kernels compiled for each SCENE against generic ones, pass by pass in turns")
+        ->group(group);
+    command
+        .add_flag("--pass-times", options.passTimes,
+                  "One pass of each SCENE again and again: the least time, by kernel")
+        ->group(group);
+}
+
+} // namespace
+
 void declareBench(CLI::App& app, BenchOptions& options) {
     CLI::App& command = *app.add_subcommand("bench", "Measure speed against error, of scenes, methods and devices");
-    command.add_option("SCENE", options.scenes, "Scene files, Mitsuba 3 XML")->type_name("FILE");
+    command
+        .add_option("SCENE", options.scenes, "Scene files, Mitsuba 3 XML; none is needed for --micro, and for --growth but of threads")
+        ->type_name("FILE");
     command
         .add_option("--method", options.methods,
                     "Way to render: scene, standard, main or alternative, then, each after a colon, a BDD, photons, "
@@ -46,6 +84,7 @@ void declareBench(CLI::App& app, BenchOptions& options) {
         ->type_name("X")
         ->allow_extra_args(false)
         ->check(numberBetween(0, 1e30));
+    declareParts(command, options);
     command
         .add_option("-D", options.definitions,
                     "Replaces the value of the scenes' <default name=\"...\"/>; may be given several times (default: "

@@ -25,6 +25,15 @@ public:
         enqueue(count, device_->workGroupSize());
     }
 
+    /// The same for work-items that are long, such as a region of paths: on a CPU each is a group of its own, since a
+    /// group runs on one core and a few large ones leave the others idle at the end.
+    template <typename... Args>
+    void launchLong(size_t count, const Args&... args) {
+        cl_uint index = 0;
+        (setArgument(index++, args), ...);
+        enqueue(count, device_->info().isCpu ? 1 : device_->workGroupSize());
+    }
+
     /// The same for a few long work-items: each is a group of its own, so that a CPU spreads them over its cores.
     template <typename... Args>
     void launchFew(size_t count, const Args&... args) {

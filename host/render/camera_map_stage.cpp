@@ -67,8 +67,8 @@ void CameraMapStage::makeRegions() {
 
 std::vector<shared::PointRegionCount> CameraMapStage::traceCameraPoints() {
     for (;;) {
-        traceCameraPoints_.launch(points_.map.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, traced_,
-                                  borders_, samples_, regions_, cameraParams_, points_);
+        traceCameraPoints_.launchLong(points_.map.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, traced_,
+                                      borders_, samples_, regions_, cameraParams_, points_);
         auto counts = regions_.read();
         unsigned points = 0, borders = 0;
         for (const auto& count : counts) {
@@ -84,8 +84,9 @@ std::vector<shared::PointRegionCount> CameraMapStage::traceCameraPoints() {
 }
 
 void CameraMapStage::splatPhotons(CameraMapPassCount& total) {
-    splatPhotons_.launch(photonParams_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, index_.cellStart(),
-                         index_.sorted(), traced_, borders_, sums_, photonRegions_, photonParams_, points_);
+    splatPhotons_.launchLong(photonParams_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables,
+                             index_.cellStart(), index_.sorted(), traced_, borders_, sums_, photonRegions_,
+                             photonParams_, points_);
     for (const auto& count : photonRegions_.read()) total.add(count);
 }
 

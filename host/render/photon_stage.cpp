@@ -21,11 +21,11 @@ std::vector<shared::RegionCount> PhotonStage::trace() {
     for (;;) {
         if (meter_) {
             meter_->sums.fill(0);
-            tracePhotons_.launch(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_,
-                                 regions_, params_, meter_->sums, meter_->quantaPerRadiance);
+            tracePhotons_.launchLong(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_,
+                                     regions_, params_, meter_->sums, meter_->quantaPerRadiance);
         } else {
-            tracePhotons_.launch(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_,
-                                 regions_, params_);
+            tracePhotons_.launchLong(params_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables, photons_,
+                                     regions_, params_);
         }
         auto counts = regions_.read();
         unsigned wanted = 0;

@@ -75,7 +75,7 @@ void benchGather(const MicroRun& run) {
     run.progress("gather");
     const MicroPhotons photons = makePhotons(run.settings.photons, run.settings.queries);
     for (const unsigned threads : run.threads) {
-        Device device(run.settings.device, 64, threads);
+        Device device(run.settings.device, 64, 0, threads);
         for (const float perDisc : {10.f, 50.f, 250.f})
             for (const bool bias : {false, true})
                 if (!run.interrupted)

@@ -60,7 +60,7 @@ void benchMap(const MicroRun& run) {
     const float radius = std::sqrt(perDisc / (float(photons.density) * std::numbers::pi_v<float>));
     for (const unsigned threads : run.threads) {
         if (run.interrupted) return;
-        Device device(run.settings.device, 64, threads);
+        Device device(run.settings.device, 64, 0, threads);
         MicroIndex index(device, photons, radius);
         NativeSort native(photons, index.index().map());
         std::vector<Contender> contenders{{"quasilux", [&] { index.sort(); }}, {"C++ sort", [&] { native.run(); }}};

@@ -17,7 +17,8 @@ public:
     MicroIndex(Device& device, const MicroPhotons& photons, float radius)
         : device_(device), photons_(device, photons.photons, "photons as traced"),
           regions_(device, photons.regions, "photon regions"), geometry_(device, DeviceScene{}),
-          index_(device, "photon_map.cl", microPhotonOptions(), microClasses, microPhotonFields, "photon") {
+          program_(device, "photon_map.cl", microPhotonOptions()),
+          index_(device, program_, microClasses, microPhotonFields, "photon") {
         index_.makeTable(unsigned(photons.photons.size()), unsigned(photons.regions.size()));
         index_.map().regionCapacity = photons.regionCapacity;
         for (float& r : index_.map().radius) r = radius;
@@ -34,6 +35,7 @@ private:
     Buffer<shared::Photon> photons_;
     Buffer<shared::RegionCount> regions_;
     GeometryBuffers geometry_;
+    Program program_;
     CellIndex index_;
 };
 

@@ -47,7 +47,7 @@ private:
 
 void benchSamplers(const MicroRun& run) {
     const unsigned threads = run.threads.back();
-    Device device(run.settings.device, 64, threads);
+    Device device(run.settings.device, 64, 0, threads);
     SamplerTimer timer(run, device, threads);
     bool first = true;
     for (const auto& subject : lobeSubjects()) {

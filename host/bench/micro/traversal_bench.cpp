@@ -120,7 +120,7 @@ void benchScene(const MicroRun& run, const MicroScene& scene) {
                               {"diffuse, ordered", sets.ordered, false, false},
                               {"shadow", sets.shadow, true, true}};
     for (const unsigned threads : run.threads) {
-        Device device(run.settings.device, 64, threads);
+        Device device(run.settings.device, 64, 0, threads);
         DeviceTree tree(device, bvh);
         for (const RaySet& set : raySets) {
             if (run.interrupted) return;
