@@ -43,7 +43,7 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     auto first = std::make_unique<RendererPilot>(std::move(start), !scene.media.empty());
     result.search.notSearched = whyNotSearched(scene, settings, stop);
     result.search.freedom = freedom;
-    SearchResult found{settings, nullptr, {}, result.search};
+    SearchResult found{settings, nullptr, {}, {}, result.search};
     const SearchWorld world = worldOf(device, scene, onProgress, interrupted, ofOthers);
     if (freedom.any() && result.search.notSearched.empty())
         found = Search(world, scene, freedom, stop).run(settings, std::move(first));
@@ -56,9 +56,12 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     auto& best = static_cast<RendererPilot&>(*found.best).renderer();
     std::vector<FilmImage> images = std::move(found.others);
     images.emplace_back();
+    std::vector<double> seconds = found.othersSeconds;
+    seconds.push_back(0);
     const RenderedBefore before{world.clock(), [&](FilmImage image) {
                                     images.back() = std::move(image);
-                                    result.weights = weightsByError(images);
+                                    seconds.back() = best.counters().renderSeconds;
+                                    result.weights = weightsByError(images, seconds);
                                     return combineImages(images, result.weights);
                                 }};
     result.image = renderUntil(best, stop, onProgress, interrupted, before);

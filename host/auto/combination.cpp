@@ -2,6 +2,7 @@
 
 #include "render/error_estimate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -60,8 +61,8 @@ void combineBias(const Sum& sum, FilmImage& combined) {
 
 } // namespace
 
-std::vector<double> combinationWeights(const std::vector<double>& relativeMse) {
-    std::vector<double> weights(relativeMse.size());
+std::vector<double> combinationWeights(const std::vector<Part>& parts) {
+    std::vector<double> weights(parts.size());
     const auto normalise = [&] {
         double total = 0;
         for (const double weight : weights) total += weight;
@@ -69,8 +70,12 @@ std::vector<double> combinationWeights(const std::vector<double>& relativeMse) {
             for (double& weight : weights) weight /= total;
         return total > 0;
     };
-    for (size_t i = 0; i < weights.size(); ++i)
-        weights[i] = std::isfinite(relativeMse[i]) && relativeMse[i] > 0 ? 1 / relativeMse[i] : 0;
+    const auto inverse = [](double error) { return std::isfinite(error) && error > 0 ? 1 / error : 0; };
+    for (size_t i = 0; i < weights.size(); ++i) {
+        weights[i] = inverse(parts[i].relativeMse);
+        const double ofLast = inverse(parts.back().relativeMse);
+        if (ofLast > 0) weights[i] = std::min(weights[i], parts[i].seconds / parts.back().seconds * ofLast);
+    }
     if (!normalise()) {
         if (!weights.empty()) weights.back() = 1;
         return weights;
@@ -107,11 +112,10 @@ FilmImage combineImages(const std::vector<FilmImage>& images, const std::vector<
     return combined;
 }
 
-std::vector<double> weightsByError(const std::vector<FilmImage>& images) {
-    std::vector<double> errors;
-    errors.reserve(images.size());
-    for (const auto& image : images) errors.push_back(estimateError(image).relativeMse());
-    return combinationWeights(errors);
+std::vector<double> weightsByError(const std::vector<FilmImage>& images, const std::vector<double>& seconds) {
+    std::vector<Part> parts;
+    for (size_t i = 0; i < images.size(); ++i) parts.push_back({estimateError(images[i]).relativeMse(), seconds.at(i)});
+    return combinationWeights(parts);
 }
 
 } // namespace quasilux

@@ -18,6 +18,9 @@ constexpr double surelyBetter = 2;       // standard errors beyond smallGain
 constexpr double clockError = 0.1;       // of the logarithm of the time that one pass takes
 constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
 constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
+// Kernels not in the runtime's cache take so many times longer to open than those that are; whether the first ones were,
+// is not told, so no more than coldSeconds are expected of others (docs/auto.md).
+constexpr double coldOverWarm = 10, coldSeconds = 4;
 // Radius and photons are tried where the ratio of bias to noise (both squared) says that it may pay: with noise at most
 // as 1 / radius^2 and bias as radius^4, radiusStep gains nothing between these bounds.
 constexpr double littleBias = 0.17, muchBias = 0.4, biasForPhotons = 0.2;
@@ -41,26 +44,24 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     startPhotons_ = best_.pilot->photonsPerPass();
     startRadius_ = settings.radiusScale;
     enter(best_);
-    if (renderUpTo(best_, stages[0])) {
-        began_ = world_.clock();
-        ofBest_ = 0;
+    const bool begun = renderUpTo(best_, stages[0]);
+    began_ = world_.clock();
+    ofBest_ = 0;
+    if (begun) {
         best_.measure = best_.pilot->measure();
-        const double first = predictAfter(best_.measure, secondsLeft()).relativeError();
         note(best_, "start");
         for (size_t before = 0; before != report_.rows.size();) { // until a round tries nothing new
             before = report_.rows.size();
             for (const Coordinate coordinate : coordinates) tryNeighbours(coordinate);
         }
         best_.measure = best_.pilot->measure();
-        report_.predictedStartError = report_.chosen == 0 ? 0 : first;
-        report_.predictedError = predictAfter(best_.measure, secondsLeft()).relativeError();
     }
     note(best_, report_.rows[best_.row].outcome);
     report_.seconds = spent();
     report_.horizon = horizon();
     for (const PilotRow& row : report_.rows) report_.passes += row.passes;
     report_.passes -= report_.rows[report_.chosen].passes;
-    return {best_.settings, std::move(best_.pilot), std::move(retired_), report_};
+    return {best_.settings, std::move(best_.pilot), std::move(retired_), std::move(retiredSeconds_), report_};
 }
 
 double Search::spent() const { return world_.clock() - began_ - ofBest_; }
@@ -106,7 +107,8 @@ void Search::note(const Contender& contender, const std::string& outcome) {
     row.secondsPerPass = contender.measure.secondsPerPass;
     if (contender.measure.passes > 1)
         row.predictedError = predictAfter(contender.measure, secondsLeft()).relativeError();
-    openings_.emplace_back(kernelKey(contender.settings), row.openingSeconds);
+    const std::string key = kernelKey(contender.settings);
+    if (!opening(key)) openings_.emplace_back(key, row.openingSeconds);
 }
 
 void Search::retire(Contender& contender) {
@@ -114,17 +116,26 @@ void Search::retire(Contender& contender) {
     // Of one pass no error is known; and what would weigh next to nothing need not be kept.
     if (contender.measure.passes > 1 && best_.measure.passes > 1) {
         const double now = predictAfterPasses(contender.measure, contender.measure.passes).relativeMse();
-        if (predictAfter(best_.measure, secondsLeft()).relativeMse() > leastWeight * now)
+        if (predictAfter(best_.measure, secondsLeft()).relativeMse() > leastWeight * now) {
             retired_.push_back(contender.pilot->image());
+            retiredSeconds_.push_back(contender.measure.passes * contender.measure.secondsPerPass);
+        }
     }
     contender.pilot.reset();
 }
 
-// Kernels that were compiled before come from the runtime's cache.
+std::optional<double> Search::opening(const std::string& key) const {
+    for (const auto& [known, seconds] : openings_)
+        if (known == key) return seconds;
+    return std::nullopt;
+}
+
 double Search::openingCost(const RenderSettings& settings) const {
-    const auto known = std::find_if(openings_.rbegin(), openings_.rend(),
-                                    [&](const auto& opening) { return opening.first == kernelKey(settings); });
-    return known != openings_.rend() ? known->second : openings_.front().second;
+    // Kernels compiled before come from the runtime's cache, in no more than they took then.
+    if (const auto known = opening(kernelKey(settings))) return *known;
+    if (openings_.size() > 1) return openings_.back().second;
+    const double first = openings_.front().second;
+    return std::max(first, std::min(coldOverWarm * first, coldSeconds));
 }
 
 bool Search::isWorthTrying(Coordinate coordinate, const RenderSettings& settings) const {
@@ -167,6 +178,7 @@ bool Search::tryCandidate(Coordinate coordinate, const RenderSettings& settings)
     if (verdict == Verdict::better) {
         report_.chosen = challenger.row;
         std::swap(best_, challenger);
+        note(challenger, report_.rows[challenger.row].outcome);
     }
     retire(challenger);
     return verdict == Verdict::better;

@@ -25,7 +25,8 @@ struct SearchWorld {
 struct SearchResult {
     RenderSettings settings;
     std::unique_ptr<Pilot> best;
-    std::vector<FilmImage> others; ///< of those given up
+    std::vector<FilmImage> others;     ///< of those given up
+    std::vector<double> othersSeconds; ///< that their passes took
     SearchReport report;
 };
 
@@ -56,6 +57,7 @@ private:
     bool renderUpTo(Contender& contender, unsigned passes);
     bool affords(double seconds);
     bool isWorthTrying(Coordinate coordinate, const RenderSettings& settings) const;
+    std::optional<double> opening(const std::string& key) const;
     double openingCost(const RenderSettings& settings) const;
     void enter(Contender& contender);
     void note(const Contender& contender, const std::string& outcome);
@@ -71,8 +73,9 @@ private:
     StopRule stop_;
     Contender best_;
     std::vector<FilmImage> retired_;
+    std::vector<double> retiredSeconds_;
     std::vector<std::string> tried_;
-    std::vector<std::pair<std::string, double>> openings_; ///< by kernelKey
+    std::vector<std::pair<std::string, double>> openings_; ///< seconds by kernelKey, in the order of first openings
     SearchReport report_;
     double began_ = 0, ofBest_ = 0; ///< clock when the first candidate is due; seconds of the best one's passes since
     unsigned startPhotons_ = 0;

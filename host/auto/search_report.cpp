@@ -13,9 +13,9 @@ std::string SearchReport::line() const {
     std::string line = "auto: " + text(row.settings, row.photonsPerPass);
     const auto count = fmt::format("{} {}, {} passes of others, {:.1f} s", rows.size(),
                                    rows.size() == 1 ? "candidate" : "candidates", passes, seconds);
-    if (!(predictedError > 0)) return line + " (" + count + ": no time to try others)";
-    line += fmt::format(": predicted {:.3g} % after {:.3g} s (", 100 * predictedError, horizon);
-    if (chosen != 0) line += fmt::format("start: {:.3g} %; ", 100 * predictedStartError);
+    if (!(row.predictedError > 0)) return line + " (" + count + ": no time to try others)";
+    line += fmt::format(": predicted {:.3g} % after {:.3g} s (", 100 * row.predictedError, horizon);
+    if (chosen != 0) line += fmt::format("start: {:.3g} %; ", 100 * rows.front().predictedError);
     return line + count + (outOfTime ? ", then the time for pilots was up" : "") + ")";
 }
 

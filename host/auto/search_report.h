@@ -25,9 +25,7 @@ struct SearchReport {
     unsigned passes = 0;        ///< of the candidates that were not chosen
     double seconds = 0;         ///< on the clock, for opening candidates and for their passes
     double horizon = 0;         ///< seconds for which errors were predicted
-    double predictedError = 0;  ///< of what was chosen, and of the start
-    double predictedStartError = 0;
-    bool outOfTime = false; ///< candidates were left when the pilots' share of the time was used up
+    bool outOfTime = false;     ///< candidates were left when the pilots' share of the time was used up
 
     /// "auto: BDD 0, main, …: predicted 1.2 % after 30 s (…)".
     std::string line() const;

@@ -114,7 +114,7 @@ json searchJson(const SearchReport& search, const std::vector<double>& weights) 
             {"pilotPasses", search.passes},
             {"pilotSeconds", search.seconds},
             {"horizon", search.horizon},
-            {"predictedError", search.predictedError},
+            {"predictedError", search.rows.empty() ? 0 : search.rows.at(search.chosen).predictedError},
             {"outOfTime", search.outOfTime},
             {"weights", weights}};
 }
