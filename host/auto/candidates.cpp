@@ -3,6 +3,7 @@
 #include "prepare/split.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -11,19 +12,45 @@ namespace {
 
 constexpr size_t mostSingleLobes = 4;
 
-std::string splitKey(const Scene& scene, const RenderSettings& settings) {
+struct Split {
+    std::vector<BsdfDecision> bsdfs;
+    std::vector<MediumDecision> media;
+};
+
+Split splitOf(const Scene& scene, const RenderSettings& settings) {
+    return {decideSplit(scene, settings.quasiSpecular, settings.quasiSpecularFromCommandLine),
+            decideMediumSplit(scene, settings.quasiSpecular, settings.quasiSpecularFromCommandLine)};
+}
+
+template <typename Visit>
+void forEachLobe(const Split& split, const Visit& visit) {
+    for (const auto& bsdf : split.bsdfs)
+        for (const auto* side : {&bsdf.front, &bsdf.back})
+            for (const auto& lobe : *side) visit(lobe.scattering);
+}
+
+std::string splitKey(const Split& split) {
     std::string key;
-    const auto add = [&](const std::vector<LobeDecision>& lobes) {
-        for (const auto& lobe : lobes) key += fmt::format("{} ", lobe.scattering);
-    };
-    for (const auto& bsdf : decideSplit(scene, settings.quasiSpecular, settings.quasiSpecularFromCommandLine)) {
-        add(bsdf.front);
-        add(bsdf.back);
-    }
-    for (const auto& medium : decideMediumSplit(scene, settings.quasiSpecular, settings.quasiSpecularFromCommandLine))
-        key += fmt::format("{} ", medium.level);
+    forEachLobe(split, [&](unsigned scattering) { key += fmt::format("{} ", scattering); });
+    for (const auto& medium : split.media) key += fmt::format("{} ", medium.level);
     return key;
 }
+
+// What the kernels are compiled for; the level itself is data to them.
+struct Scatterings {
+    bool diffuseLobes = false, quasiSpecularLobes = false, diffuseMedia = false, quasiSpecularMedia = false;
+
+    explicit Scatterings(const Split& split) {
+        forEachLobe(split, [&](unsigned scattering) {
+            diffuseLobes |= scattering == SCATTER_GENUINE_DIFFUSE;
+            quasiSpecularLobes |= scattering == SCATTER_QUASI_SPECULAR;
+        });
+        for (const auto& medium : split.media) {
+            diffuseMedia |= medium.level > 0;
+            quasiSpecularMedia |= !std::isinf(medium.level);
+        }
+    }
+};
 
 // ID.LOBE of lobes that are neither delta nor Lambert, each once.
 std::vector<std::string> singleLobes(const Scene& scene) {
@@ -40,17 +67,17 @@ std::vector<std::string> singleLobes(const Scene& scene) {
 }
 
 std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene& scene) {
-    std::vector<std::string> splits{"auto", "none"};
+    std::vector<std::string> splits{"auto"};
     if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.03", "level:0.3"});
-    splits.emplace_back("all");
+    splits.insert(splits.end(), {"none", "all"});
     for (const auto& lobe : singleLobes(scene)) splits.push_back(lobe);
-    std::vector<std::string> known{splitKey(scene, from)};
+    std::vector<std::string> known{splitKey(splitOf(scene, from))};
     std::vector<RenderSettings> found;
     for (const auto& split : splits) {
         RenderSettings next = from;
         next.quasiSpecular = split;
         next.quasiSpecularFromCommandLine = true;
-        const std::string key = splitKey(scene, next);
+        const std::string key = splitKey(splitOf(scene, next));
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         known.push_back(key);
         found.push_back(next);
@@ -69,9 +96,12 @@ std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettin
         return {next};
     case Coordinate::split:
         return otherSplits(from, scene);
-    case Coordinate::variant:
+    case Coordinate::variant: {
+        const Scatterings has(splitOf(scene, from));
+        if (!has.quasiSpecularLobes && !has.quasiSpecularMedia) return {}; // the variants are one
         next.variant = from.variant == Variant::main ? Variant::alternative : Variant::main;
         return {next};
+    }
     case Coordinate::photons: {
         RenderSettings fewer = from;
         next.photonsPerPass = static_cast<unsigned>(photonsStep * photons);
@@ -89,7 +119,7 @@ std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettin
 }
 
 bool isFree(Coordinate coordinate, const Freedom& freedom) {
-    const bool free[] = {freedom.bdd, freedom.split, freedom.variant, freedom.photons, freedom.radius};
+    const bool free[] = {freedom.split, freedom.bdd, freedom.variant, freedom.photons, freedom.radius};
     return free[static_cast<size_t>(coordinate)];
 }
 
@@ -104,8 +134,10 @@ std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSet
     return texts;
 }
 
-std::string kernelKey(const RenderSettings& settings) {
-    return fmt::format("{} {}", name(settings.variant), settings.quasiSpecular);
+std::string kernelKey(const RenderSettings& settings, const Scene& scene) {
+    const Scatterings has(splitOf(scene, settings));
+    return fmt::format("{} {} {} {} {}", name(settings.variant), has.diffuseLobes, has.quasiSpecularLobes,
+                       has.diffuseMedia, has.quasiSpecularMedia);
 }
 
 std::string text(const RenderSettings& settings, unsigned photons) {

@@ -9,8 +9,8 @@
 namespace quasilux {
 
 /// One after the other; those that tend to differ most come first.
-enum class Coordinate { bdd, split, variant, photons, radius };
-inline constexpr Coordinate coordinates[] = {Coordinate::bdd, Coordinate::split, Coordinate::variant,
+enum class Coordinate { split, bdd, variant, photons, radius };
+inline constexpr Coordinate coordinates[] = {Coordinate::split, Coordinate::bdd, Coordinate::variant,
                                              Coordinate::photons, Coordinate::radius};
 bool isFree(Coordinate coordinate, const Freedom& freedom);
 
@@ -26,8 +26,8 @@ std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettin
 std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSettings& start, unsigned photons,
                                          const Scene& scene);
 
-/// Settings that make kernels of their own have texts of their own.
-std::string kernelKey(const RenderSettings& settings);
+/// The same for settings whose kernels are compiled the same.
+std::string kernelKey(const RenderSettings& settings, const Scene& scene);
 
 /// "BDD 0, main, split auto, 393216 photons/pass, radius 1".
 std::string text(const RenderSettings& settings, unsigned photons);

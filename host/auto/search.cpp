@@ -107,7 +107,7 @@ void Search::note(const Contender& contender, const std::string& outcome) {
     row.secondsPerPass = contender.measure.secondsPerPass;
     if (contender.measure.passes > 1)
         row.predictedError = predictAfter(contender.measure, secondsLeft()).relativeError();
-    const std::string key = kernelKey(contender.settings);
+    const std::string key = kernelKey(contender.settings, scene_);
     if (!opening(key)) openings_.emplace_back(key, row.openingSeconds);
 }
 
@@ -132,7 +132,7 @@ std::optional<double> Search::opening(const std::string& key) const {
 
 double Search::openingCost(const RenderSettings& settings) const {
     // Kernels compiled before come from the runtime's cache, in no more than they took then.
-    if (const auto known = opening(kernelKey(settings))) return *known;
+    if (const auto known = opening(kernelKey(settings, scene_))) return *known;
     if (openings_.size() > 1) return openings_.back().second;
     const double first = openings_.front().second;
     return std::max(first, std::min(coldOverWarm * first, coldSeconds));

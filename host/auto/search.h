@@ -31,7 +31,7 @@ struct SearchResult {
 };
 
 /// Share of the render's time that goes to pilots of candidates, opening them included.
-inline constexpr double pilotShare = 0.12;
+inline constexpr double pilotShare = 0.15;
 
 class Search {
 public:
