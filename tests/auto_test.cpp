@@ -67,8 +67,8 @@ TEST(Prediction, RatioIsUncertainWhereOneTileHoldsTheNoiseOfOne) {
     EXPECT_GT(errorRatio(a, b, 100).standardError, 0.3);
 }
 
-// From 8 passes of a render what 64 tell: within 30 % of the square, 15 % of the error, since 8 passes know no better; the
-// seed is fixed. Negative control: were noise not divided by passes, it would be 8 times too much.
+// From 8 passes of a render what 64 tell: within 30 % of the square, 15 % of the error, since 8 passes know no better;
+// the seed is fixed. Negative control: were noise not divided by passes, it would be 8 times too much.
 TEST(Prediction, HoldsInARender) {
     Device device(0);
     RenderSettings settings;

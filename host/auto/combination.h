@@ -1,4 +1,4 @@
-// Images of several settings as one: every one of them has the same mean, so any weights do that do not depend on the pixel.
+// Images of several settings as one: all have the same mean, so any weights do that do not depend on the pixel.
 #pragma once
 
 #include "render/film_image.h"
@@ -16,8 +16,8 @@ struct Part {
     double seconds = 0; ///< that its passes took
 };
 
-/// Weights that sum to 1, inverse to relMSE: one number for a whole image, since weights by the pixel's own variance would
-/// favour dark estimates and darken the mean. The last part is of the settings chosen: the others were not found better
+/// Weights that sum to 1, inverse to relMSE: one number for a whole image, since weights by the pixel's own variance
+/// would favour dark estimates and darken the mean. The last part is of the settings chosen: the others were not found better
 /// for their time, so none of them weighs more for its time than the last one does, however little error its few passes
 /// happened to tell. 0 where the error is not known (not finite) or the weight would be below `leastWeight`. If no
 /// error is known the last part has all the weight.

@@ -18,8 +18,8 @@ constexpr double surelyBetter = 2;       // standard errors beyond smallGain
 constexpr double clockError = 0.1;       // of the logarithm of the time that one pass takes
 constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
 constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
-// Kernels not in the runtime's cache take so many times longer to open than those that are; whether the first ones were,
-// is not told, so no more than coldSeconds are expected of others (docs/auto.md).
+// Kernels not in the runtime's cache take so many times longer to open than those that are; whether the first ones
+// were, is not told, so no more than coldSeconds are expected of others (docs/auto.md).
 constexpr double coldOverWarm = 10, coldSeconds = 4;
 // Radius and photons are tried where the ratio of bias to noise (both squared) says that it may pay: with noise at most
 // as 1 / radius^2 and bias as radius^4, radiusStep gains nothing between these bounds.
