@@ -62,7 +62,7 @@ def render(options, scene, seed, stop):
 
 def render_pair(options, swapped, seed):
     """Profiles of the scene and of the swapped one, as rows of an array, and the number of passes of each."""
-    profile, passes = render(options, SCENE, seed, ["--time", f"{options.seconds:g}"])
+    profile, passes = render(options, SCENE, seed, ["--fixed", "--time", f"{options.seconds:g}"])
     return np.array([profile, render(options, swapped, seed, ["--passes", str(passes)])[0]]), passes
 
 

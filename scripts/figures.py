@@ -39,7 +39,7 @@ class Renders:
         """The image and its statistics."""
         stem = method.replace(", ", "_").replace(" ", "-") + f"_{seconds:g}s"
         image, statistics = self.folder / f"{stem}.exr", self.folder / f"{stem}.json"
-        command = [self.program, "render", self.scene, "--quiet", "--time", f"{seconds:g}", *self.methods[method]]
+        command = [self.program, "render", self.scene, "--quiet", "--fixed", "--time", f"{seconds:g}", *self.methods[method]]
         subprocess.run([*command, "--output", image, "--stats", statistics], check=True)
         return read_channels(image, ["R", "G", "B"]), json.loads(statistics.read_text())
 

@@ -1,6 +1,7 @@
 // Prints the scene report as text or as JSON.
 #include "cli/info_command.h"
 
+#include "auto/candidates.h"
 #include "cli/interrupt.h"
 #include "cli/text_table.h"
 #include "output/progress_line.h"
@@ -64,6 +65,13 @@ void printRadii(const SceneReport& report) {
     fmt::print("\n{}", table.text());
 }
 
+// What `render` with the same options would search, and the first candidates it may try.
+void printSearch(const std::string& notSearched, const Freedom& freedom, const std::vector<std::string>& candidates) {
+    fmt::print("\nauto: {}\n", notSearched.empty() ? "searches " + text(freedom) : "nothing searched: " + notSearched);
+    if (!notSearched.empty()) return;
+    for (const auto& candidate : candidates) fmt::print("  {}\n", candidate);
+}
+
 void printEnergy(const std::optional<EnergyBalance>& energy) {
     if (!energy) return;
     const double net = energy->lost - energy->gained;
@@ -116,14 +124,22 @@ void infoCommand(const SceneOptions& options) {
     const SceneReport& report = renderer.report();
     if (!options.quiet)
         for (const auto& warning : report.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+    const Freedom freedom = options.freedom(scene);
+    const std::string notSearched = whyNotSearched(scene, settings, {});
+    const auto candidates = firstCandidates(freedom, settings, report.photonsPerPass, scene);
     const std::string file = std::filesystem::path(options.scene).filename().string();
     if (options.json) {
-        const nlohmann::json json{{"version", QUASILUX_VERSION},
-                                  {"scene", file},
-                                  {"settings", settingsJson(settings)},
-                                  {"device", deviceJson(device.info())},
-                                  {"sceneReport", sceneReportJson(report)},
-                                  {"trialPass", countersJson(renderer.counters())}};
+        const nlohmann::json json{
+            {"version", QUASILUX_VERSION},
+            {"scene", file},
+            {"settings", settingsJson(settings)},
+            {"auto",
+             {{"notSearched", notSearched.empty() ? nlohmann::json(nullptr) : nlohmann::json(notSearched)},
+              {"searched", text(freedom)},
+              {"candidates", candidates}}},
+            {"device", deviceJson(device.info())},
+            {"sceneReport", sceneReportJson(report)},
+            {"trialPass", countersJson(renderer.counters())}};
         fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
     }
@@ -139,6 +155,7 @@ void infoCommand(const SceneOptions& options) {
     printBuffers(report.bufferBytes);
     printMemory(report.forecast);
     printEnergy(renderer.counters().energy);
+    printSearch(notSearched, freedom, candidates);
 }
 
 } // namespace quasilux

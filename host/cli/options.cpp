@@ -80,6 +80,15 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         .add_flag("--energy-balance", options.energyBalance,
                   "Count what becomes of the photons' flux, for the statistics (default: off)")
         ->group(group);
+    auto* all = command
+                    .add_flag("--auto", options.autoAll,
+                              "Search BDD, variant, split, photons per pass and radius by pilot passes, but for those "
+                              "given here; what the scene says is where the search starts (default: search what "
+                              "neither these options nor the scene say)")
+                    ->group(group);
+    command.add_flag("--fixed", options.fixed, "Search nothing: what is given, else the defaults (default: off)")
+        ->group(group)
+        ->excludes(all);
 }
 
 void declareDevice(CLI::App& command, SceneOptions& options) {
@@ -197,10 +206,21 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
         result.quasiSpecularFromCommandLine = true;
     }
     if (radius) result.radius = parseRadiusChoice(*radius);
-    result.radiusScale = radiusScale;
+    if (radiusScale) result.radiusScale = *radiusScale;
     result.energyBalance = energyBalance;
     result.genericKernels = kernels == "generic";
     return result;
+}
+
+Freedom SceneOptions::freedom(const Scene& loaded) const {
+    const AutoMode mode = fixed ? AutoMode::off : autoAll ? AutoMode::all : AutoMode::open;
+    Freedom freedom = freedomOf(loaded, mode);
+    freedom.bdd &= !bdd;
+    freedom.split &= !quasiSpecular;
+    freedom.variant &= !variant;
+    freedom.photons &= !photons;
+    freedom.radius &= !radiusScale;
+    return freedom;
 }
 
 std::string RenderOptions::outputPath() const {

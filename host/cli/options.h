@@ -1,6 +1,7 @@
 // What the command line can say: the one source of --help.
 #pragma once
 
+#include "auto/freedom.h"
 #include "cli/bench_options.h"
 #include "cli/compare_options.h"
 #include "output/png.h"
@@ -20,8 +21,9 @@ struct SceneOptions {
     std::optional<unsigned> bdd, photons;
     std::optional<uint64_t> seed;
     std::optional<std::string> variant, direct, map, quasiSpecular, radius;
-    double radiusScale = 1;
+    std::optional<double> radiusScale;
     bool energyBalance = false;
+    bool autoAll = false, fixed = false;
     std::string kernels = "scene";
     int device = -1;
     unsigned workGroupSize = 64;
@@ -32,6 +34,8 @@ struct SceneOptions {
     std::vector<std::pair<std::string, std::string>> parameters() const;
     /// The scene's settings, overridden by what was given here. Throws InputError.
     RenderSettings settings(const Scene& loaded) const;
+    /// What is left to a search.
+    Freedom freedom(const Scene& loaded) const;
 };
 
 struct RenderOptions : SceneOptions {

@@ -1,6 +1,7 @@
 // The stages of a render: check the outputs, load, prepare, render, write, summarise.
 #include "cli/render_command.h"
 
+#include "auto/auto_render.h"
 #include "cli/interrupt.h"
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
@@ -78,6 +79,7 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
                            {"seconds", record.counters.renderSeconds},
                            {"relativeError", record.error.sum()},
                            {"error", errorJson(record.error)},
+                           {"auto", record.search.line()},
                            {"interrupted", record.interrupted},
                            {"nonFinite", record.counters.nonFinite},
                            {"cutPaths", record.counters.cutPaths},
@@ -141,17 +143,18 @@ void warnOfCounters(const RenderOptions& options, const RenderCounters& counters
                                           : 0.0));
 }
 
-RenderRecord makeRecord(const RenderOptions& options, const RenderSettings& settings, Device& device,
-                        const Renderer& renderer, const FilmImage& image, MeterKind meter) {
+RenderRecord makeRecord(const RenderOptions& options, Device& device, const AutoRender& render, MeterKind meter) {
     RenderRecord record;
     record.scene = std::filesystem::path(options.scene).filename().string();
-    record.settings = settings;
+    record.settings = render.settings;
     record.stop = options.stop;
     record.device = device.info();
     record.workGroupSize = device.workGroupSize();
-    record.report = renderer.report();
-    record.counters = renderer.counters();
-    record.error = estimateError(image);
+    record.report = render.report;
+    record.counters = render.counters;
+    record.search = render.search;
+    record.searchWeights = render.weights;
+    record.error = estimateError(render.image);
     record.meter = meter;
     record.kernels = device.timings();
     record.peakBufferBytes = device.allocatedBytes();
@@ -178,22 +181,30 @@ int renderCommand(const RenderOptions& options) {
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
     progress.update({.phase = "preparing"});
-    Renderer renderer(device, scene, settings);
+    auto renderer = std::make_unique<Renderer>(device, scene, settings);
     progress.clear();
-    for (const auto& warning : renderer.report().warnings) warn(options, warning);
+    for (const auto& warning : renderer->report().warnings) warn(options, warning);
     catchInterrupt();
     const auto onProgress = [&](const Progress& now) {
         catchInterrupt();
         progress.update(now);
     };
-    const FilmImage image = renderUntil(renderer, options.stop, onProgress, interruptFlag());
+    const auto onChosen = [&](const SearchReport& search) {
+        progress.clear();
+        // Where nothing can be searched, only who asked for it need know.
+        if (!options.quiet && (search.notSearched.empty() ? search.freedom.any() : options.autoAll))
+            fmt::print(stderr, "quasilux: {}\n", search.line());
+    };
+    const AutoRender render = renderAuto(device, scene, settings, std::move(renderer), options.freedom(scene),
+                                         options.stop, onProgress, onChosen, interruptFlag());
+    const FilmImage& image = render.image;
     if (image.passes == 0) {
         if (interruptFlag()) return 130;
         throw std::runtime_error("no pass was rendered before the stop rule was reached");
     }
 
     progress.update({.phase = "writing"});
-    RenderRecord record = makeRecord(options, settings, device, renderer, image, scene.sensor.meter);
+    RenderRecord record = makeRecord(options, device, render, scene.sensor.meter);
     record.loadSeconds = loadSeconds;
     const WrittenFiles written = writeFiles(options, scene, image, record);
     progress.clear();

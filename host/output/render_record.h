@@ -1,6 +1,7 @@
 // What is known of a finished render: the headers of the images and the statistics file are made from it.
 #pragma once
 
+#include "auto/search_report.h"
 #include "device/device.h"
 #include "render/error_estimate.h"
 #include "render/renderer.h"
@@ -19,6 +20,8 @@ struct RenderRecord {
     unsigned workGroupSize = 0;
     SceneReport report;
     RenderCounters counters;
+    SearchReport search;               ///< which settings were searched, and why these were chosen
+    std::vector<double> searchWeights; ///< in the image, of candidates given up and, last, of the one chosen
     ErrorEstimate error;
     MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
     std::map<std::string, KernelTiming> kernels;
@@ -43,6 +46,7 @@ struct RenderRecord {
         visit("photonsPerPass", photonsPerPass());
         visit("radius", name(settings.radius));
         visit("radiusScale", settings.radiusScale);
+        visit("auto", search.line());
         visit("passes", counters.passes);
         visit("seconds", counters.renderSeconds);
         visit("nonFinite", counters.nonFinite);

@@ -94,6 +94,31 @@ json deviceJson(const DeviceInfo& device) {
             {"isCpu", device.isCpu}};
 }
 
+json searchJson(const SearchReport& search, const std::vector<double>& weights) {
+    json rows = json::array();
+    for (const PilotRow& row : search.rows)
+        rows.push_back({{"bdd", row.settings.bdd},
+                        {"variant", name(row.settings.variant)},
+                        {"quasiSpecular", row.settings.quasiSpecular},
+                        {"photonsPerPass", row.photonsPerPass},
+                        {"radiusScale", row.settings.radiusScale},
+                        {"passes", row.passes},
+                        {"secondsPerPass", row.secondsPerPass},
+                        {"openingSeconds", row.openingSeconds},
+                        {"predictedError", row.predictedError},
+                        {"outcome", row.outcome}});
+    return {{"line", search.line()},
+            {"searched", text(search.freedom)},
+            {"candidates", rows},
+            {"chosen", search.chosen},
+            {"pilotPasses", search.passes},
+            {"pilotSeconds", search.seconds},
+            {"horizon", search.horizon},
+            {"predictedError", search.rows.empty() ? 0 : search.rows.at(search.chosen).predictedError},
+            {"outOfTime", search.outOfTime},
+            {"weights", weights}};
+}
+
 json settingsJson(const RenderSettings& settings) {
     return {{"bdd", settings.bdd},
             {"variant", name(settings.variant)},
@@ -148,6 +173,7 @@ json statisticsJson(const RenderRecord& record, const FilmImage& image) {
             {"image", {{"width", image.width}, {"height", image.height}}},
             {"meter", meter},
             {"settings", settingsJson(record.settings)},
+            {"auto", searchJson(record.search, record.searchWeights)},
             {"stop",
              {{"seconds", orNull(record.stop.seconds)},
               {"passes", orNull(record.stop.passes)},

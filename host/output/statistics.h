@@ -14,6 +14,7 @@ nlohmann::json settingsJson(const RenderSettings& settings);
 nlohmann::json sceneReportJson(const SceneReport& report);
 nlohmann::json errorJson(const ErrorEstimate& error);
 nlohmann::json countersJson(const RenderCounters& counters);
+nlohmann::json searchJson(const SearchReport& search, const std::vector<double>& weights);
 
 /// Indented; whole or not at all. Throws std::runtime_error.
 void writeJson(const std::string& path, const nlohmann::json& json);

@@ -135,4 +135,22 @@ ErrorEstimate estimateError(const FilmImage& image) {
     return estimate;
 }
 
+TileErrors errorByTile(const FilmImage& image, unsigned perSide) {
+    const auto weights = channelWeights(image);
+    const auto noise = squaredByPixel(image.standardError, weights);
+    const auto bias = squaredByPixel(image.bias, weights), biasNoise = squaredByPixel(image.biasError, weights);
+    const unsigned columns = std::min(perSide, image.width), rows = std::min(perSide, image.height);
+    TileErrors tiles;
+    tiles.noise.resize(size_t(columns) * rows);
+    tiles.bias.resize(tiles.noise.size());
+    const double share = 1 / static_cast<double>(noise.size());
+    for (size_t pixel = 0; pixel < noise.size(); ++pixel) {
+        const size_t column = pixel % image.width * columns / image.width;
+        const size_t row = pixel / image.width * rows / image.height;
+        tiles.noise[row * columns + column] += share * noise[pixel];
+        tiles.bias[row * columns + column] += share * (bias[pixel] - biasNoise[pixel]);
+    }
+    return tiles;
+}
+
 } // namespace quasilux

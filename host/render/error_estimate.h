@@ -30,4 +30,12 @@ struct ErrorEstimate {
 
 ErrorEstimate estimateError(const FilmImage& image);
 
+/// Squares of noise and bias, the latter net of its noise, by tile of the image: the tiles' sums are noiseRms^2 and, where
+/// that is above 0, biasRms^2.
+struct TileErrors {
+    std::vector<double> noise, bias;
+};
+/// `perSide` tiles in a row and in a column, fewer where the image has fewer pixels.
+TileErrors errorByTile(const FilmImage& image, unsigned perSide);
+
 } // namespace quasilux

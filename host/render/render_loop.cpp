@@ -9,7 +9,6 @@ namespace quasilux {
 
 namespace {
 
-constexpr double defaultSeconds = 30;
 constexpr unsigned firstErrorCheck = 4; // passes before the error estimate means anything
 
 using Clock = std::chrono::steady_clock;
@@ -35,33 +34,35 @@ double secondsLeft(const StopRule& stop, const Progress& now) {
 } // namespace
 
 FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
-                      const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted) {
+                      const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
+                      const RenderedBefore& before) {
     StopRule stop = stopAt;
     if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
     const auto start = Clock::now();
-    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto elapsed = [&] { return before.seconds + std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto develop = [&] { return before.finish ? before.finish(renderer.develop()) : renderer.develop(); };
     Progress progress;
     progress.phase = "rendering";
     double lastCheck = 0, checkCost = 0;
-    for (unsigned pass = 0; !interrupted; ++pass) {
+    for (auto pass = static_cast<unsigned>(renderer.counters().passes); !interrupted; ++pass) {
         if (stop.passes && pass >= *stop.passes) break;
         if (stop.seconds && pass > 0 && elapsed() >= *stop.seconds) break;
         renderer.renderPass(pass);
         progress.passes = pass + 1;
         progress.seconds = elapsed();
         if (progress.passes >= firstErrorCheck && isErrorDue(progress.seconds - lastCheck, checkCost)) {
-            progress.relativeError = estimateError(renderer.develop()).sum();
+            progress.relativeError = estimateError(develop()).sum();
             lastCheck = elapsed();
             checkCost = lastCheck - progress.seconds;
         }
         const auto& counters = renderer.counters();
-        progress.photonsPerSecond = static_cast<double>(counters.photonsEmitted) / progress.seconds;
-        progress.pathsPerSecond = static_cast<double>(counters.cameraPaths) / progress.seconds;
+        progress.photonsPerSecond = static_cast<double>(counters.photonsEmitted) / counters.renderSeconds;
+        progress.pathsPerSecond = static_cast<double>(counters.cameraPaths) / counters.renderSeconds;
         progress.secondsLeft = secondsLeft(stop, progress);
         if (onProgress) onProgress(progress);
         if (stop.relativeError && progress.relativeError >= 0 && progress.relativeError <= *stop.relativeError) break;
     }
-    return renderer.develop();
+    return develop();
 }
 
 } // namespace quasilux

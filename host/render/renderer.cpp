@@ -270,6 +270,32 @@ struct Renderer::Stages {
     shared::CameraCounters dropped{}; // by the film, so far
 };
 
+RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
+    passes += other.passes;
+    photonsEmitted += other.photonsEmitted;
+    for (const auto& [name, count] : other.photonsStored) photonsStored[name] += count;
+    for (const auto& [name, count] : other.cameraPointsStored) cameraPointsStored[name] += count;
+    storedPoints = std::max(storedPoints, other.storedPoints);
+    storedBytes = std::max(storedBytes, other.storedBytes);
+    cameraPaths += other.cameraPaths;
+    nonFinite += other.nonFinite;
+    cutPaths += other.cutPaths;
+    overflows += other.overflows;
+    if (other.meterCaustics) meterCaustics = meterCaustics.value_or(0) + *other.meterCaustics;
+    fluxEmitted += other.fluxEmitted;
+    fluxCut += other.fluxCut;
+    if (other.energy) {
+        if (!energy) energy.emplace();
+        *energy += *other.energy;
+    }
+    throughputCut += other.throughputCut;
+    prepareSeconds += other.prepareSeconds;
+    compileSeconds += other.compileSeconds;
+    firstPassSeconds += other.firstPassSeconds;
+    renderSeconds += other.renderSeconds;
+    return *this;
+}
+
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings) {
     const auto start = Clock::now();
     DeviceScene flat = flatten(scene, settings);

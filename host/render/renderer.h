@@ -67,6 +67,9 @@ struct RenderCounters {
     std::optional<EnergyBalance> energy; ///< where RenderSettings::energyBalance asks for it
     double throughputCut = 0;            ///< of camera paths, mean of R, G, B; each begins with 1
     double prepareSeconds = 0, compileSeconds = 0, firstPassSeconds = 0, renderSeconds = 0;
+
+    /// Of two renderers together.
+    RenderCounters& operator+=(const RenderCounters& other);
 };
 
 struct Progress {
@@ -94,8 +97,14 @@ private:
     std::unique_ptr<Stages> stages_;
 };
 
-/// Renders passes 0, 1, … until the rule, or `interrupted`, ends it.
+/// What a render has behind it when renderUntil goes on with it.
+struct RenderedBefore {
+    double seconds = 0;                                   ///< that the stop rule counts
+    std::function<FilmImage(FilmImage)> finish = nullptr; ///< adds what other renderers made to the image
+};
+
+/// Renders passes 0, 1, … (or from the last one rendered on) until the rule, or `interrupted`, ends it.
 FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
-                      const std::atomic<bool>& interrupted);
+                      const std::atomic<bool>& interrupted, const RenderedBefore& before = {});
 
 } // namespace quasilux

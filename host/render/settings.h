@@ -47,7 +47,10 @@ struct RenderSettings {
     PhotonRule photonRule = PhotonRule::right;
 };
 
-/// The first limit reached ends the render; none set = 30 s.
+/// Time of a render that no rule ends.
+inline constexpr double defaultSeconds = 30;
+
+/// The first limit reached ends the render; none set = defaultSeconds.
 struct StopRule {
     std::optional<double> seconds;
     std::optional<unsigned> passes;

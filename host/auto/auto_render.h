@@ -1,0 +1,26 @@
+// A render whose open settings are chosen by pilot passes; these count towards its image.
+#pragma once
+
+#include "auto/search.h"
+#include "render/renderer.h"
+
+namespace quasilux {
+
+class Device;
+
+struct AutoRender {
+    FilmImage image;
+    RenderSettings settings; ///< chosen; its seed is the user's, whatever the candidates' own were
+    SceneReport report;      ///< of the renderer chosen
+    RenderCounters counters; ///< of all renderers
+    SearchReport search;
+    std::vector<double> weights; ///< of the images that were added, the last one that of the settings chosen
+};
+
+/// `start` was made for `settings` and has no passes yet. `onChosen` is called once, before the passes that follow.
+AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& settings,
+                      std::unique_ptr<Renderer> start, const Freedom& freedom, const StopRule& stop,
+                      const std::function<void(const Progress&)>& onProgress,
+                      const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted);
+
+} // namespace quasilux

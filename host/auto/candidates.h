@@ -1,0 +1,35 @@
+// The settings that a search may try next: neighbours of the best one so far in one coordinate.
+#pragma once
+
+#include "auto/freedom.h"
+
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+/// One after the other; those that tend to differ most come first.
+enum class Coordinate { split, bdd, variant, photons, radius };
+inline constexpr Coordinate coordinates[] = {Coordinate::split, Coordinate::bdd, Coordinate::variant,
+                                             Coordinate::photons, Coordinate::radius};
+bool isFree(Coordinate coordinate, const Freedom& freedom);
+
+/// Factors of photons per pass and radius that are tried, and how far they may go from where the search starts.
+inline constexpr double photonsStep = 2, mostPhotons = 4, radiusStep = 1.4;
+
+/// What may be tried in this coordinate instead of `from`; splits that come to the same as another one are left out.
+/// `photons`: those that a pass of `from` emits.
+std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettings& from, unsigned photons,
+                                       const Scene& scene);
+
+/// text() of all neighbours of where the search starts, in the order in which they are tried.
+std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSettings& start, unsigned photons,
+                                         const Scene& scene);
+
+/// The same for settings whose kernels are compiled the same.
+std::string kernelKey(const RenderSettings& settings, const Scene& scene);
+
+/// "BDD 0, main, split auto, 393216 photons/pass, radius 1".
+std::string text(const RenderSettings& settings, unsigned photons);
+
+} // namespace quasilux

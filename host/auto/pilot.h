@@ -1,0 +1,45 @@
+// A few passes of one candidate, which count towards the image.
+#pragma once
+
+#include "auto/prediction.h"
+#include "render/renderer.h"
+
+namespace quasilux {
+
+class Pilot {
+public:
+    virtual ~Pilot() = default;
+    /// The next pass, from 0 on.
+    virtual void renderPass() = 0;
+    virtual unsigned passes() const = 0;
+    virtual PilotMeasure measure() const = 0;
+    virtual FilmImage image() const = 0;
+    virtual unsigned photonsPerPass() const = 0;
+    /// Preparing and compiling, as far as the first pass told.
+    virtual double openingSeconds() const = 0;
+};
+
+/// Passes of a renderer of its own.
+class RendererPilot : public Pilot {
+public:
+    RendererPilot(std::unique_ptr<Renderer> renderer, bool hasMedia)
+        : renderer_(std::move(renderer)), hasMedia_(hasMedia) {}
+
+    void renderPass() override;
+    unsigned passes() const override { return static_cast<unsigned>(renderer_->counters().passes); }
+    PilotMeasure measure() const override;
+    FilmImage image() const override { return renderer_->develop(); }
+    unsigned photonsPerPass() const override { return renderer_->report().photonsPerPass; }
+    double openingSeconds() const override;
+
+    Renderer& renderer() { return *renderer_; }
+    const Renderer& renderer() const { return *renderer_; }
+
+private:
+    double secondsPerPass() const;
+
+    std::unique_ptr<Renderer> renderer_;
+    bool hasMedia_;
+};
+
+} // namespace quasilux

@@ -1,0 +1,48 @@
+// The error that a render of these settings will have, from a few of its passes (docs/auto.md).
+#pragma once
+
+#include "render/error_estimate.h"
+
+#include <vector>
+
+namespace quasilux {
+
+/// What a few passes tell: error by tile of the image, as shares of relMSE, so that the tiles' sum is the image's.
+struct PilotMeasure {
+    unsigned passes = 0;
+    double secondsPerPass = 0;
+    std::vector<double> noise, bias; ///< by tile; the bias of a tile is net of noise and may come out below 0
+    double biasNoise = 0;            ///< relMSE that the estimate of the bias has as noise
+    bool inVolume = false;           ///< kernels shrink in three dimensions
+};
+
+/// `image` of passes 0, 1, ….
+PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass);
+
+struct Prediction {
+    double passes = 0;
+    double noise = 0, bias = 0; ///< squares, shares of relMSE
+
+    double relativeMse() const { return noise + bias; }
+    /// Ratio to the image, as people read it.
+    double relativeError() const;
+};
+
+/// After `passes` passes altogether.
+Prediction predictAfterPasses(const PilotMeasure& pilot, double passes);
+/// After `seconds` more on the clock.
+Prediction predictAfter(const PilotMeasure& pilot, double seconds);
+
+/// log of the ratio of two predicted relMSE, and its standard error. Tiles are left out one after the other
+/// (the jackknife), so what is hard in both counts for neither, and a few bright pixels that carry the noise of one of
+/// them make its standard error large.
+struct ErrorRatio {
+    double logRatio = 0; ///< below 0: `a` is better
+    double standardError = 0;
+};
+ErrorRatio errorRatio(const PilotMeasure& a, const PilotMeasure& b, double seconds);
+
+/// Seconds until relMSE falls to the square of `relativeError`; never above `limit`.
+double secondsToError(const PilotMeasure& pilot, double relativeError, double limit);
+
+} // namespace quasilux

@@ -1,0 +1,217 @@
+#include "auto/search.h"
+
+#include "auto/combination.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quasilux {
+
+namespace {
+
+constexpr unsigned stages[] = {2, 4, 8, 16};
+// Passes before a candidate may win; more for one whose camera paths scatter on: few passes may miss its bright pixels.
+constexpr unsigned fewestToWin = 4, fewestToWinWithMorePaths = 8;
+constexpr double smallGain = 0.05;       // in the logarithm of relMSE: not worth another pass
+constexpr double surelyWorse = 1.5;      // standard errors
+constexpr double surelyBetter = 2;       // standard errors beyond smallGain
+constexpr double clockError = 0.1;       // of the logarithm of the time that one pass takes
+constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
+constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
+// Kernels not in the runtime's cache take so many times longer to open than those that are; whether the first ones
+// were, is not told, so no more than coldSeconds are expected of others (docs/auto.md).
+constexpr double coldOverWarm = 10, coldSeconds = 4;
+// Radius and photons are tried where the ratio of bias to noise (both squared) says that it may pay: with noise at most
+// as 1 / radius^2 and bias as radius^4, radiusStep gains nothing between these bounds.
+constexpr double littleBias = 0.17, muchBias = 0.4, biasForPhotons = 0.2;
+
+RenderSettings seededFor(RenderSettings settings, uint64_t seed, size_t row) {
+    // Images that are added must not share random numbers.
+    settings.seed = seed + 0x9E3779B97F4A7C15ull * row;
+    return settings;
+}
+
+} // namespace
+
+Search::Search(SearchWorld world, const Scene& scene, Freedom freedom, const StopRule& stop)
+    : world_(std::move(world)), scene_(scene), freedom_(freedom), stop_(stop) {
+    if (!stop_.seconds && !stop_.passes && !stop_.relativeError) stop_.seconds = defaultSeconds;
+}
+
+SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> start) {
+    report_.freedom = freedom_;
+    best_ = {settings, std::move(start), {}, 0};
+    startPhotons_ = best_.pilot->photonsPerPass();
+    startRadius_ = settings.radiusScale;
+    enter(best_);
+    const bool begun = renderUpTo(best_, stages[0]);
+    began_ = world_.clock();
+    ofBest_ = 0;
+    if (begun) {
+        best_.measure = best_.pilot->measure();
+        note(best_, "start");
+        for (size_t before = 0; before != report_.rows.size();) { // until a round tries nothing new
+            before = report_.rows.size();
+            for (const Coordinate coordinate : coordinates) tryNeighbours(coordinate);
+        }
+        best_.measure = best_.pilot->measure();
+    }
+    note(best_, report_.rows[best_.row].outcome);
+    report_.seconds = spent();
+    report_.horizon = horizon();
+    for (const PilotRow& row : report_.rows) report_.passes += row.passes;
+    report_.passes -= report_.rows[report_.chosen].passes;
+    return {best_.settings, std::move(best_.pilot), std::move(retired_), std::move(retiredSeconds_), report_};
+}
+
+double Search::spent() const { return world_.clock() - began_ - ofBest_; }
+
+double Search::horizon() const {
+    const double limit = stop_.seconds.value_or(longestHorizon);
+    if (!stop_.relativeError || best_.measure.passes < 2) return limit;
+    return std::min(limit, world_.clock() + secondsToError(best_.measure, *stop_.relativeError, limit));
+}
+
+double Search::secondsLeft() const { return std::max(0.0, horizon() - world_.clock()); }
+
+bool Search::affords(double seconds) {
+    const double end = horizon();
+    const bool can = end >= leastSeconds && spent() + seconds <= pilotShare * end;
+    if (!can) report_.outOfTime = true;
+    return can;
+}
+
+bool Search::renderUpTo(Contender& contender, unsigned passes) {
+    const double start = world_.clock();
+    while (contender.pilot->passes() < passes && !interrupted()) {
+        contender.pilot->renderPass();
+        if (world_.onPass) world_.onPass(contender.pilot->passes());
+    }
+    if (&contender == &best_) ofBest_ += world_.clock() - start;
+    return !interrupted();
+}
+
+void Search::enter(Contender& contender) {
+    contender.row = report_.rows.size();
+    PilotRow row;
+    row.settings = contender.settings;
+    row.photonsPerPass = contender.pilot->photonsPerPass();
+    report_.rows.push_back(row);
+}
+
+void Search::note(const Contender& contender, const std::string& outcome) {
+    PilotRow& row = report_.rows[contender.row];
+    row.passes = contender.pilot->passes();
+    row.outcome = outcome;
+    row.openingSeconds = contender.pilot->openingSeconds();
+    row.secondsPerPass = contender.measure.secondsPerPass;
+    if (contender.measure.passes > 1)
+        row.predictedError = predictAfter(contender.measure, secondsLeft()).relativeError();
+    const std::string key = kernelKey(contender.settings, scene_);
+    if (!opening(key)) openings_.emplace_back(key, row.openingSeconds);
+}
+
+void Search::retire(Contender& contender) {
+    if (world_.onGivenUp) world_.onGivenUp(*contender.pilot);
+    // Of one pass no error is known; and what would weigh next to nothing need not be kept.
+    if (contender.measure.passes > 1 && best_.measure.passes > 1) {
+        const double now = predictAfterPasses(contender.measure, contender.measure.passes).relativeMse();
+        if (predictAfter(best_.measure, secondsLeft()).relativeMse() > leastWeight * now) {
+            retired_.push_back(contender.pilot->image());
+            retiredSeconds_.push_back(contender.measure.passes * contender.measure.secondsPerPass);
+        }
+    }
+    contender.pilot.reset();
+}
+
+std::optional<double> Search::opening(const std::string& key) const {
+    for (const auto& [known, seconds] : openings_)
+        if (known == key) return seconds;
+    return std::nullopt;
+}
+
+double Search::openingCost(const RenderSettings& settings) const {
+    // Kernels compiled before come from the runtime's cache, in no more than they took then.
+    if (const auto known = opening(kernelKey(settings, scene_))) return *known;
+    if (openings_.size() > 1) return openings_.back().second;
+    const double first = openings_.front().second;
+    return std::max(first, std::min(coldOverWarm * first, coldSeconds));
+}
+
+bool Search::isWorthTrying(Coordinate coordinate, const RenderSettings& settings) const {
+    if (coordinate != Coordinate::radius && coordinate != Coordinate::photons) return true;
+    const double photons = settings.photonsPerPass, scale = settings.radiusScale / startRadius_;
+    const bool byRadius = coordinate == Coordinate::radius;
+    if (byRadius && (scale > 2.1 || scale < 0.45)) return false;
+    if (!byRadius && (photons > mostPhotons * startPhotons_ || photons < startPhotons_ / mostPhotons)) return false;
+    const Prediction now = predictAfter(best_.measure, secondsLeft());
+    const bool sharper =
+        byRadius ? settings.radiusScale < best_.settings.radiusScale : photons > best_.pilot->photonsPerPass();
+    return sharper ? now.bias > (byRadius ? muchBias : biasForPhotons) * now.noise : now.bias < littleBias * now.noise;
+}
+
+void Search::tryNeighbours(Coordinate coordinate) {
+    if (!isFree(coordinate, freedom_)) return;
+    for (const auto& next : neighbours(coordinate, best_.settings, best_.pilot->photonsPerPass(), scene_)) {
+        if (interrupted()) return;
+        // Splits do not depend on where they are tried from; a step of a number may be followed by another one.
+        if (tryCandidate(coordinate, next) && coordinate != Coordinate::split) return;
+    }
+}
+
+bool Search::tryCandidate(Coordinate coordinate, const RenderSettings& settings) {
+    const std::string key = text(settings, settings.photonsPerPass);
+    if (std::find(tried_.begin(), tried_.end(), key) != tried_.end() || !isWorthTrying(coordinate, settings))
+        return false;
+    const double share =
+        settings.photonsPerPass == 0 ? 1 : double(settings.photonsPerPass) / best_.pilot->photonsPerPass();
+    const double pass = std::max(1.0, share) * best_.measure.secondsPerPass;
+    if (!affords(openingCost(settings) + stages[0] * pass)) return false;
+    tried_.push_back(text(best_.settings, best_.settings.photonsPerPass));
+    tried_.push_back(key);
+    Contender challenger;
+    challenger.settings = settings;
+    challenger.pilot = world_.open(seededFor(settings, report_.rows.front().settings.seed, report_.rows.size()));
+    enter(challenger);
+    const Verdict verdict = duel(challenger);
+    note(challenger, verdict == Verdict::better ? "better" : verdict == Verdict::worse ? "worse" : "undecided");
+    if (verdict == Verdict::better) {
+        report_.chosen = challenger.row;
+        std::swap(best_, challenger);
+        note(challenger, report_.rows[challenger.row].outcome);
+    }
+    retire(challenger);
+    return verdict == Verdict::better;
+}
+
+Search::Verdict Search::judge(const Contender& challenger, bool isLast) const {
+    const Prediction predicted = predictAfter(challenger.measure, secondsLeft());
+    if (!(predicted.noise > 0)) return Verdict::undecided; // it has seen nothing, or there is nothing to gain
+    const unsigned passes = challenger.measure.passes;
+    const bool morePaths = challenger.settings.bdd > best_.settings.bdd;
+    const bool mayWin = passes >= (morePaths ? fewestToWinWithMorePaths : fewestToWin);
+    const ErrorRatio found = errorRatio(challenger.measure, best_.measure, secondsLeft());
+    const double error = std::hypot(found.standardError, clockError * std::sqrt(2.0 / (passes - 1)));
+    if (found.logRatio - surelyWorse * error > -smallGain) return Verdict::worse;
+    if (passes >= fewestToWin && found.logRatio > -smallGain) return Verdict::worse;
+    const double margin = isLast ? error : surelyBetter * error + smallGain;
+    return mayWin && found.logRatio + margin < 0 ? Verdict::better : Verdict::undecided;
+}
+
+Search::Verdict Search::duel(Contender& challenger) {
+    Verdict verdict = Verdict::undecided;
+    for (const unsigned passes : stages) {
+        const double more = (passes - challenger.pilot->passes()) * challenger.measure.secondsPerPass;
+        if (more > 0 && !affords(more)) return judge(challenger, true);
+        // As many of the best one: it may be the one whose bright pixels are rare.
+        const bool isWhole = renderUpTo(challenger, passes) && renderUpTo(best_, passes);
+        if (challenger.pilot->passes() < 2) return Verdict::undecided; // interrupted
+        challenger.measure = challenger.pilot->measure();
+        best_.measure = best_.pilot->measure();
+        verdict = judge(challenger, !isWhole || passes == stages[std::size(stages) - 1]);
+        if (!isWhole || verdict != Verdict::undecided) return verdict;
+    }
+    return verdict;
+}
+
+} // namespace quasilux

@@ -1,0 +1,85 @@
+// Pilot passes of one candidate after the other; the best one goes on (docs/auto.md). Knows no device.
+#pragma once
+
+#include "auto/candidates.h"
+#include "auto/pilot.h"
+#include "auto/search_report.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace quasilux {
+
+/// What the search needs of the world.
+struct SearchWorld {
+    std::function<std::unique_ptr<Pilot>(const RenderSettings&)> open;
+    std::function<double()> clock;               ///< seconds since the render began
+    std::function<void(unsigned)> onPass;        ///< after each pass, how many there were; may be empty
+    std::function<void(const Pilot&)> onGivenUp; ///< before a pilot is thrown away; may be empty
+    /// Whether Ctrl-C was pressed.
+    const std::atomic<bool>* interrupted = nullptr;
+};
+
+struct SearchResult {
+    RenderSettings settings;
+    std::unique_ptr<Pilot> best;
+    std::vector<FilmImage> others;     ///< of those given up
+    std::vector<double> othersSeconds; ///< that their passes took
+    SearchReport report;
+};
+
+/// Share of the render's time that goes to pilots of candidates, opening them included.
+inline constexpr double pilotShare = 0.15;
+
+class Search {
+public:
+    /// `stop` must not be by passes. Candidates are neighbours() of the best one, where `freedom` allows.
+    Search(SearchWorld world, const Scene& scene, Freedom freedom, const StopRule& stop);
+
+    /// `start` is the pilot of `settings`, without passes.
+    SearchResult run(const RenderSettings& settings, std::unique_ptr<Pilot> start);
+
+private:
+    struct Contender {
+        RenderSettings settings;
+        std::unique_ptr<Pilot> pilot;
+        PilotMeasure measure;
+        size_t row = 0;
+    };
+    enum class Verdict { better, worse, undecided };
+
+    void tryNeighbours(Coordinate coordinate);
+    bool tryCandidate(Coordinate coordinate, const RenderSettings& settings);
+    Verdict duel(Contender& challenger);
+    Verdict judge(const Contender& challenger, bool isLast) const;
+    bool renderUpTo(Contender& contender, unsigned passes);
+    bool affords(double seconds);
+    bool isWorthTrying(Coordinate coordinate, const RenderSettings& settings) const;
+    std::optional<double> opening(const std::string& key) const;
+    double openingCost(const RenderSettings& settings) const;
+    void enter(Contender& contender);
+    void note(const Contender& contender, const std::string& outcome);
+    void retire(Contender& contender);
+    double spent() const;
+    double horizon() const;
+    double secondsLeft() const;
+    bool interrupted() const { return world_.interrupted && *world_.interrupted; }
+
+    SearchWorld world_;
+    const Scene& scene_;
+    Freedom freedom_;
+    StopRule stop_;
+    Contender best_;
+    std::vector<FilmImage> retired_;
+    std::vector<double> retiredSeconds_;
+    std::vector<std::string> tried_;
+    std::vector<std::pair<std::string, double>> openings_; ///< seconds by kernelKey, in the order of first openings
+    SearchReport report_;
+    double began_ = 0, ofBest_ = 0; ///< clock when the first candidate is due; seconds of the best one's passes since
+    unsigned startPhotons_ = 0;
+    double startRadius_ = 1;
+};
+
+} // namespace quasilux

@@ -1,0 +1,148 @@
+#!/usr/bin/python3
+"""`--auto` against fixed settings at equal time, for every scene of scenes/: the table at the end of docs/auto.md.
+
+Renders go to out/auto/ and are kept: a later run makes only what is missing (--again makes all anew), so that scenes can be done in
+several runs. The error of a render is the root of relMSE: what the render tells of itself (noiseRms^2 + biasRms^2) and, where
+scenes/references/ has a reference, what `scripts/relmse.py` measures against it.
+
+The choice apart from the time of the pilots: what --auto chose is rendered as a fixed setting too (--fixed), for the same time.
+"""
+import argparse
+import json
+import math
+import os
+import subprocess
+
+from figures import ROOT, measured_on
+from relmse import box_reference, plate_reference, read_channels
+
+# Split, variant, BDD of the fixed settings; levels are for media only. Photons and radius: factors on the defaults.
+SPLITS, LEVELS = ["auto", "none", "all"], ["level:0.03", "level:0.1", "level:0.3"]
+REFERENCES = {"cornell_phong": (box_reference, "all"), "plate_checker": (plate_reference, "plate")}
+
+
+def scenes():
+    return sorted(path.stem for path in (ROOT / "scenes").glob("*.xml"))
+
+
+class Table:
+    def __init__(self, options):
+        self.options = options
+        self.folder = ROOT / "out" / "auto"
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def render(self, scene, settings):
+        """Statistics of a render, from an earlier run if there is one; None where it was refused."""
+        stem = "_".join([scene, f"{self.options.time:g}s", *settings]).replace("--", "").replace(":", "-")
+        statistics, image = self.folder / f"{stem}.json", self.folder / f"{stem}.exr"
+        if self.options.again or not (statistics.exists() and image.exists()):
+            command = [self.options.program, "render", ROOT / "scenes" / f"{scene}.xml", "--quiet", *settings]
+            # Kernels are compiled beforehand, so that no fixed setting pays for it; --auto does what it does for a user whose
+            # cache is warm. docs/auto.md says what a cold one costs.
+            if "--auto" not in settings:
+                subprocess.run([*command, "--passes", "1", "-o", self.folder / "warm-up.exr"], check=True)
+            subprocess.run([*command, "--time", f"{self.options.time:g}", "-o", image, "--stats", statistics], check=True)
+        return json.loads(statistics.read_text()), image
+
+    def errors(self, scene, settings):
+        """Told error, measured error or None, statistics."""
+        statistics, image = self.render(scene, settings)
+        told = statistics["error"]["relativeMse"]
+        measured = None
+        if scene in REFERENCES:
+            reference, region = REFERENCES[scene]
+            net = reference().errors(read_channels(image, ["R", "G", "B"]))[region].net
+            measured = math.sqrt(net) if net > 0 else None
+        return (math.sqrt(told) if told is not None else math.inf), measured, statistics
+
+    def has_media(self, scene):
+        return "<medium" in (ROOT / "scenes" / f"{scene}.xml").read_text()
+
+    def fixed(self, scene):
+        splits = SPLITS + (LEVELS if self.has_media(scene) else [])
+        for split in splits:
+            for variant in ["main", "alternative"]:
+                if split == "none" and variant == "alternative":
+                    continue  # nothing is quasi-specular: the variants are one
+                for bdd in ["0", "1"]:
+                    yield ["--fixed", "--quasi-specular", split, "--variant", variant, "--bdd", bdd]
+
+    def numbers(self, best, photons):
+        """Other photon counts and radii for the best of the fixed settings."""
+        for factor in [0.25, 0.5, 2, 4]:
+            yield [*best, "--photons", str(max(1, int(photons * factor)))]
+        for factor in [0.7, 1.4]:
+            yield [*best, "--radius-scale", str(factor)]
+
+    def chosen(self, statistics):
+        settings, report = statistics["settings"], statistics["sceneReport"]
+        return ["--fixed", "--quasi-specular", settings["quasiSpecular"], "--variant", settings["variant"], "--bdd",
+                str(settings["bdd"]), "--photons", str(report["photonsPerPass"]), "--radius-scale", f"{settings['radiusScale']:.6g}"]
+
+    def row(self, scene):
+        runs = {tuple(settings): self.errors(scene, settings) for settings in self.fixed(scene)}
+        best = min(runs, key=lambda settings: runs[settings][0])
+        photons = runs[best][2]["sceneReport"]["photonsPerPass"]
+        for settings in self.numbers(best, photons):
+            runs[tuple(settings)] = self.errors(scene, settings)
+        best = min(runs, key=lambda settings: runs[settings][0])
+        auto = self.errors(scene, ["--auto"])
+        choice = self.errors(scene, self.chosen(auto[2]))
+        return [scene, name(best), percent(runs[best][0]), name(self.chosen(auto[2])), percent(auto[0]), ratio(auto[0], runs[best][0]),
+                ratio(choice[0], runs[best][0]), measured(auto, runs[best]), f"{auto[2]['auto']['pilotSeconds']:.1f} s"], auto[2]
+
+
+def name(settings):
+    """Values of the options, but for --fixed."""
+    short = {"--quasi-specular": "", "--variant": "", "--bdd": "BDD ", "--photons": "photons ", "--radius-scale": "radius "}
+    pairs = list(zip(settings[1::2], settings[2::2]))
+    return ", ".join(short[key] + value for key, value in pairs if (key, value) != ("--radius-scale", "1"))
+
+
+def percent(error):
+    return f"{100 * error:.2f} %"
+
+
+def ratio(error, best):
+    """Errors of rounding have no ratio."""
+    return f"{error / best:.2f}" if best > 1e-6 else "-"
+
+
+def measured(auto, best):
+    return ratio(auto[1], best[1]) if auto[1] and best[1] else "-"
+
+
+MARK = "<!-- scripts/auto_table.py writes what follows -->"
+HEADER = ["scene", "best fixed", "error", "auto chose", "error", "ratio", "ratio of the choice alone", "ratio against the reference", "pilots"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help=f"names in scenes/, without .xml (default: all: {', '.join(scenes())})")
+    parser.add_argument("--time", type=float, default=20, help="seconds of each render (default 20)")
+    parser.add_argument("--again", action="store_true", help="render anew what out/auto/ has")
+    parser.add_argument("--program", default=str(ROOT / "build" / "release" / "quasilux"), help="the built program")
+    parser.add_argument("--print", action="store_true", help="leave docs/auto.md as it is (a trial)")
+    options = parser.parse_args()
+    unknown = set(options.scenes) - set(scenes())
+    if unknown:
+        parser.error(f"no such scene: {', '.join(sorted(unknown))}; expected names among: {', '.join(scenes())}")
+    table, load, rows, statistics = Table(options), os.getloadavg(), [], None
+    for scene in options.scenes or scenes():
+        row, statistics = table.row(scene)
+        rows.append(row)
+        print("| " + " | ".join(row) + " |", flush=True)
+    lines = [HEADER, ["---"] * len(HEADER), *rows]
+    text = (
+        f"{MARK}\n\n`scripts/auto_table.py --time {options.time:g}`: {measured_on(statistics, options.time, load)}. "
+        "Error: root of relMSE as told by the render; ratios are of errors.\n\n"
+        + "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+    )
+    print(text)
+    if not options.print:
+        page = ROOT / "docs" / "auto.md"
+        page.write_text(page.read_text().split(MARK)[0] + text)
+
+
+if __name__ == "__main__":
+    main()
