@@ -19,7 +19,7 @@ struct BenchOptions {
     unsigned growthSteps = 100;      ///< of each subject, from the least one on
     bool compareDevices = false, compareKernels = false, passTimes = false;
     std::optional<std::string> micro; ///< parts of micro-benchmarks, as parseMicroParts takes them
-    std::string output, html; ///< paths; empty = not asked for
+    std::string output, html;         ///< paths; empty = not asked for
     bool json = false, quiet = false;
 
     /// Whether a part besides error over time is asked for.

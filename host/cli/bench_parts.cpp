@@ -126,9 +126,9 @@ void checkParts(const BenchOptions& options) {
     const bool onlyMade = options.methods.empty() && someMade && !isAskedFor(options, "threads") &&
                           !options.compareDevices && !options.compareKernels && !options.passTimes;
     if (options.scenes.empty() && !onlyMade)
-        throw InputError(
-            "no SCENE is given, expected at least one; only --micro, and --growth of triangles, photons, pixels and bdd, "
-            "without --method, need none");
+        throw InputError("no SCENE is given, expected at least one; only --micro, and --growth of triangles, photons, "
+                         "pixels and bdd, "
+                         "without --method, need none");
 }
 
 void runParts(const BenchOptions& options, const std::vector<Scene>& scenes, const std::vector<int>& devices,

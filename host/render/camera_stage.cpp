@@ -27,7 +27,6 @@ void CameraStage::trace(Film& film, const shared::CameraParams& params, const Bu
         launch();
 }
 
-
 void CameraStage::runOn(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons) {
     const Film::Pass onFilm = film.beginPass(params_.pass);
     params_.batchWeight = onFilm.batchWeight;

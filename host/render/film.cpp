@@ -84,8 +84,7 @@ size_t Film::floatsPerPixel(bool estimatesBias) { return biasSums + (estimatesBi
 
 Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias, const std::string& owner)
     : width_(width), height_(height), estimatesBias_(estimatesBias), pixelFloats_(floatsPerPixel(estimatesBias)),
-      sums_(device, pixelFloats_ * width * height, owner + "film"),
-      counters_(device, 1, owner + "camera counters") {
+      sums_(device, pixelFloats_ * width * height, owner + "film"), counters_(device, 1, owner + "camera counters") {
     sums_.fill(0);
     counters_.write({shared::CameraCounters{0, 0, 0}});
 }
