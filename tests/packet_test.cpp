@@ -16,7 +16,7 @@ std::vector<BvhPrimitive> everyKind() {
     return primitives;
 }
 
-/// Packets of eight alike but for small differences, every other one with tMin = 0, and packets of unlike rays.
+/// Packets of rays alike but for small differences, then packets of unlike rays.
 Rays raysForPackets() {
     Rays rays = randomRays(40000, 33, 1.2f);
     const Rays noise = randomRays(rays.size(), 34, 0.02f);
