@@ -78,6 +78,8 @@ TEST(PacketsControl, WrongKernelsWouldDiffer) {
         EXPECT_GT(faults.distances, 0u) << control.to;
         EXPECT_GT(faults.occlusion, 0u) << control.to;
     }
+    TraversalDevice uAsV(primitives, everyFeature, mutant("bvh_packet_block.clh", "clamp(second", "clamp(first"));
+    EXPECT_GT(packetFaults(uAsV, single).coordinates, 0u);
     TraversalDevice nullsMet(primitives, everyFeature, mutant("bvh_packet.clh", "&shear, 1, &t", "&shear, 0, &t"));
     EXPECT_GT(packetFaults(nullsMet, single).occlusion, 0u);
 }
