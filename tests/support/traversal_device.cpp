@@ -30,4 +30,15 @@ TraversalDevice::TraversalDevice(const std::vector<BvhPrimitive>& primitives, co
       blocks_(testDevice(), bvh_.blocks, "blocks"),
       program_(testDevice(), "micro/traversal.cl", bvhOptions(bvh_) + " " + options, replaced) {}
 
+std::vector<TestHit> TraversalDevice::closestOfPackets(const Rays& rays) {
+    const auto packets = run<DeviceHitPacket>("closestHits8", packetsOf(rays));
+    std::vector<TestHit> hits;
+    for (size_t i = 0; i < rays.size(); ++i) hits.push_back(packets[i / packetSize].hit(i % packetSize));
+    return hits;
+}
+
+std::vector<unsigned> TraversalDevice::occludedOfPackets(const Rays& rays) {
+    return run<unsigned>("occlusion8", packetsOf(rays), packetSize);
+}
+
 } // namespace quasilux

@@ -26,19 +26,22 @@ public:
     std::vector<TestHit> closest(const Rays& rays) { return run<TestHit>("closestHits", rays); }
     std::vector<TestHit> closestOpaque(const Rays& rays) { return run<TestHit>("closestOpaqueHits", rays); }
     std::vector<unsigned> occluded(const Rays& rays) { return run<unsigned>("occlusion", rays); }
+    /// Both again in packets of eight neighbours. The number of rays must be a multiple of 8.
+    std::vector<TestHit> closestOfPackets(const Rays& rays);
+    std::vector<unsigned> occludedOfPackets(const Rays& rays);
 
-    /// One launch over rays that are on the device already.
-    template <typename Answer>
-    void launch(const std::string& kernel, const Buffer<TestRay>& rays, const Buffer<Answer>& answers) {
+    /// One launch over rays, or packets of them, that are on the device already.
+    template <typename Sent, typename Answer>
+    void launch(const std::string& kernel, const Buffer<Sent>& rays, const Buffer<Answer>& answers) {
         program_.kernel(kernel).launch(rays.size(), nodes_, blocks_, rays, answers, cl_uint(rays.size()));
         testDevice().finish();
     }
 
 private:
-    template <typename Answer>
-    std::vector<Answer> run(const std::string& kernel, const Rays& rays) {
-        Buffer<TestRay> in(testDevice(), rays, "rays");
-        Buffer<Answer> out(testDevice(), rays.size(), "answers");
+    template <typename Answer, typename Sent>
+    std::vector<Answer> run(const std::string& kernel, const std::vector<Sent>& rays, size_t perItem = 1) {
+        Buffer<Sent> in(testDevice(), rays, "rays");
+        Buffer<Answer> out(testDevice(), perItem * rays.size(), "answers");
         launch(kernel, in, out);
         return out.read();
     }

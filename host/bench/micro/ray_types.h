@@ -25,7 +25,7 @@ struct MicroHit {
 
 constexpr unsigned packetSize = 8;
 
-/// Eight rays, field by field; origin and direction axis by axis.
+/// Eight rays as Embree and kernels/bvh_packet_box.clh (Ray8) take them, field by field; origin and direction axis by axis.
 struct alignas(32) RayPacket {
     float origin[3][packetSize], direction[3][packetSize], tMin[packetSize], tMax[packetSize];
 };
@@ -33,6 +33,14 @@ struct alignas(32) RayPacket {
 struct alignas(32) HitPacket {
     float t[packetSize], u[packetSize], v[packetSize];
     unsigned primitive[packetSize];
+};
+
+/// As kernels/bvh_packet.clh writes it.
+struct alignas(32) DeviceHitPacket {
+    float t[packetSize], u[packetSize], v[packetSize];
+    unsigned slot[packetSize], primitive[packetSize];
+
+    MicroHit hit(size_t ray) const { return {t[ray], u[ray], v[ray], slot[ray], primitive[ray]}; }
 };
 
 /// The number of rays must be a multiple of 8.

@@ -1,41 +1,11 @@
 // Closest hits and occlusion of kernels/bvh.clh against Embree's on the same rays.
-#include "bench/micro/contest.h"
-#include "bench/micro/parts.h"
-#include "bench/micro/ray_sets.h"
-#include "device/program.h"
+#include "bench/micro/traversal_parts.h"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
-
-/// A tree on a device, with both forms of the lane mask (kernels/bvh_lanes.clh).
-struct DeviceTree {
-    DeviceTree(Device& device, const Bvh& bvh)
-        : nodes(device, bvh.nodes, "tree nodes"), blocks(device, bvh.blocks, "primitives"),
-          fast(device, "micro/traversal.cl", bvhOptions(bvh)),
-          portable(device, "micro/traversal.cl", bvhOptions(bvh) + " -DPORTABLE_MASK") {}
-
-    Buffer<shared::BvhNode> nodes;
-    Buffer<shared::PrimitiveBlock> blocks;
-    Program fast, portable;
-};
-
-struct RaySet {
-    std::string name;
-    const std::vector<MicroRay>& rays;
-    bool coherent, occlusion;
-};
-
-constexpr float sameDistance = 1e-4f; ///< relative
-
-bool differ(const MicroHit& ours, const MicroHit& theirs) {
-    if (ours.missed() || theirs.missed()) return ours.missed() != theirs.missed();
-    return !(std::abs(ours.t - theirs.t) <= sameDistance * theirs.t);
-}
-bool differ(unsigned ours, unsigned theirs) { return ours != theirs; }
 
 /// `Hit` is MicroHit or, of occlusion, unsigned; `Hits` what Embree writes for eight rays.
 template <typename Hit, typename Hits>
@@ -128,6 +98,9 @@ void benchScene(const MicroRun& run, const MicroScene& scene) {
                                                           .measure(run.settings.rounds, threads, set, scene.name)
                                                     : Contest<MicroHit, HitPacket>(device, threads, tree, embree, set)
                                                           .measure(run.settings.rounds, threads, set, scene.name));
+            if (set.coherent && !run.interrupted)
+                run.report.rows.push_back(
+                    packetRow(device, threads, tree, embree, set, run.settings.rounds, scene.name));
         }
     }
 }
