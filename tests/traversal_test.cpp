@@ -19,9 +19,9 @@ const std::string allFeatures = " -DHAS_SPHERES -DHAS_NULL_PRIMITIVES";
 
 void expectAsEmbree(const Primitives& primitives, TraversalDevice& scene, const Rays& rays, double undecidedShare) {
     const EmbreeOracle embree(primitives);
-    const Comparison closest = compareClosest(primitives, embree, rays, scene.closest(rays));
-    const Comparison occlusion = compareOcclusion(primitives, embree, rays, scene.occluded(rays));
-    for (const Comparison& comparison : {closest, occlusion}) {
+    const RayComparison closest = compareClosest(primitives, embree, rays, scene.closest(rays));
+    const RayComparison occlusion = compareOcclusion(primitives, embree, rays, scene.occluded(rays));
+    for (const RayComparison& comparison : {closest, occlusion}) {
         std::cout << "  " << comparison << "\n";
         EXPECT_EQ(comparison.mismatches, 0u) << comparison.firstMismatch;
         EXPECT_LE(double(comparison.undecided + comparison.embreeFaults), undecidedShare * double(rays.size()));

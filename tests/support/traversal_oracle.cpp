@@ -129,13 +129,13 @@ std::string faultOfOcclusion(const std::vector<BvhPrimitive>& primitives, const 
     return "";
 }
 
-void Comparison::addMismatch(const std::string& what) {
+void RayComparison::addMismatch(const std::string& what) {
     if (mismatches++ == 0) firstMismatch = what;
 }
 
-Comparison compareClosest(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
-                          const std::vector<TestRay>& rays, const std::vector<TestHit>& answers) {
-    Comparison result;
+RayComparison compareClosest(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
+                             const std::vector<TestRay>& rays, const std::vector<TestHit>& answers) {
+    RayComparison result;
     result.rays = rays.size();
     for (size_t i = 0; i < rays.size(); ++i) {
         const TestHit& ours = answers[i];
@@ -161,9 +161,9 @@ Comparison compareClosest(const std::vector<BvhPrimitive>& triangles, const Embr
     return result;
 }
 
-Comparison compareOcclusion(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
-                            const std::vector<TestRay>& rays, const std::vector<unsigned>& answers) {
-    Comparison result;
+RayComparison compareOcclusion(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
+                               const std::vector<TestRay>& rays, const std::vector<unsigned>& answers) {
+    RayComparison result;
     result.rays = rays.size();
     for (size_t i = 0; i < rays.size(); ++i) {
         const bool ours = answers[i] != 0, theirs = embree.occluded(rays[i]);
@@ -179,7 +179,7 @@ Comparison compareOcclusion(const std::vector<BvhPrimitive>& triangles, const Em
     return result;
 }
 
-std::ostream& operator<<(std::ostream& stream, const Comparison& comparison) {
+std::ostream& operator<<(std::ostream& stream, const RayComparison& comparison) {
     return stream << fmt::format(
                "{} rays, {} hits, {} at equal distance, {} undecided, {} Embree faults, {} mismatches {}",
                comparison.rays, comparison.hits, comparison.equalDistance, comparison.undecided,

@@ -33,7 +33,7 @@ std::string faultOfClosest(const std::vector<BvhPrimitive>& primitives, const Te
 std::string faultOfOcclusion(const std::vector<BvhPrimitive>& primitives, const TestRay& ray, bool answer);
 
 /// Answers to many rays, sorted by how they compare with Embree's.
-struct Comparison {
+struct RayComparison {
     size_t rays = 0, hits = 0;
     size_t equalDistance = 0; ///< another primitive at the same distance to 1e-5: duplicates, shared edges
     size_t undecided = 0;     ///< the answers differ and both are right within rounding
@@ -43,10 +43,10 @@ struct Comparison {
 
     void addMismatch(const std::string& what);
 };
-Comparison compareClosest(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
-                          const std::vector<TestRay>& rays, const std::vector<TestHit>& answers);
-Comparison compareOcclusion(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
-                            const std::vector<TestRay>& rays, const std::vector<unsigned>& answers);
-std::ostream& operator<<(std::ostream& stream, const Comparison& comparison);
+RayComparison compareClosest(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
+                             const std::vector<TestRay>& rays, const std::vector<TestHit>& answers);
+RayComparison compareOcclusion(const std::vector<BvhPrimitive>& triangles, const EmbreeOracle& embree,
+                               const std::vector<TestRay>& rays, const std::vector<unsigned>& answers);
+std::ostream& operator<<(std::ostream& stream, const RayComparison& comparison);
 
 } // namespace quasilux
