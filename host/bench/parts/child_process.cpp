@@ -16,6 +16,7 @@ namespace {
 /// Strings as exec takes them; they must outlive it.
 std::vector<char*> pointersTo(std::vector<std::string>& strings) {
     std::vector<char*> pointers;
+    pointers.reserve(strings.size() + 1);
     for (std::string& text : strings) pointers.push_back(text.data());
     pointers.push_back(nullptr);
     return pointers;
@@ -26,10 +27,10 @@ std::vector<std::string> environmentWith(const std::vector<std::pair<std::string
     for (char** entry = environ; *entry; ++entry) {
         const std::string text = *entry;
         bool isReplaced = false;
-        for (const auto& [name, value] : more) isReplaced = isReplaced || text.rfind(name + '=', 0) == 0;
+        for (const auto& [name, value] : more) isReplaced = isReplaced || text.rfind(fmt::format("{}=", name), 0) == 0;
         if (!isReplaced) all.push_back(text);
     }
-    for (const auto& [name, value] : more) all.push_back(name + '=' + value);
+    for (const auto& [name, value] : more) all.push_back(fmt::format("{}={}", name, value));
     return all;
 }
 
@@ -60,7 +61,7 @@ std::string outputOfChild(const std::vector<std::string>& arguments,
                                   pointersTo(variables).data());
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
-    const std::string output = error == 0 ? readAll(ends[0]) : std::string();
+    std::string output = error == 0 ? readAll(ends[0]) : std::string();
     close(ends[0]);
     if (error != 0) throw std::runtime_error(fmt::format("a child process: {}", std::strerror(error)));
     int status = 0;
