@@ -138,7 +138,7 @@ class MicroCommand : public CommandLineTest {};
 TEST_F(MicroCommand, RefusesUnknownParts) {
     expectRefused({"bench", "--micro", "traversal,maps"}, "no part 'maps', expected all or some of traversal, map");
     expectRefused({"bench", "--micro", "scene.xml"}, "scene files go before --micro");
-    expectRefused({"bench"}, "expected scene files, or --micro");
+    expectRefused({"bench"}, "no SCENE is given, expected at least one; only --micro");
 }
 
 } // namespace
