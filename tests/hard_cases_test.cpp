@@ -253,6 +253,7 @@ std::vector<double> floorImage(const std::string& obj, const std::string& extra 
         extra;
     auto settings = countingSettings(20'000);
     settings.direct = DirectLight::photons;
+    settings.radius = RadiusChoice::fixed; // the first radius follows the area, duplicates included, and so does blur
     return blocks(placedScene(text, ordinary), settings, 10);
 }
 
