@@ -1,11 +1,12 @@
 // Density radius by pixel: the choice against its closed form, from films made by hand, and its effect on a render.
 //
 // Nothing here is left to chance: the films are computed, and the renders have fixed seeds.
+#include "bench/bench_run.h"
+#include "compare/measures.h"
 #include "render/adaptive_radius.h"
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
 
-#include <OpenImageIO/imageio.h>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -86,24 +87,11 @@ TEST(AdaptiveRadius, IsBoundedAndNeedsLight) {
 }
 
 double relativeError(const RenderSettings& settings, unsigned passesOfRender) {
-    constexpr unsigned resolution = 64;
-    const auto file = OIIO::ImageInput::open(std::string(QUASILUX_SOURCE_DIR) + "/tests/data/cornell_phong_64.exr");
-    std::vector<float> reference(size_t(resolution) * resolution * 4);
-    if (!file || !file->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, reference.data()))
-        throw std::runtime_error("cannot read the reference image");
+    static const RadianceImage reference =
+        readRadiance(std::string(QUASILUX_SOURCE_DIR) + "/tests/data/cornell_phong_64.exr");
     Renderer renderer(testDevice(), projectScene("cornell_phong.xml", {{"resolution", "64"}}), settings);
     for (unsigned pass = 0; pass < passesOfRender; ++pass) renderer.renderPass(pass);
-    const auto image = renderer.develop();
-    double mean = 0, sum = 0;
-    for (size_t k = 0; k < reference.size(); ++k)
-        if (k % 4 < 3) mean += reference[k] / (reference.size() * 0.75);
-    for (size_t pixel = 0; pixel < reference.size() / 4; ++pixel)
-        for (size_t channel = 0; channel < 3; ++channel) {
-            const double expected = reference[4 * pixel + channel],
-                         error = image.radiance[3 * pixel + channel] - expected;
-            sum += error * error / (expected * expected + 0.01 * mean * mean);
-        }
-    return sum / (reference.size() * 0.75);
+    return compareImages(radianceOf(renderer.develop()), reference, {wholePicture(64, 64)}, {}).regions.at(0).relMse;
 }
 
 // Each of the fixed radii that the choice ranges over is worse in the whole image.

@@ -3,7 +3,6 @@
 #include "device/kernel_sources.h"
 #include "util/error.h"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <regex>
 #include <set>
@@ -88,7 +87,6 @@ void Kernel::enqueue(size_t count, size_t group) {
 
 Program::Program(Device& device, const std::string& file, const std::string& options, const Sources& extra)
     : device_(&device), file_(file) {
-    const auto start = std::chrono::steady_clock::now();
     program_ = cl::Program(device.context(), joinKernelSource(file, extra));
     try {
         // Fast-math stays off: it would let the compiler assume that there is no NaN or infinity.
@@ -102,7 +100,6 @@ Program::Program(Device& device, const std::string& file, const std::string& opt
         throw DeviceError(fmt::format("kernels of {} do not build on device {} (OpenCL error {})", file,
                                       device.info().name, error.err()));
     }
-    buildSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 Kernel Program::kernel(const std::string& name) const {

@@ -20,29 +20,29 @@ public:
     /// Runs `count` work-items (rounded up to whole groups; the kernel must check its index against its count).
     template <typename... Args>
     void launch(size_t count, const Args&... args) {
-        cl_uint index = 0;
-        (setArgument(index++, args), ...);
-        enqueue(count, device_->workGroupSize());
+        launchInGroupsOf(device_->workGroupSize(), count, args...);
     }
 
     /// The same for work-items that are long, such as a region of paths: on a CPU each is a group of its own, since a
     /// group runs on one core and a few large ones leave the others idle at the end.
     template <typename... Args>
     void launchLong(size_t count, const Args&... args) {
-        cl_uint index = 0;
-        (setArgument(index++, args), ...);
-        enqueue(count, device_->info().isCpu ? 1 : device_->workGroupSize());
+        launchInGroupsOf(device_->info().isCpu ? 1 : device_->workGroupSize(), count, args...);
     }
 
     /// The same for a few long work-items: each is a group of its own, so that a CPU spreads them over its cores.
     template <typename... Args>
     void launchFew(size_t count, const Args&... args) {
-        cl_uint index = 0;
-        (setArgument(index++, args), ...);
-        enqueue(count, 1);
+        launchInGroupsOf(1, count, args...);
     }
 
 private:
+    template <typename... Args>
+    void launchInGroupsOf(size_t group, size_t count, const Args&... args) {
+        cl_uint index = 0;
+        (setArgument(index++, args), ...);
+        enqueue(count, group);
+    }
     template <typename T>
     void setArgument(cl_uint index, const Buffer<T>& buffer) {
         check(kernel_.setArg(index, buffer.memory()), index);
@@ -67,13 +67,11 @@ public:
             const std::map<std::string, std::string>& extra = {});
 
     Kernel kernel(const std::string& name) const;
-    double buildSeconds() const { return buildSeconds_; }
 
 private:
     Device* device_;
     std::string file_;
     cl::Program program_;
-    double buildSeconds_ = 0;
 };
 
 } // namespace quasilux

@@ -67,12 +67,14 @@ bool estimatesBias(const Features& features, const RenderSettings& settings) {
     return settings.estimateBias && settings.map == MapOrder::photons && !isMeter;
 }
 
+bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings) {
+    return settings.radius == RadiusChoice::adaptive && settings.estimateBias && settings.map == MapOrder::photons &&
+           scene.sensor.meter == MeterKind::none && scene.media.empty();
+}
+
 bool adaptsRadius(const Features& features, const RenderSettings& settings) {
-    RenderSettings specialised = settings; // generic kernels know media in every scene
-    specialised.genericKernels = false;
-    const unsigned classes = photonClasses(features, specialised);
-    return settings.radius == RadiusChoice::adaptive && estimatesBias(features, settings) && classes != 0 &&
-           classes >> LIGHT_CLASSES == 0;
+    return settings.radius == RadiusChoice::adaptive && estimatesBias(features, settings) && !features.media &&
+           photonClasses(features, settings) != 0;
 }
 
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {

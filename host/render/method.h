@@ -13,7 +13,10 @@ unsigned photonClasses(const Features& features, const RenderSettings& settings)
 
 /// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
 bool estimatesBias(const Features& features, const RenderSettings& settings);
-/// Is the density radius chosen by pixel? Where it is asked for, bias is estimated, and nothing is stored in media.
+/// Whether the density radius may be chosen by pixel, so that borders must be known for the largest one: told before the
+/// scene is flattened.
+bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);
+/// Is it chosen by pixel? Only where mayAdaptRadius(), and some photons are stored.
 bool adaptsRadius(const Features& features, const RenderSettings& settings);
 
 /// An irradiance meter scatters by its variant: genuine diffuse in the main one, else quasi-specular (METER_SCATTERING).

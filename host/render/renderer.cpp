@@ -30,8 +30,7 @@ DeviceScene flatten(const Scene& scene, const RenderSettings& settings) {
     flattening.photons = photons;
     flattening.overridesScene = settings.quasiSpecularFromCommandLine;
     flattening.largestRadius = [&](double area) {
-        const bool mayAdapt = settings.radius == RadiusChoice::adaptive && scene.media.empty();
-        return firstRadius(area, settings, photons) * (mayAdapt ? largestAdaptiveRadius : 1);
+        return firstRadius(area, settings, photons) * (mayAdaptRadius(scene, settings) ? largestAdaptiveRadius : 1);
     };
     return flattenScene(scene, flattening);
 }

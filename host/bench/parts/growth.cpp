@@ -21,51 +21,27 @@ struct Size {
     Task task;
 };
 
+// A task for each value of one of its members, and how large it is by that value.
+std::vector<Size> sizesBy(unsigned Task::*member, const std::vector<unsigned>& values, double (*sizeOf)(double)) {
+    std::vector<Size> sizes;
+    for (const unsigned value : values) {
+        Task task;
+        task.*member = value;
+        sizes.push_back({sizeOf(value), task});
+    }
+    return sizes;
+}
+
 // Steps alike in logarithms, so that none weighs more in the exponent.
-std::vector<Size> trianglesGrow() {
-    std::vector<Size> sizes;
-    for (const unsigned n : {100u, 520u, 2700u, 14'000u, 73'000u, 380'000u, 2'000'000u}) {
-        Task task;
-        task.triangles = n;
-        sizes.push_back({double(n), task});
-    }
-    return sizes;
-}
-
-std::vector<Size> photonsGrow() {
-    std::vector<Size> sizes;
-    for (const unsigned n : {10'000u, 32'000u, 100'000u, 320'000u, 1'000'000u, 3'200'000u, 10'000'000u}) {
-        Task task;
-        task.photons = n;
-        sizes.push_back({double(n), task});
-    }
-    return sizes;
-}
-
-std::vector<Size> pixelsGrow() {
-    std::vector<Size> sizes;
-    for (const unsigned side : {32u, 64u, 128u, 256u, 512u, 1024u}) {
-        Task task;
-        task.resolution = side;
-        sizes.push_back({double(side) * side, task});
-    }
-    return sizes;
-}
-
-std::vector<Size> bddGrows() {
-    std::vector<Size> sizes;
-    for (const unsigned bdd : {0u, 1u, 3u, 7u, 15u}) {
-        Task task;
-        task.bdd = bdd;
-        sizes.push_back({1.0 + bdd, task});
-    }
-    return sizes;
-}
-
 std::vector<Size> sizesOf(const std::string& subject) {
-    if (subject == "triangles") return trianglesGrow();
-    if (subject == "photons") return photonsGrow();
-    return subject == "pixels" ? pixelsGrow() : bddGrows();
+    const auto itself = [](double value) { return value; };
+    if (subject == "triangles")
+        return sizesBy(&Task::triangles, {100, 520, 2700, 14'000, 73'000, 380'000, 2'000'000}, itself);
+    if (subject == "photons")
+        return sizesBy(&Task::photons, {10'000, 32'000, 100'000, 320'000, 1'000'000, 3'200'000, 10'000'000}, itself);
+    if (subject == "pixels")
+        return sizesBy(&Task::resolution, {32, 64, 128, 256, 512, 1024}, [](double side) { return side * side; });
+    return sizesBy(&Task::bdd, {0, 1, 3, 7, 15}, [](double bdd) { return 1 + bdd; });
 }
 
 } // namespace
@@ -94,8 +70,14 @@ GrowthSeries measureGrowth(const std::string& subject, int device, unsigned step
         settings.bdd = task.bdd;
         try {
             series.points.push_back({size, measurePass(device, scene, settings, seconds)});
-        } catch (const DeviceError& error) { // what a device has no memory for ends the series, not the report
-            series.stopped = fmt::format("{:g}: {}", size, error.what());
+        } catch (const InputError&
+                     error) { // what does not fit the device is refused: the end of the series, not of the report
+            series.stopped = error.what();
+        } catch (const DeviceError& error) { // or fails
+            series.stopped = error.what();
+        }
+        if (!series.stopped.empty()) {
+            series.stopped = fmt::format("{:g}: {}", size, series.stopped);
             return series;
         }
     }
