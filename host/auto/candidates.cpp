@@ -68,7 +68,7 @@ std::vector<std::string> singleLobes(const Scene& scene) {
 
 std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene& scene) {
     std::vector<std::string> splits{"auto"};
-    if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.03", "level:0.3"});
+    if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.3", "level:0.03"});
     splits.insert(splits.end(), {"none", "all"});
     for (const auto& lobe : singleLobes(scene)) splits.push_back(lobe);
     std::vector<std::string> known{splitKey(splitOf(scene, from))};
@@ -118,6 +118,12 @@ std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettin
     return {};
 }
 
+std::array<Coordinate, 5> searchOrder(const RenderSettings& start) {
+    using enum Coordinate;
+    return start.bdd > 0 ? std::array{bdd, split, variant, photons, radius}
+                         : std::array{split, variant, photons, radius, bdd};
+}
+
 bool isFree(Coordinate coordinate, const Freedom& freedom) {
     const bool free[] = {freedom.split, freedom.bdd, freedom.variant, freedom.photons, freedom.radius};
     return free[static_cast<size_t>(coordinate)];
@@ -126,7 +132,7 @@ bool isFree(Coordinate coordinate, const Freedom& freedom) {
 std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSettings& start, unsigned photons,
                                          const Scene& scene) {
     std::vector<std::string> texts;
-    for (const Coordinate coordinate : coordinates) {
+    for (const Coordinate coordinate : searchOrder(start)) {
         if (!isFree(coordinate, freedom)) continue;
         for (const auto& next : neighbours(coordinate, start, photons, scene))
             texts.push_back(text(next, next.photonsPerPass > 0 ? next.photonsPerPass : photons));

@@ -3,15 +3,16 @@
 
 #include "auto/freedom.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
 namespace quasilux {
 
-/// One after the other; those that tend to differ most come first.
 enum class Coordinate { split, bdd, variant, photons, radius };
-inline constexpr Coordinate coordinates[] = {Coordinate::split, Coordinate::bdd, Coordinate::variant,
-                                             Coordinate::photons, Coordinate::radius};
+/// One after the other; those that tend to gain most for their time come first. BDD 0 has the shortest paths and mostly the least
+/// error, so it is tried first where the search starts with another; where it does not, others come last.
+std::array<Coordinate, 5> searchOrder(const RenderSettings& start);
 bool isFree(Coordinate coordinate, const Freedom& freedom);
 
 /// Factors of photons per pass and radius that are tried, and how far they may go from where the search starts.

@@ -52,7 +52,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
         note(best_, "start");
         for (size_t before = 0; before != report_.rows.size();) { // until a round tries nothing new
             before = report_.rows.size();
-            for (const Coordinate coordinate : coordinates) tryNeighbours(coordinate);
+            for (const Coordinate coordinate : searchOrder(settings)) tryNeighbours(coordinate);
         }
         best_.measure = best_.pilot->measure();
     }
