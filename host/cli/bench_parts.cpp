@@ -13,8 +13,6 @@
 
 namespace quasilux {
 
-using nlohmann::json;
-
 namespace {
 
 constexpr double shareOfTime = 0.1; // of --time, for each size and each round: there are many of them
@@ -32,7 +30,7 @@ public:
     }
 
     BenchSection passTimes() {
-        BenchSection section{"passTimes", "Pass", json::array(), {}};
+        BenchSection section{"passTimes", "Pass", nlohmann::json::array(), {}};
         std::vector<TableRow> rows{{"scene", "device", "CPU ms", "ms", "kernels, ms"}};
         forEach("a pass", [&](const PartScene& scene, size_t place) {
             const auto measured =
@@ -42,7 +40,7 @@ public:
                 kernels += fmt::format("{}{} {:.2f}", kernels.empty() ? "" : ", ", kernel, 1e3 * seconds);
             rows.push_back({scene.path, std::to_string(place), fmt::format("{:.2f}", 1e3 * measured.least.cpu),
                             fmt::format("{:.2f}", 1e3 * measured.least.clock), kernels});
-            json entry = passMeasurementJson(measured);
+            nlohmann::json entry = passMeasurementJson(measured);
             entry["scene"] = scene.path;
             entry["device"] = place;
             section.figures.push_back(entry);

@@ -129,7 +129,7 @@ void infoCommand(const SceneOptions& options) {
     const auto candidates = firstCandidates(freedom, settings, report.photonsPerPass, scene);
     const std::string file = std::filesystem::path(options.scene).filename().string();
     if (options.json) {
-        const nlohmann::json json{
+        const nlohmann::json output{
             {"version", QUASILUX_VERSION},
             {"scene", file},
             {"settings", settingsJson(settings)},
@@ -140,7 +140,7 @@ void infoCommand(const SceneOptions& options) {
             {"device", deviceJson(device.info())},
             {"sceneReport", sceneReportJson(report)},
             {"trialPass", countersJson(renderer.counters())}};
-        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        fmt::print("{}\n", output.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
     }
     if (options.quiet) return;

@@ -3,6 +3,7 @@
 
 #include "prepare/border_pairs.h"
 #include "prepare/coplanar_overlap.h"
+#include "prepare/pack.h"
 
 #include <algorithm>
 #include <utility>
@@ -48,8 +49,6 @@ void noteOverlap(const std::optional<glm::dvec3>& place, unsigned a, unsigned b,
     if (!noted || std::pair(first, second) < std::pair(noted->first, noted->second)) noted = {first, second, *place};
 }
 
-shared::Packed3 packed(const glm::dvec3& p) { return {float(p.x), float(p.y), float(p.z)}; }
-
 } // namespace
 
 void intersectSurfaces(const Surface& surface, SurfaceBorders& borders) {
@@ -81,7 +80,7 @@ void intersectSurfaces(const Surface& surface, SurfaceBorders& borders) {
         }
         for (const CutSegment& cut : cuts)
             borders.segments.push_back(
-                {packed(cut.a), packed(cut.b), patchOfPrimitive[primitiveA], patchOfPrimitive[primitiveB]});
+                {pack(cut.a), pack(cut.b), patchOfPrimitive[primitiveA], patchOfPrimitive[primitiveB]});
     });
 }
 

@@ -2,6 +2,7 @@
 #include "prepare/border_patches.h"
 
 #include "prepare/border_union_find.h"
+#include "prepare/pack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,8 +86,6 @@ void numberPatches(UnionFind& sets, SurfaceBorders& borders) {
     }
 }
 
-shared::Packed3 packed(const glm::dvec3& p) { return {float(p.x), float(p.y), float(p.z)}; }
-
 /// The segment of an edge; one for every two patches that meet there, so that each is named.
 void appendSegments(EdgeGroup edge, const Surface& surface, SurfaceBorders& borders) {
     std::vector<unsigned> patches;
@@ -96,7 +95,7 @@ void appendSegments(EdgeGroup edge, const Surface& surface, SurfaceBorders& bord
         std::sort(patches.begin(), patches.end());
         patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
     }
-    const shared::Packed3 a = packed(surface.vertices[edge[0].low]), b = packed(surface.vertices[edge[0].high]);
+    const shared::Packed3 a = pack(surface.vertices[edge[0].low]), b = pack(surface.vertices[edge[0].high]);
     for (size_t i = 0; i < patches.size(); i += 2)
         borders.segments.push_back({a, b, patches[i], i + 1 < patches.size() ? patches[i + 1] : QL_NONE});
 }

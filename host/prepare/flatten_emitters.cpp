@@ -2,14 +2,15 @@
 #include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
 #include "prepare/pack.h"
+#include "scene/color.h"
+
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
-
-double mean(const Rgb& c) { return (double(c.r) + c.g + c.b) / 3; }
+using std::numbers::pi;
 
 void addTriangles(const Mesh& mesh, shared::Emitter& emitter, std::vector<shared::EmitterTriangle>& triangles) {
     emitter.firstTriangle = static_cast<unsigned>(triangles.size());

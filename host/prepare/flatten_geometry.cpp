@@ -1,6 +1,9 @@
 // Shapes into primitives, their records and corner normals.
+#include "prepare/border_surface.h"
 #include "prepare/device_scene.h"
 #include "prepare/pack.h"
+
+#include <numbers>
 
 namespace quasilux {
 
@@ -8,10 +11,6 @@ namespace {
 
 bool isNull(const Scene& scene, const ShapeDescription& shape) {
     return shape.bsdf >= 0 && scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull;
-}
-
-unsigned primitiveCount(const ShapeDescription& shape) {
-    return shape.sphere ? 1u : static_cast<unsigned>(shape.mesh.triangles.size());
 }
 
 double meshArea(const Mesh& mesh) {
@@ -79,12 +78,11 @@ std::vector<shared::Packed3> flattenCornerNormals(const Scene& scene) {
 }
 
 double scatteringArea(const Scene& scene) {
-    constexpr double pi = 3.141592653589793;
     double area = 0;
     for (const auto& shape : scene.shapes) {
         if (isNull(scene, shape)) continue;
         area += meshArea(shape.mesh);
-        if (shape.sphere) area += 4 * pi * shape.sphere->radius * shape.sphere->radius;
+        if (shape.sphere) area += 4 * std::numbers::pi * shape.sphere->radius * shape.sphere->radius;
     }
     return area;
 }

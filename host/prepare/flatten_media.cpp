@@ -2,15 +2,17 @@
 #include "prepare/device_scene.h"
 #include "prepare/medium_shape.h"
 #include "prepare/pack.h"
+#include "scene/color.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 // Photons that a ball is to hold in pass 0, were the collisions of a pass spread evenly.
 constexpr double photonsInBall = 200;
@@ -22,8 +24,6 @@ constexpr double flatRadius = 1.0;            // of the thickness
 constexpr double flatHeightUnscattered = 0.5; // of the mean free path
 constexpr double flatHeightScattered = 0.5;   // of the transport mean free path
 constexpr double flatHeightOfThickness = 0.1;
-
-double mean(const Rgb& c) { return (double(c.r) + c.g + c.b) / 3; }
 
 struct KernelSize {
     double radius = 0, halfHeight = 0;

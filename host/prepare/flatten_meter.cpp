@@ -4,12 +4,13 @@
 
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 // Paths of a small film in one pass: enough for a device to be busy, and few beside the photons of a pass.
 constexpr unsigned pathsInPass = 4096;
 

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// The corners of triangle `t`, seen from `origin`.
 std::array<glm::dvec3, 3> cornersFrom(const Mesh& mesh, const glm::uvec3& triangle, const glm::dvec3& origin) {

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 constexpr double sameDirection = 1e-5; // sine between normals of one plane
 constexpr double plateShare = 0.6;     // of the surface, in two parallel faces
 constexpr size_t planesMax = 12;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr unsigned photonsPerRegion = 256;
 constexpr unsigned pixelsPerRegion = 64;
-constexpr size_t pointFields = 5;  // POINT_FIELDS of kernels/photon_grid.clh
-constexpr size_t sampleFloats = 6; // SAMPLE_FLOATS of kernels/camera_paths.cl
+constexpr size_t pointFields = 5;        // POINT_FIELDS of kernels/photon_grid.clh
+constexpr size_t cameraSampleFloats = 6; // SAMPLE_FLOATS of kernels/camera_paths.cl
 
 unsigned divideUp(size_t count, unsigned by) { return static_cast<unsigned>((count + by - 1) / by); }
 
@@ -41,7 +41,7 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
     const unsigned regions = divideUp(paths, pixelsPerRegion);
     index_.makeTable(static_cast<unsigned>(paths), regions);
     regions_ = Buffer<shared::PointRegionCount>(device, regions, "camera point regions");
-    samples_ = Buffer<float>(device, sampleFloats * paths, "camera samples");
+    samples_ = Buffer<float>(device, cameraSampleFloats * paths, "camera samples");
     sums_ = Buffer<uint32_t>(device, splatWords(classes) * film.pixels(), "splats");
     sums_.fill(0);
     makeRegions();

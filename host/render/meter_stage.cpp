@@ -4,7 +4,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr size_t sampleFloats = size_t{3} * FILM_COMPONENTS; // SAMPLE_FLOATS of kernels/camera_paths.cl
+constexpr size_t meterSampleFloats = size_t{3} * FILM_COMPONENTS; // SAMPLE_FLOATS of kernels/camera_paths.cl
 
 } // namespace
 
@@ -13,9 +13,9 @@ MeterStage::MeterStage(Device& device, const Program& pass, const GeometryBuffer
     : geometry_(geometry), film_(film), traceMeterPaths_(pass.kernel("traceMeterPaths")),
       addMeterSamples_(pass.kernel("addMeterSamples")), params_(params),
       counted_(device, classes, film.pixels(), meanRadiance),
-      samples_(device, sampleFloats * film.pixels() * params.scene.meter.samples, "meter samples") {}
+      samples_(device, meterSampleFloats * film.pixels() * params.scene.meter.samples, "meter samples") {}
 
-size_t MeterStage::sampleBytes(size_t paths) { return sampleFloats * paths * sizeof(float); }
+size_t MeterStage::sampleBytes(size_t paths) { return meterSampleFloats * paths * sizeof(float); }
 
 void MeterStage::compile(const PhotonStage& photons) {
     shared::CameraParams nothing = params_;

@@ -1,12 +1,13 @@
 #include "render/radius.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 constexpr double photonsInDisc = 300;
 
 // Logarithm of the product of (k + alpha) / (k + 1) for k = 1 .. pass, in closed form.

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <fmt/format.h>
+#include <numbers>
 #include <optional>
 
 namespace quasilux {
@@ -59,8 +60,7 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
 
 // Of the order of what the scene shows: the unit of splats need be no better.
 double meanRadiance(const DeviceScene& flat) {
-    constexpr double pi = 3.141592653589793;
-    return flat.surfaceArea > 0 ? flat.emittedFlux / (pi * flat.surfaceArea) : flat.emittedFlux;
+    return flat.surfaceArea > 0 ? flat.emittedFlux / (std::numbers::pi * flat.surfaceArea) : flat.emittedFlux;
 }
 
 std::string scatteringName(unsigned scattering) {

@@ -11,7 +11,7 @@ namespace quasilux {
 namespace {
 
 constexpr std::string_view kind = "illuminance-grid";
-const Names keys = {"origin", "edge-u", "edge-v", "nx", "ny", "normal"};
+const Names gridNames = {"origin", "edge-u", "edge-v", "nx", "ny", "normal"};
 constexpr uint64_t maximumPoints = 32768; // along one side, as of a film
 
 const std::string& valueOf(const Instruction& instruction, std::string_view key) {
@@ -64,9 +64,9 @@ bool isIlluminanceGrid(const Instruction& instruction) {
 
 IlluminanceGrid parseIlluminanceGrid(const Instruction& instruction) {
     for (const Attribute& entry : instruction.entries)
-        if (std::find(keys.begin(), keys.end(), entry.name) == keys.end())
+        if (std::find(gridNames.begin(), gridNames.end(), entry.name) == gridNames.end())
             throw InputError(instruction.where, fmt::format("unknown key '{}' of an illuminance-grid.{}", entry.name,
-                                                            knownNames(entry.name, keys)));
+                                                            knownNames(entry.name, gridNames)));
     IlluminanceGrid grid;
     grid.where = instruction.where;
     grid.origin = vectorOf(instruction, "origin");

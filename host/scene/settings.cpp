@@ -14,7 +14,7 @@ namespace quasilux {
 
 namespace {
 
-const Names keys = {"bdd", "variant", "quasi-specular", "direct", "map", "photons", "seed", "units"};
+const Names settingNames = {"bdd", "variant", "quasi-specular", "direct", "map", "photons", "seed", "units"};
 
 std::string oneOf(const Attribute& entry, const Names& known, const SourceLocation& where) {
     if (std::find(known.begin(), known.end(), entry.value) == known.end())
@@ -53,7 +53,7 @@ void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& s
         settings.seed = parseUnsigned(entry.value, 0, std::numeric_limits<uint64_t>::max(), where, "seed");
     else
         throw InputError(where, fmt::format("unknown key '{}' of <?quasilux?> in a scene.{}", entry.name,
-                                            knownNames(entry.name, keys)));
+                                            knownNames(entry.name, settingNames)));
 }
 
 } // namespace

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 constexpr int wall = 0, shiny = 1, passing = 2; // places in Scene::bsdfs
 
 void addBsdfs(Scene& scene) {

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double smallestShare = 0.02; // of a pass: kernels that never take more are left out of plots
+constexpr double plottedShare = 0.02; // of a pass: kernels that never take more are left out of plots
 
 using Points = std::vector<std::pair<double, double>>;
 
@@ -22,7 +22,7 @@ std::vector<std::pair<std::string, Points>> costsOf(const GrowthSeries& series) 
     std::set<std::string> kernels;
     for (const auto& point : series.points)
         for (const auto& [kernel, seconds] : point.measured.least.kernelCosts)
-            if (seconds > smallestShare * point.measured.least.cost(series.isCpu)) kernels.insert(kernel);
+            if (seconds > plottedShare * point.measured.least.cost(series.isCpu)) kernels.insert(kernel);
     std::vector<std::pair<std::string, Points>> costs{{"pass", {}}};
     for (const std::string& kernel : kernels) costs.push_back({kernel, {}});
     for (auto& [name, points] : costs)

@@ -10,7 +10,7 @@ using nlohmann::json;
 namespace {
 
 constexpr size_t fewestPairs = 4;
-constexpr double smallestShare = 0.02; // of a pass: the ratio of less says little
+constexpr double comparedShare = 0.02; // of a pass: the ratio of less says little
 
 /// One side of the comparison.
 struct Side {
@@ -44,7 +44,7 @@ std::map<std::string, PairedRatio> kernelRatios(const Side& specialised, const S
         for (const auto& [kernel, seconds] : specialised.passes[k].kernelCosts) {
             const auto other = generic.passes[k].kernelCosts.find(kernel);
             if (other == generic.passes[k].kernelCosts.end() ||
-                seconds < smallestShare * specialised.passes[k].cost(isCpu))
+                seconds < comparedShare * specialised.passes[k].cost(isCpu))
                 continue;
             ratios[kernel].push_back(other->second / seconds);
         }

@@ -16,7 +16,7 @@ struct BsdfPlugin {
 };
 
 #define QUASILUX_BSDF_ENTRY(name, read) {#name, read},
-constexpr BsdfPlugin plugins[] = {QUASILUX_BSDF_PLUGINS(QUASILUX_BSDF_ENTRY)};
+constexpr BsdfPlugin bsdfPlugins[] = {QUASILUX_BSDF_PLUGINS(QUASILUX_BSDF_ENTRY)};
 #undef QUASILUX_BSDF_ENTRY
 
 /// Lobes that scatter nothing cost time and noise.
@@ -48,7 +48,7 @@ BsdfLobes readBsdfLobes(const Element& element, LoadContext& context) {
     if (std::find(open.begin(), open.end(), &element) != open.end())
         throw InputError(element.where, fmt::format("bsdf '{}' contains itself; remove one <ref>.", idOf(element)));
     open.push_back(&element);
-    const BsdfPlugin& plugin = findPlugin(plugins, element);
+    const BsdfPlugin& plugin = findPlugin(bsdfPlugins, element);
     Properties properties(element, context);
     BsdfLobes lobes = plugin.read(properties);
     properties.finish();

@@ -16,12 +16,12 @@ struct MediumPlugin {
     void (*read)(Properties&, MediumDescription&);
 };
 
-constexpr MediumPlugin plugins[] = {{"homogeneous", readHomogeneous}};
+constexpr MediumPlugin mediumPlugins[] = {{"homogeneous", readHomogeneous}};
 
 } // namespace
 
 MediumDescription readMedium(const Element& element, LoadContext& context) {
-    const MediumPlugin& plugin = findPlugin(plugins, element);
+    const MediumPlugin& plugin = findPlugin(mediumPlugins, element);
     Properties properties(element, context);
     MediumDescription medium;
     medium.id = idOf(element);

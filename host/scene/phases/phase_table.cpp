@@ -13,13 +13,13 @@ struct PhasePlugin {
     void (*read)(Properties&, MediumDescription&);
 };
 
-constexpr PhasePlugin plugins[] = {
+constexpr PhasePlugin phasePlugins[] = {
     {"isotropic", readIsotropic}, {"hg", readHenyeyGreenstein}, {"rayleigh", readRayleigh}};
 
 } // namespace
 
 void readPhase(const Element& element, LoadContext& context, MediumDescription& medium) {
-    const PhasePlugin& plugin = findPlugin(plugins, element);
+    const PhasePlugin& plugin = findPlugin(phasePlugins, element);
     Properties properties(element, context);
     plugin.read(properties, medium);
     properties.finish();

@@ -17,7 +17,7 @@ struct ShapePlugin {
     void (*read)(Properties&, ShapeDescription&);
 };
 
-constexpr ShapePlugin plugins[] = {
+constexpr ShapePlugin shapePlugins[] = {
     {"rectangle", readRectangle}, {"cube", readCube}, {"sphere", readSphere}, {"obj", readObj}, {"ply", readPly},
 };
 
@@ -35,7 +35,7 @@ double areaOf(const ShapeDescription& shape) {
 } // namespace
 
 ShapeDescription readShape(const Element& element, LoadContext& context, const Element*& sensor) {
-    const ShapePlugin& plugin = findPlugin(plugins, element);
+    const ShapePlugin& plugin = findPlugin(shapePlugins, element);
     Properties properties(element, context);
     ShapeDescription shape;
     shape.id = idOf(element);

@@ -14,7 +14,7 @@ struct TexturePlugin {
     void (*read)(Properties&, TextureDescription&);
 };
 
-constexpr TexturePlugin plugins[] = {{"checkerboard", readCheckerboard}, {"bitmap", readBitmap}};
+constexpr TexturePlugin texturePlugins[] = {{"checkerboard", readCheckerboard}, {"bitmap", readBitmap}};
 
 /// As in Mitsuba, what the transform does within the plane of x and y.
 void readToUv(Properties& properties, shared::Texture& texture) {
@@ -47,7 +47,7 @@ int useTexture(const Element& element, LoadContext& context) {
 } // namespace
 
 TextureDescription readTexture(const Element& element, LoadContext& context) {
-    const TexturePlugin& plugin = findPlugin(plugins, element);
+    const TexturePlugin& plugin = findPlugin(texturePlugins, element);
     Properties properties(element, context);
     TextureDescription texture;
     texture.where = element.where;
