@@ -122,14 +122,16 @@ inline void countCut(__global CameraCounters* counters, float cut) {
     atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
 }
 
-inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel,
-                            const float3* components, float batchWeight) {
+/* A sample that is not finite counts as none, but the batch of passes that it may end is closed all the same. */
+inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel, float3* components,
+                            float batchWeight) {
     float3 total = 0;
     for (uint k = 0; k < FILM_COMPONENTS; ++k) total += components[k];
-    if (all(isfinite(total)))
-        addSample(film, pixel, components, batchWeight);
-    else
+    if (!all(isfinite(total))) {
         atomic_inc(&counters->nonFinite);
+        for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
+    }
+    addSample(film, pixel, components, batchWeight);
 }
 
 /* Sum over the `paths` of a pixel of the component in this place of their samples, compensated (Kahan 1965): a meter has

@@ -1,6 +1,7 @@
 #include "auto/search.h"
 
 #include "auto/combination.h"
+#include "util/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,14 @@ namespace {
 constexpr unsigned stages[] = {2, 4, 8, 16};
 // Passes before a candidate may win; more for one whose camera paths scatter on: few passes may miss its bright pixels.
 constexpr unsigned fewestToWin = 4, fewestToWinWithMorePaths = 8;
-constexpr double smallGain = 0.05;       // in the logarithm of relMSE: not worth another pass
-constexpr double surelyWorse = 1.5;      // standard errors
-constexpr double surelyBetter = 2;       // standard errors beyond smallGain
-constexpr double clockError = 0.1;       // of the logarithm of the time that one pass takes
-constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
-constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
+// More passes than fewestToWin are for what few passes leave open, as long as they leave time for other candidates.
+constexpr double shareOfOneDuel = 1.0 / 8; // of the time for pilots
+constexpr double smallGain = 0.05;         // in the logarithm of relMSE: not worth another pass
+constexpr double surelyWorse = 1.5;        // standard errors
+constexpr double surelyBetter = 2;         // standard errors beyond smallGain
+constexpr double clockError = 0.1;         // of the logarithm of the time that one pass takes
+constexpr double leastSeconds = 1;         // renders shorter than this are not worth a search
+constexpr double longestHorizon = 86400;   // seconds, where only an error was asked for
 // Kernels not in the runtime's cache take so many times longer to open than those that are; whether the first ones
 // were, is not told, so no more than coldSeconds are expected of others (docs/auto.md).
 constexpr double coldOverWarm = 10, coldSeconds = 4;
@@ -40,7 +43,7 @@ Search::Search(SearchWorld world, const Scene& scene, Freedom freedom, const Sto
 
 SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> start) {
     report_.freedom = freedom_;
-    best_ = {settings, std::move(start), {}, 0};
+    best_ = {settings, std::move(start), {}, {}, 0};
     startPhotons_ = best_.pilot->photonsPerPass();
     startRadius_ = settings.radiusScale;
     enter(best_);
@@ -48,7 +51,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     began_ = world_.clock();
     ofBest_ = 0;
     if (begun) {
-        best_.measure = best_.pilot->measure();
+        measure(best_);
         note(best_, "start");
         for (size_t before = 0; before != report_.rows.size();) { // until a round tries nothing new
             before = report_.rows.size();
@@ -83,12 +86,18 @@ bool Search::affords(double seconds) {
 
 bool Search::renderUpTo(Contender& contender, unsigned passes) {
     const double start = world_.clock();
-    while (contender.pilot->passes() < passes && !interrupted()) {
+    const double end = stop_.seconds.value_or(longestHorizon);
+    while (contender.pilot->passes() < passes && !interrupted() && world_.clock() < end) {
         contender.pilot->renderPass();
         if (world_.onPass) world_.onPass(contender.pilot->passes());
     }
     if (&contender == &best_) ofBest_ += world_.clock() - start;
-    return !interrupted();
+    return contender.pilot->passes() >= passes;
+}
+
+void Search::measure(Contender& contender) {
+    contender.measure = contender.pilot->measure();
+    contender.stages.emplace(contender.measure.passes, contender.measure);
 }
 
 void Search::enter(Contender& contender) {
@@ -171,7 +180,13 @@ bool Search::tryCandidate(Coordinate coordinate, const RenderSettings& settings)
     tried_.push_back(key);
     Contender challenger;
     challenger.settings = settings;
-    challenger.pilot = world_.open(seededFor(settings, report_.rows.front().settings.seed, report_.rows.size()));
+    try {
+        challenger.pilot = world_.open(seededFor(settings, report_.rows.front().settings.seed, report_.rows.size()));
+    } catch (const InputError&) { // too little memory for another renderer beside the best one
+        return false;
+    } catch (const DeviceError&) {
+        return false;
+    }
     enter(challenger);
     const Verdict verdict = duel(challenger);
     note(challenger, verdict == Verdict::better ? "better" : verdict == Verdict::worse ? "worse" : "undecided");
@@ -184,17 +199,24 @@ bool Search::tryCandidate(Coordinate coordinate, const RenderSettings& settings)
     return verdict == Verdict::better;
 }
 
+unsigned Search::fewestToWinAgainst(const Contender& best, const Contender& challenger) {
+    return challenger.settings.bdd > best.settings.bdd ? fewestToWinWithMorePaths : fewestToWin;
+}
+
 Search::Verdict Search::judge(const Contender& challenger, bool isLast) const {
     const Prediction predicted = predictAfter(challenger.measure, secondsLeft());
     if (!(predicted.noise > 0)) return Verdict::undecided; // it has seen nothing, or there is nothing to gain
     const unsigned passes = challenger.measure.passes;
-    const bool morePaths = challenger.settings.bdd > best_.settings.bdd;
-    const bool mayWin = passes >= (morePaths ? fewestToWinWithMorePaths : fewestToWin);
-    const ErrorRatio found = errorRatio(challenger.measure, best_.measure, secondsLeft());
+    const bool fewerPaths = challenger.settings.bdd < best_.settings.bdd; // wins where both are alike: it hides nothing
+    const bool mayWin = passes >= fewestToWinAgainst(best_, challenger);
+    const auto stage = best_.stages.find(passes);
+    PilotMeasure best = stage == best_.stages.end() ? best_.measure : stage->second;
+    best.secondsPerPass = best_.measure.secondsPerPass;
+    const ErrorRatio found = errorRatio(challenger.measure, best, secondsLeft());
     const double error = std::hypot(found.standardError, clockError * std::sqrt(2.0 / (passes - 1)));
     if (found.logRatio - surelyWorse * error > -smallGain) return Verdict::worse;
-    if (passes >= fewestToWin && found.logRatio > -smallGain) return Verdict::worse;
-    const double margin = isLast ? error : surelyBetter * error + smallGain;
+    if (passes >= fewestToWin && found.logRatio > (fewerPaths ? 0 : -smallGain)) return Verdict::worse;
+    const double margin = isLast ? (fewerPaths ? 0 : error) : surelyBetter * error + smallGain;
     return mayWin && found.logRatio + margin < 0 ? Verdict::better : Verdict::undecided;
 }
 
@@ -202,12 +224,14 @@ Search::Verdict Search::duel(Contender& challenger) {
     Verdict verdict = Verdict::undecided;
     for (const unsigned passes : stages) {
         const double more = (passes - challenger.pilot->passes()) * challenger.measure.secondsPerPass;
-        if (more > 0 && !affords(more)) return judge(challenger, true);
+        const bool isLong =
+            passes > fewestToWinAgainst(best_, challenger) && more > shareOfOneDuel * pilotShare * horizon();
+        if (more > 0 && (!affords(more) || isLong)) return judge(challenger, true);
         // As many of the best one: it may be the one whose bright pixels are rare.
         const bool isWhole = renderUpTo(challenger, passes) && renderUpTo(best_, passes);
         if (challenger.pilot->passes() < 2) return Verdict::undecided; // interrupted
-        challenger.measure = challenger.pilot->measure();
-        best_.measure = best_.pilot->measure();
+        measure(challenger);
+        measure(best_);
         verdict = judge(challenger, !isWhole || passes == stages[std::size(stages) - 1]);
         if (!isWhole || verdict != Verdict::undecided) return verdict;
     }

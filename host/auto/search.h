@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -47,6 +48,8 @@ private:
         RenderSettings settings;
         std::unique_ptr<Pilot> pilot;
         PilotMeasure measure;
+        std::map<unsigned, PilotMeasure>
+            stages; ///< measure by passes: radii by pixel lower noise after some, so like is held against like
         size_t row = 0;
     };
     enum class Verdict { better, worse, undecided };
@@ -55,7 +58,9 @@ private:
     bool tryCandidate(Coordinate coordinate, const RenderSettings& settings);
     Verdict duel(Contender& challenger);
     Verdict judge(const Contender& challenger, bool isLast) const;
+    static unsigned fewestToWinAgainst(const Contender& best, const Contender& challenger);
     bool renderUpTo(Contender& contender, unsigned passes);
+    static void measure(Contender& contender);
     bool affords(double seconds);
     bool isWorthTrying(Coordinate coordinate, const RenderSettings& settings) const;
     std::optional<double> opening(const std::string& key) const;

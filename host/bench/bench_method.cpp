@@ -1,5 +1,6 @@
 #include "bench/bench_method.h"
 
+#include "scene/quasi_specular.h"
 #include "util/error.h"
 
 #include <charconv>
@@ -49,6 +50,7 @@ void applyPart(const std::string& method, const std::string& part, RenderSetting
         settings.genericKernels = true;
     else if (part.rfind("level=", 0) == 0 && part.size() > 6) {
         settings.quasiSpecular = "level:" + part.substr(6);
+        parsePhaseLevel(settings.quasiSpecular, {}); // refuses what is no number before anything is rendered
         settings.quasiSpecularFromCommandLine = true;
     } else
         refuse(method, part);

@@ -68,7 +68,7 @@ BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, d
     if (run.points.empty() || run.points.back().passes != passes) addPoint();
     run.counters = renderer.counters();
     run.kernels = timed.device().timings();
-    run.peakBufferBytes = timed.device().allocatedBytes();
+    run.peakBufferBytes = timed.device().peakBytes();
     run.peakHostBytes = peakResidentBytes();
     return run;
 }

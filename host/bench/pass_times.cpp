@@ -76,14 +76,15 @@ PassMeasurement measurementOf(TimedRenderer& timed) {
     measured.prepare = counters.prepareSeconds;
     measured.compile = counters.compileSeconds;
     measured.firstPass = counters.firstPassSeconds;
-    measured.bufferBytes = timed.device().allocatedBytes();
+    measured.bufferBytes = timed.device().peakBytes();
     measured.triangles = timed.renderer().report().triangles;
     measured.photons = counters.photonsEmitted / counters.passes;
     measured.cameraPaths = counters.cameraPaths / counters.passes;
     return measured;
 }
 
-PassMeasurement measurePass(int device, const Scene& scene, const RenderSettings& settings, double seconds) {
+PassMeasurement measurePass(int device, const Scene& scene, RenderSettings settings, double seconds) {
+    settings.radius = RadiusChoice::fixed; // radii by pixel follow the scatter of passes, and the same pass has none
     TimedRenderer timed(device, scene, settings);
     timed.pass(0);
     std::vector<PassTimes> passes;

@@ -26,7 +26,7 @@ class TimedRenderer {
 public:
     TimedRenderer(int device, const Scene& scene, const RenderSettings& settings);
 
-    /// Renders the pass of this number. The same number again is the same work again.
+    /// Renders the pass of this number. The same number again is the same work again if the radius is fixed.
     PassTimes pass(unsigned number);
 
     Renderer& renderer() { return renderer_; }
@@ -56,8 +56,8 @@ PassMeasurement measurementOf(TimedRenderer& timed);
 /// Each figure the least of these; at least one.
 PassTimes leastOf(const std::vector<PassTimes>& passes);
 
-/// For `seconds`, but three passes besides the first one at least.
-PassMeasurement measurePass(int device, const Scene& scene, const RenderSettings& settings, double seconds);
+/// For `seconds`, but three passes besides the first one at least. By one radius for all pixels.
+PassMeasurement measurePass(int device, const Scene& scene, RenderSettings settings, double seconds);
 
 nlohmann::json passMeasurementJson(const PassMeasurement& measured);
 PassMeasurement passMeasurementFromJson(const nlohmann::json& json);

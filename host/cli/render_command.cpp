@@ -157,7 +157,7 @@ RenderRecord makeRecord(const RenderOptions& options, Device& device, const Auto
     record.error = estimateError(render.image);
     record.meter = meter;
     record.kernels = device.timings();
-    record.peakBufferBytes = device.allocatedBytes();
+    record.peakBufferBytes = device.peakBytes();
     record.peakHostBytes = peakResidentBytes();
     record.interrupted = interruptFlag();
     return record;

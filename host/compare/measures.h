@@ -39,7 +39,7 @@ struct RegionMeasures {
     /// noise that neighbours share, as a photon's, and takes bias that varies for noise. Nothing where unknown.
     std::optional<double> standardErrorByPixels, standardErrorByTiles;
 
-    double relativeBias() const { return bias / referenceLuminance; }
+    double relativeBias() const { return bias == 0 ? 0 : bias / referenceLuminance; }
     /// The larger one of what is known.
     std::optional<double> standardError() const;
 };

@@ -13,31 +13,37 @@ class Buffer {
 public:
     Buffer() = default;
     Buffer(Device& device, size_t count, const std::string& label)
-        : device_(&device), count_(count), memory_(device.allocate((count ? count : 1) * sizeof(T), label)) {}
+        : device_(&device), count_(count), allocation_(device.allocate((count ? count : 1) * sizeof(T), label)) {}
     Buffer(Device& device, const std::vector<T>& data, const std::string& label) : Buffer(device, data.size(), label) {
         write(data);
     }
 
     size_t size() const { return count_; }
-    const cl::Buffer& memory() const { return memory_; }
+    const cl::Buffer& memory() const { return allocation_.memory; }
 
     void write(const std::vector<T>& data) {
-        if (!data.empty())
-            device_->queue().enqueueWriteBuffer(memory_, CL_TRUE, 0, data.size() * sizeof(T), data.data());
+        if (data.empty()) return;
+        device_->run(
+            [&] { device_->queue().enqueueWriteBuffer(memory(), CL_TRUE, 0, data.size() * sizeof(T), data.data()); });
     }
     std::vector<T> read(size_t first = 0, size_t count = SIZE_MAX) const {
         std::vector<T> data(count == SIZE_MAX ? count_ - first : count);
-        if (!data.empty())
-            device_->queue().enqueueReadBuffer(memory_, CL_TRUE, first * sizeof(T), data.size() * sizeof(T),
+        if (data.empty()) return data;
+        device_->run([&] {
+            device_->queue().enqueueReadBuffer(memory(), CL_TRUE, first * sizeof(T), data.size() * sizeof(T),
                                                data.data());
+        });
         return data;
     }
-    void fill(T value) { device_->queue().enqueueFillBuffer(memory_, value, 0, (count_ ? count_ : 1) * sizeof(T)); }
+    void fill(T value) {
+        device_->run(
+            [&] { device_->queue().enqueueFillBuffer(memory(), value, 0, (count_ ? count_ : 1) * sizeof(T)); });
+    }
 
 private:
     Device* device_ = nullptr;
     size_t count_ = 0;
-    cl::Buffer memory_;
+    Allocation allocation_;
 };
 
 } // namespace quasilux

@@ -127,14 +127,13 @@ Device::Device(int index, unsigned workGroupSize, uint64_t memoryLimit, unsigned
     }
 }
 
-cl::Buffer Device::allocate(size_t bytes, const std::string& label) {
+Allocation Device::allocate(size_t bytes, const std::string& label) {
     constexpr double mib = 1024.0 * 1024.0;
     if (bytes > info_.maximumAllocation)
         throw InputError(fmt::format("buffer '{}' needs {:.1f} MiB, but device {} allows {:.1f} MiB in one buffer: use "
                                      "fewer --photons or a smaller film",
                                      label, bytes / mib, info_.name, info_.maximumAllocation / mib));
-    const auto before = allocations_.find(label);
-    const uint64_t others = allocated_ - (before == allocations_.end() ? 0 : before->second);
+    const uint64_t others = inUse_->now;
     if (others + bytes > info_.globalMemory)
         throw InputError(fmt::format("buffer '{}' of {:.1f} MiB comes to {:.1f} MiB in use, but device {} has {:.1f} "
                                      "MiB, {:.1f} MiB too little: use fewer --photons or a smaller film",
@@ -143,23 +142,31 @@ cl::Buffer Device::allocate(size_t bytes, const std::string& label) {
     try {
         cl::Buffer buffer = hugePagesHelp(info_, bytes) ? bufferOfHugePages(context_, bytes)
                                                         : cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
-        auto& known = allocations_[label];
-        allocated_ += bytes - known;
-        known = bytes;
-        return buffer;
+        allocations_[label] = bytes;
+        inUse_->now += bytes;
+        inUse_->peak = std::max(inUse_->peak, inUse_->now);
+        const auto release = [inUse = inUse_](const uint64_t* size) {
+            inUse->now -= *size;
+            delete size;
+        };
+        return {buffer, std::shared_ptr<const uint64_t>(new uint64_t(bytes), release)};
     } catch (const cl::Error& error) {
         throw DeviceError(fmt::format("buffer '{}' of {:.1f} MiB could not be allocated on device {} (OpenCL error {})",
                                       label, bytes / mib, info_.name, error.err()));
     }
 }
 
-void Device::finish() {
+void Device::run(const std::function<void()>& command) {
     try {
-        queue_.finish();
+        command();
     } catch (const cl::Error& error) {
         throw DeviceError(
             fmt::format("device {}: running kernels failed with OpenCL error {}", info_.name, error.err()));
     }
+}
+
+void Device::finish() {
+    run([&] { queue_.finish(); });
 }
 
 void Device::addTiming(const std::string& kernel, uint64_t privateBytes, const cl::Event& event) {
@@ -167,10 +174,10 @@ void Device::addTiming(const std::string& kernel, uint64_t privateBytes, const c
     pending_.emplace_back(kernel, event);
 }
 
-void Device::clearTimings() {
+void Device::resetTimings(std::map<std::string, KernelTiming> earlier) {
     finish();
     pending_.clear();
-    timings_.clear();
+    timings_ = std::move(earlier);
 }
 
 const std::map<std::string, KernelTiming>& Device::timings() {

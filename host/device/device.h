@@ -4,6 +4,7 @@
 #include <CL/opencl.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -29,6 +30,12 @@ struct KernelTiming {
     uint64_t privateBytes = 0; ///< private memory of a work-item, as the runtime tells; 0 where it does not
 };
 
+/// Device memory, and the bytes that it counts for as long as someone holds it.
+struct Allocation {
+    cl::Buffer memory;
+    std::shared_ptr<const uint64_t> bytes;
+};
+
 class Device {
 public:
     /// `index` as in listDevices(); -1 takes the first GPU, else the first device. Throws InputError if there is none.
@@ -42,9 +49,10 @@ public:
     const cl::Device& device() const { return device_; }
     unsigned workGroupSize() const { return workGroupSize_; }
 
-    /// Allocates, or throws DeviceError that names `label`, the bytes asked for and the device's limit.
-    cl::Buffer allocate(size_t bytes, const std::string& label);
-    uint64_t allocatedBytes() const { return allocated_; }
+    /// Throws InputError that names `label` and by how much what is in use would exceed the limit, DeviceError if the device refuses.
+    Allocation allocate(size_t bytes, const std::string& label);
+    /// Most bytes that were in use at once, of all renderers on this device.
+    uint64_t peakBytes() const { return inUse_->peak; }
     /// Bytes by label, as allocated so far (a label used twice holds the later size).
     const std::map<std::string, uint64_t>& allocations() const { return allocations_; }
 
@@ -52,10 +60,12 @@ public:
     void finish();
 
     void addTiming(const std::string& kernel, uint64_t privateBytes, const cl::Event& event);
-    /// Forgets what was launched so far.
-    void clearTimings();
     /// Waits, then sums what addTiming collected.
     const std::map<std::string, KernelTiming>& timings();
+    /// Takes timings() back to what they were.
+    void resetTimings(std::map<std::string, KernelTiming> earlier);
+    /// Runs `command`, which uses OpenCL's queue; throws DeviceError with the device's name where it fails.
+    void run(const std::function<void()>& command);
 
 private:
     DeviceInfo info_;
@@ -63,7 +73,10 @@ private:
     cl::Context context_;
     cl::CommandQueue queue_;
     unsigned workGroupSize_;
-    uint64_t allocated_ = 0;
+    struct InUse {
+        uint64_t now = 0, peak = 0;
+    };
+    std::shared_ptr<InUse> inUse_ = std::make_shared<InUse>(); ///< shared with buffers, which may outlive the device
     std::map<std::string, uint64_t> allocations_;
     std::vector<std::pair<std::string, cl::Event>> pending_;
     std::map<std::string, KernelTiming> timings_;

@@ -73,7 +73,7 @@ void writeText(const std::string& path, const std::string& text) {
     std::ofstream stream(file.temporary(), std::ios::binary);
     stream << text;
     stream.close();
-    if (!stream) throw std::runtime_error("cannot write " + path);
+    if (!stream) throw std::system_error(errno, std::generic_category(), "cannot write " + path);
     file.commit();
 }
 

@@ -25,7 +25,7 @@ struct RenderRecord {
     ErrorEstimate error;
     MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
     std::map<std::string, KernelTiming> kernels;
-    uint64_t peakBufferBytes = 0;             ///< buffers are allocated once and kept, so their sum is the peak
+    uint64_t peakBufferBytes = 0;             ///< most that were in use at once, of all candidates
     uint64_t peakHostBytes = 0;               ///< of the process, until the images are written
     double loadSeconds = 0, writeSeconds = 0; ///< reading the scene; writing the images
     bool interrupted = false;

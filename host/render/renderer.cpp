@@ -128,6 +128,7 @@ struct Renderer::Stages {
           geometry(device, flat),
           film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
           report(describe(scene, flat, settings)) {
+        auto timingsBefore = device.timings();
         const auto photon = photonParams(scene, flat, settings);
         const auto path = cameraParams(flat, settings, photon.maxDepth);
         const unsigned classes = photonClasses(flat.features, settings);
@@ -135,8 +136,8 @@ struct Renderer::Stages {
             prepareCameraMap(path, photon, classes);
         else
             preparePhotonMap(path, photon, classes);
-        device.clearTimings(); // those of passes alone tell
-        flat.bvh = {};         // on the device now
+        device.resetTimings(std::move(timingsBefore)); // those of passes alone tell
+        flat.bvh = {};                                 // on the device now
         flat.tables = {};
     }
 
@@ -315,7 +316,7 @@ void Renderer::renderPass(unsigned pass) {
         s.runCameraMap(pass);
     else
         s.runPhotonMap(pass);
-    s.device.finish();
+    s.device.timings(); // waits; and events, one for each launch, must not pile up
 
     auto& counters = s.counters;
     const auto dropped = s.film.counters();
