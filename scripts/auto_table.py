@@ -18,8 +18,6 @@ from relmse import box_reference, plate_reference, read_channels
 
 # Split, variant, BDD of the fixed settings; levels are for media only. Photons and radius: factors on the defaults.
 SPLITS, LEVELS = ["auto", "none", "all"], ["level:0.03", "level:0.1", "level:0.3"]
-# Images of at most 32 x 32 pixels, whose passes take milliseconds, and the share of the time that they get.
-SMALL, SHARE_OF_SMALL = {"slab", "textured_plane", "furnace_glass", "furnace_medium", "furnace_sky", "furnace_split", "furnace_textured"}, 0.2
 REFERENCES = {"cornell_phong": (box_reference, "all"), "plate_checker": (plate_reference, "plate")}
 
 
@@ -30,7 +28,6 @@ def scenes():
 class Table:
     def __init__(self, options):
         self.options = options
-        self.time = options.time
         self.folder = ROOT / "out" / "auto"
         self.folder.mkdir(parents=True, exist_ok=True)
 
@@ -49,7 +46,7 @@ class Table:
 
     def errors(self, scene, settings, seconds=None):
         """Told error, measured error or None, statistics."""
-        statistics, image = self.render(scene, settings, seconds or self.time)
+        statistics, image = self.render(scene, settings, seconds or self.options.time)
         told = statistics["error"]["relativeMse"]
         measured = None
         if scene in REFERENCES:
@@ -72,7 +69,7 @@ class Table:
 
     def screened(self, scene):
         """The fixed settings that a render of a sixth of the time does not rule out: their error is within 1.5 times the least."""
-        told = {tuple(settings): self.errors(scene, settings, self.time / 6)[0] for settings in self.fixed(scene)}
+        told = {tuple(settings): self.errors(scene, settings, self.options.time / 6)[0] for settings in self.fixed(scene)}
         return [settings for settings in told if told[settings] <= 1.5 * min(told.values())]
 
     def numbers(self, best, photons):
@@ -87,7 +84,6 @@ class Table:
                 str(settings["bdd"]), "--photons", str(report["photonsPerPass"]), "--radius-scale", f"{settings['radiusScale']:.6g}"]
 
     def row(self, scene):
-        self.time = self.options.time * (SHARE_OF_SMALL if scene in SMALL else 1)
         runs = {settings: self.errors(scene, settings) for settings in self.screened(scene)}
         best = min(runs, key=lambda settings: runs[settings][0])
         photons = runs[best][2]["sceneReport"]["photonsPerPass"]
@@ -96,7 +92,7 @@ class Table:
         best = min(runs, key=lambda settings: runs[settings][0])
         auto = self.errors(scene, ["--auto"])
         choice = self.errors(scene, self.chosen(auto[2]))
-        return [scene, f"{self.time:g} s", name(best), percent(runs[best][0]), name(self.chosen(auto[2])), percent(auto[0]), ratio(auto[0], runs[best][0]),
+        return [scene, name(best), percent(runs[best][0]), name(self.chosen(auto[2])), percent(auto[0]), ratio(auto[0], runs[best][0]),
                 ratio(choice[0], runs[best][0]), measured(auto, runs[best]), f"{auto[2]['auto']['pilotSeconds']:.1f} s"], auto[2]
 
 
@@ -121,7 +117,7 @@ def measured(auto, best):
 
 
 MARK = "<!-- scripts/auto_table.py writes what follows -->"
-HEADER = ["scene", "time", "best fixed", "error", "auto chose", "error", "ratio", "ratio of the choice alone", "ratio against the reference", "pilots"]
+HEADER = ["scene", "best fixed", "error", "auto chose", "error", "ratio", "ratio of the choice alone", "ratio against the reference", "pilots"]
 
 
 def main():

@@ -1,9 +1,9 @@
-// The choice of settings by pilot passes (docs/auto.md): prediction, search, the mean of what is added.
+// The choice of settings by pilot passes (docs/auto.md): prediction, and the mean of what is added. The search: search_test.cpp.
 //
-// False alarms: the two means are held to 4 standard errors (6e-5 each); the seeds are fixed. The search itself runs on
-// pilots made up here, whose errors and costs are known, by a clock that only their passes move.
+// False alarms: the mean is held to 4 standard errors (6e-5); the seeds are fixed.
 #include "auto/auto_render.h"
 #include "auto/combination.h"
+#include "support/even_pilot.h"
 #include "support/render_statistics.h"
 
 #include "device/device.h"
@@ -17,20 +17,7 @@
 namespace quasilux {
 namespace {
 
-using testing::HasSubstr;
-
-constexpr size_t tiles = 64;
-
 // --- prediction ---
-
-PilotMeasure evenPilot(unsigned passes, double noisePerPass, double bias, double secondsPerPass) {
-    PilotMeasure pilot;
-    pilot.passes = passes;
-    pilot.secondsPerPass = secondsPerPass;
-    pilot.noise.assign(tiles, noisePerPass / passes / tiles);
-    pilot.bias.assign(tiles, bias / tiles);
-    return pilot;
-}
 
 TEST(Prediction, NoiseFallsWithPassesAndBiasWithTheMeanSquaredRadius) {
     const PilotMeasure pilot = evenPilot(4, 8, 0.5, 0.1);
@@ -124,180 +111,6 @@ TEST(Combination, ToldErrorIsTheScatter) {
     const double unsquared = 0.2 * 1 + 0.8 * 0.25, right = 0.04 * 1 + 0.64 * 0.25;
     EXPECT_GT(std::abs(squares / n * right / unsquared - 1), bound);
     EXPECT_EQ(sum.passes, 16u);
-}
-
-// --- the search ---
-
-struct Truth {
-    double secondsPerPass = 0.1, noisePerPass = 1, bias = 0;
-    double firstNoise = 0; // told before `honestFrom` passes, all of it even; 0: honest from the start
-    unsigned honestFrom = 0;
-};
-using World = std::function<Truth(const RenderSettings&)>;
-
-class FakePilot : public Pilot {
-public:
-    FakePilot(const Truth& truth, unsigned photons, double& clock) : truth_(truth), photons_(photons), clock_(clock) {}
-    void renderPass() override {
-        clock_ += truth_.secondsPerPass;
-        ++passes_;
-    }
-    unsigned passes() const override { return passes_; }
-    PilotMeasure measure() const override {
-        const bool lies = passes_ < truth_.honestFrom;
-        return evenPilot(passes_, lies ? truth_.firstNoise : truth_.noisePerPass, truth_.bias, truth_.secondsPerPass);
-    }
-    FilmImage image() const override { return {}; }
-    unsigned photonsPerPass() const override { return photons_; }
-    double openingSeconds() const override { return 0.05; }
-
-private:
-    Truth truth_;
-    unsigned photons_, passes_ = 0;
-    double& clock_;
-};
-
-struct Found {
-    RenderSettings settings;
-    SearchReport report;
-};
-
-Found search(const World& world, double seconds, Freedom freedom = {true, true, true, true, true},
-             std::optional<double> error = std::nullopt) {
-    double clock = 0;
-    SearchWorld searched;
-    searched.open = [&](const RenderSettings& settings) {
-        clock += 0.05;
-        const unsigned photons = settings.photonsPerPass > 0 ? settings.photonsPerPass : 1000;
-        return std::make_unique<FakePilot>(world(settings), photons, clock);
-    };
-    searched.clock = [&] { return clock; };
-    const Scene scene = projectScene("cornell_phong.xml");
-    StopRule stop;
-    stop.seconds = seconds;
-    stop.relativeError = error;
-    const RenderSettings start;
-    auto result = Search(searched, scene, freedom, stop).run(start, searched.open(start));
-    return {result.settings, result.report};
-}
-
-TEST(Search, FindsWhatIsBetterInEachCoordinate) {
-    const World world = [](const RenderSettings& s) {
-        Truth truth;
-        truth.noisePerPass = (s.bdd == 1 ? 0.5 : 1) * (s.variant == Variant::alternative ? 0.6 : 1) *
-                             (s.quasiSpecular == "all" ? 0.4 : 1);
-        return truth;
-    };
-    const Found found = search(world, 200);
-    EXPECT_EQ(found.settings.bdd, 1u);
-    EXPECT_EQ(found.settings.variant, Variant::alternative);
-    EXPECT_EQ(found.settings.quasiSpecular, "all");
-    EXPECT_THAT(found.report.line(), HasSubstr("auto: BDD 1, alternative, split all"));
-}
-
-// Negative control of the one above: the same world the other way round keeps what it started with.
-TEST(Search, KeepsTheStartWhereNothingIsBetter) {
-    const World world = [](const RenderSettings& s) {
-        Truth truth;
-        const bool isStart = s.bdd == 0 && s.variant == Variant::main && s.quasiSpecular == "auto" &&
-                             s.photonsPerPass == 0 && s.radiusScale == 1;
-        truth.noisePerPass = isStart ? 1 : 1.3;
-        return truth;
-    };
-    const Found found = search(world, 200);
-    EXPECT_EQ(found.report.chosen, 0u);
-    EXPECT_GT(found.report.rows.size(), 3u);
-}
-
-TEST(Search, ChangesOnlyWhatIsOpen) {
-    const World world = [](const RenderSettings& s) {
-        Truth truth;
-        truth.noisePerPass = s.bdd == 1 ? 0.1 : 1;
-        return truth;
-    };
-    EXPECT_EQ(search(world, 200, {false, true, true, true, true}).settings.bdd, 0u);
-    EXPECT_EQ(search(world, 200, {true, false, false, false, false}).settings.bdd, 1u);
-    EXPECT_EQ(search(world, 200, {}).report.rows.size(), 1u);
-}
-
-TEST(Search, CostCountsAsMuchAsVariance) {
-    const World world = [](const RenderSettings& s) {
-        Truth truth;
-        truth.noisePerPass = s.bdd == 1 ? 0.5 : 1;
-        truth.secondsPerPass = s.bdd == 1 ? 0.3 : 0.1;
-        return truth;
-    };
-    EXPECT_EQ(search(world, 200).settings.bdd, 0u);
-}
-
-// A wide radius pays in a short render, a narrow one in a long one.
-TEST(Search, BiasWeighsMoreTheLongerTheRender) {
-    const World world = [](const RenderSettings& s) {
-        Truth truth;
-        truth.noisePerPass = 1 / (s.radiusScale * s.radiusScale);
-        truth.bias = 0.005 * std::pow(s.radiusScale, 4);
-        return truth;
-    };
-    const Freedom radius{false, false, false, false, true};
-    EXPECT_GT(search(world, 6, radius).settings.radiusScale, 1);
-    EXPECT_LT(search(world, 1e6, radius).settings.radiusScale, 1);
-}
-
-// BDD 1 hides its bright pixels for the first 6 passes. It may not win by what those passes told.
-TEST(Search, IsNotTakenInByFewLuckyPasses) {
-    World world = [](const RenderSettings& s) {
-        Truth truth;
-        if (s.bdd == 1) truth = {0.1, 20, 0, 0.2, 6};
-        return truth;
-    };
-    EXPECT_EQ(search(world, 200).settings.bdd, 0u);
-    world = [](const RenderSettings& s) { return s.bdd == 1 ? Truth{0.1, 0.2} : Truth{}; }; // control: so it would
-    EXPECT_EQ(search(world, 200).settings.bdd, 1u);
-}
-
-TEST(Search, KeepsToItsShareOfTheTime) {
-    const World world = [](const RenderSettings&) { return Truth{}; };
-    for (const double seconds : {2.0, 10.0, 50.0}) {
-        const Found found = search(world, seconds);
-        EXPECT_LE(found.report.seconds, pilotShare * seconds + 1e-9) << seconds;
-    }
-    const auto rows = search(world, 1.5).report.rows; // a candidate of the same kernels, once
-    ASSERT_EQ(rows.size(), 2u);
-    const Scene scene = projectScene("cornell_phong.xml");
-    EXPECT_EQ(kernelKey(rows[1].settings, scene), kernelKey(rows[0].settings, scene));
-    EXPECT_EQ(search(world, 0.9).report.rows.size(), 1u);
-    EXPECT_THAT(search(world, 0.5).report.line(), HasSubstr("(1 candidate, 0 passes of others"));
-}
-
-// As where a renderer beside the best one takes more memory than the device has.
-TEST(Search, LeavesOutWhatDoesNotFit) {
-    const World world = [](const RenderSettings& s) {
-        if (s.variant == Variant::alternative) throw InputError("too little memory");
-        return s.bdd == 1 ? Truth{0.1, 0.2} : Truth{};
-    };
-    const Found found = search(world, 200);
-    EXPECT_EQ(found.settings.bdd, 1u);
-    for (const PilotRow& row : found.report.rows) EXPECT_EQ(row.settings.variant, Variant::main);
-}
-
-// A tenth less noise is not sure after four passes. In a short render no more are spent on it, in a long one (control) they are.
-TEST(Search, OneDuelDoesNotTakeAllTime) {
-    const World world = [](const RenderSettings& s) { return Truth{0.1, s.photonsPerPass == 0 ? 1 : 0.9}; };
-    const Freedom photons{false, false, false, true, false};
-    const auto mostPasses = [&](double seconds) {
-        unsigned most = 0;
-        for (const PilotRow& row : search(world, seconds, photons).report.rows) most = std::max(most, row.passes);
-        return most;
-    };
-    EXPECT_EQ(mostPasses(12), 4u);
-    EXPECT_GT(mostPasses(200), 4u);
-}
-
-TEST(Search, PredictsTheTimeWhereOnlyAnErrorIsAskedFor) {
-    const World world = [](const RenderSettings&) { return Truth{}; };
-    const Found found = search(world, 1e6, {true, true, true, true, true}, 0.1); // 100 passes, 10 s
-    EXPECT_NEAR(found.report.horizon - found.report.seconds, 10, 2);             // pilots come on top
-    EXPECT_LE(found.report.seconds, pilotShare * found.report.horizon);
 }
 
 // --- the mean does not depend on the choice ---

@@ -13,12 +13,13 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace quasilux {
 namespace {
 
 constexpr double bound = 0.005, balanceBound = 1e-4;
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 const Placement ordinary, turned{"Turned", 1, "0,0,0", true};
 const Placement placements[] = {{"FarAway", 1, "1e5,-1e5,5e4"}, {"FarAwayTurned", 1, "-1e5,3e4,1e5", true},

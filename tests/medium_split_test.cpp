@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <gmock/gmock.h>
+#include <numbers>
 
 namespace quasilux {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using Kind = QuasiSpecularChoice::Kind;
 
-constexpr double pi = 3.14159265358979324;
+using std::numbers::pi;
 
 MediumDescription medium(const std::string& id, unsigned phase, double g = 0) {
     MediumDescription description;

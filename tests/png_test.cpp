@@ -2,7 +2,7 @@
 #include "output/png.h"
 
 #include "support/film_images.h"
-#include "support/temporary_folder.h"
+#include "util/temporary_folder.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>

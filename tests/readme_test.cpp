@@ -1,6 +1,6 @@
 // The documentation holds: every quasilux command in README.md and docs/ runs, every script exists and parses, every
 // relative link leads somewhere.
-#include "support/temporary_folder.h"
+#include "util/temporary_folder.h"
 
 #include <cstdlib>
 #include <filesystem>

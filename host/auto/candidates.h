@@ -10,8 +10,8 @@
 namespace quasilux {
 
 enum class Coordinate { split, bdd, variant, photons, radius };
-/// One after the other; those that tend to gain most for their time come first. BDD 0 has the shortest paths and mostly the least
-/// error, so it is tried first where the search starts with another; where it does not, others come last.
+/// One after the other; those that tend to gain most for their time come first. BDD 0 has the shortest paths and mostly
+/// the least error, so it is tried first where the search starts with another; where it does not, others come last.
 std::array<Coordinate, 5> searchOrder(const RenderSettings& start);
 bool isFree(Coordinate coordinate, const Freedom& freedom);
 

@@ -57,7 +57,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
             before = report_.rows.size();
             for (const Coordinate coordinate : searchOrder(settings)) tryNeighbours(coordinate);
         }
-        best_.measure = best_.pilot->measure();
+        measure(best_);
     }
     note(best_, report_.rows[best_.row].outcome);
     report_.seconds = spent();
@@ -69,8 +69,10 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
 
 double Search::spent() const { return world_.clock() - began_ - ofBest_; }
 
+double Search::secondsAllowed() const { return stop_.seconds.value_or(longestHorizon); }
+
 double Search::horizon() const {
-    const double limit = stop_.seconds.value_or(longestHorizon);
+    const double limit = secondsAllowed();
     if (!stop_.relativeError || best_.measure.passes < 2) return limit;
     return std::min(limit, world_.clock() + secondsToError(best_.measure, *stop_.relativeError, limit));
 }
@@ -86,8 +88,7 @@ bool Search::affords(double seconds) {
 
 bool Search::renderUpTo(Contender& contender, unsigned passes) {
     const double start = world_.clock();
-    const double end = stop_.seconds.value_or(longestHorizon);
-    while (contender.pilot->passes() < passes && !interrupted() && world_.clock() < end) {
+    while (contender.pilot->passes() < passes && !interrupted() && world_.clock() < secondsAllowed()) {
         contender.pilot->renderPass();
         if (world_.onPass) world_.onPass(contender.pilot->passes());
     }
@@ -96,6 +97,7 @@ bool Search::renderUpTo(Contender& contender, unsigned passes) {
 }
 
 void Search::measure(Contender& contender) {
+    if (contender.measure.passes == contender.pilot->passes()) return;
     contender.measure = contender.pilot->measure();
     contender.stages.emplace(contender.measure.passes, contender.measure);
 }
@@ -180,13 +182,9 @@ bool Search::tryCandidate(Coordinate coordinate, const RenderSettings& settings)
     tried_.push_back(key);
     Contender challenger;
     challenger.settings = settings;
-    try {
-        challenger.pilot = world_.open(seededFor(settings, report_.rows.front().settings.seed, report_.rows.size()));
-    } catch (const InputError&) { // too little memory for another renderer beside the best one
-        return false;
-    } catch (const DeviceError&) {
-        return false;
-    }
+    const auto seeded = seededFor(settings, report_.rows.front().settings.seed, report_.rows.size());
+    // There may be too little memory for another renderer beside the best one.
+    if (refusal([&] { challenger.pilot = world_.open(seeded); })) return false;
     enter(challenger);
     const Verdict verdict = duel(challenger);
     note(challenger, verdict == Verdict::better ? "better" : verdict == Verdict::worse ? "worse" : "undecided");

@@ -31,8 +31,8 @@ struct SearchResult {
     SearchReport report;
 };
 
-/// Share of the render's time that goes to pilots of candidates, opening them included. Were all of it lost, error would
-/// grow by 1 / sqrt(1 - 0.25) = 1.15; but their passes count.
+/// Share of the render's time that goes to pilots of candidates, opening them included. Were all of it lost, error
+/// would grow by 1 / sqrt(1 - 0.25) = 1.15; but their passes count.
 inline constexpr double pilotShare = 0.25;
 
 class Search {
@@ -48,8 +48,8 @@ private:
         RenderSettings settings;
         std::unique_ptr<Pilot> pilot;
         PilotMeasure measure;
-        std::map<unsigned, PilotMeasure>
-            stages; ///< measure by passes: radii by pixel lower noise after some, so like is held against like
+        /// Of fewer passes too, by their number: radii by pixel lower noise after some, so like is held against like.
+        std::map<unsigned, PilotMeasure> stages;
         size_t row = 0;
     };
     enum class Verdict { better, worse, undecided };
@@ -69,6 +69,7 @@ private:
     void note(const Contender& contender, const std::string& outcome);
     void retire(Contender& contender);
     double spent() const;
+    double secondsAllowed() const;
     double horizon() const;
     double secondsLeft() const;
     bool interrupted() const { return world_.interrupted && *world_.interrupted; }

@@ -145,11 +145,7 @@ Allocation Device::allocate(size_t bytes, const std::string& label) {
         allocations_[label] = bytes;
         inUse_->now += bytes;
         inUse_->peak = std::max(inUse_->peak, inUse_->now);
-        const auto release = [inUse = inUse_](const uint64_t* size) {
-            inUse->now -= *size;
-            delete size;
-        };
-        return {buffer, std::shared_ptr<const uint64_t>(new uint64_t(bytes), release)};
+        return {buffer, std::shared_ptr<const void>(nullptr, [inUse = inUse_, bytes](auto) { inUse->now -= bytes; })};
     } catch (const cl::Error& error) {
         throw DeviceError(fmt::format("buffer '{}' of {:.1f} MiB could not be allocated on device {} (OpenCL error {})",
                                       label, bytes / mib, info_.name, error.err()));

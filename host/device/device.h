@@ -30,10 +30,10 @@ struct KernelTiming {
     uint64_t privateBytes = 0; ///< private memory of a work-item, as the runtime tells; 0 where it does not
 };
 
-/// Device memory, and the bytes that it counts for as long as someone holds it.
+/// Device memory; its bytes count as in use until the last copy is gone.
 struct Allocation {
     cl::Buffer memory;
-    std::shared_ptr<const uint64_t> bytes;
+    std::shared_ptr<const void> use;
 };
 
 class Device {
@@ -49,7 +49,8 @@ public:
     const cl::Device& device() const { return device_; }
     unsigned workGroupSize() const { return workGroupSize_; }
 
-    /// Throws InputError that names `label` and by how much what is in use would exceed the limit, DeviceError if the device refuses.
+    /// Throws InputError that names `label` and by how much what is in use would exceed the limit, DeviceError if the
+    /// device refuses.
     Allocation allocate(size_t bytes, const std::string& label);
     /// Most bytes that were in use at once, of all renderers on this device.
     uint64_t peakBytes() const { return inUse_->peak; }

@@ -87,8 +87,8 @@ void Kernel::enqueue(size_t count, size_t group) {
 
 Program::Program(Device& device, const std::string& file, const std::string& options, const Sources& extra)
     : device_(&device), file_(file) {
-    // In C99 a plain inline function has no definition to link where a compiler chooses not to inline it, which some of GPUs do. Those
-    // of CPUs inline all, and PoCL compiles static ones for twice the time.
+    // In C99 a plain inline function has no definition to link where a compiler chooses not to inline it, as some for
+    // GPUs do. Those for CPUs inline all, and PoCL takes twice the time to compile static ones.
     const std::string linkage = device.info().isCpu ? "" : "#define inline static inline\n";
     program_ = cl::Program(device.context(), linkage + joinKernelSource(file, extra));
     try {

@@ -2,8 +2,7 @@
 #include "prepare/border_surface.h"
 #include "prepare/device_scene.h"
 #include "prepare/pack.h"
-
-#include <numbers>
+#include "scene/shapes/shape_area.h"
 
 namespace quasilux {
 
@@ -11,15 +10,6 @@ namespace {
 
 bool isNull(const Scene& scene, const ShapeDescription& shape) {
     return shape.bsdf >= 0 && scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull;
-}
-
-double meshArea(const Mesh& mesh) {
-    double area = 0;
-    for (const auto& t : mesh.triangles) {
-        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-        area += 0.5 * glm::length(glm::cross(b - a, c - a));
-    }
-    return area;
 }
 
 } // namespace
@@ -81,8 +71,7 @@ double scatteringArea(const Scene& scene) {
     double area = 0;
     for (const auto& shape : scene.shapes) {
         if (isNull(scene, shape)) continue;
-        area += meshArea(shape.mesh);
-        if (shape.sphere) area += 4 * std::numbers::pi * shape.sphere->radius * shape.sphere->radius;
+        area += areaOf(shape);
     }
     return area;
 }

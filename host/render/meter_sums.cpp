@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr float pi = 3.14159265f;
+constexpr float pi = std::numbers::pi_v<float>;
 
 // Of the mean radiance one splat may be 2^-37 and the sum of a pixel 2^27 before anything is lost: photons bring about
 // 2^-5 of it each, at a caustic's focus or in a narrow lobe up to 2^15 of that.

@@ -52,9 +52,19 @@ unsigned meterClasses(const Features& features, const RenderSettings& settings) 
 }
 
 // Never of generic kernels: a sensor is a camera or a meter.
+bool isMeter(const Features& features) { return features.radianceMeter || features.irradianceMeter; }
+
+bool estimatesBias(bool isMeter, const RenderSettings& settings) {
+    return settings.estimateBias && settings.map == MapOrder::photons && !isMeter;
+}
+
+bool mayAdaptRadius(bool isMeter, bool hasMedia, const RenderSettings& settings) {
+    return settings.radius == RadiusChoice::adaptive && estimatesBias(isMeter, settings) && !hasMedia;
+}
+
 std::string meterOptions(const Features& features, const RenderSettings& settings) {
     std::string options;
-    if (features.radianceMeter || features.irradianceMeter) options += " -DHAS_METER";
+    if (isMeter(features)) options += " -DHAS_METER";
     if (features.irradianceMeter) options += " -DHAS_IRRADIANCE_METER";
     if (meterCountsPhotons(features, settings)) options += " -DHAS_METER_PHOTONS";
     return options;
@@ -63,18 +73,15 @@ std::string meterOptions(const Features& features, const RenderSettings& setting
 } // namespace
 
 bool estimatesBias(const Features& features, const RenderSettings& settings) {
-    const bool isMeter = features.radianceMeter || features.irradianceMeter;
-    return settings.estimateBias && settings.map == MapOrder::photons && !isMeter;
+    return estimatesBias(isMeter(features), settings);
 }
 
 bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings) {
-    return settings.radius == RadiusChoice::adaptive && settings.estimateBias && settings.map == MapOrder::photons &&
-           scene.sensor.meter == MeterKind::none && scene.media.empty();
+    return mayAdaptRadius(scene.sensor.meter != MeterKind::none, !scene.media.empty(), settings);
 }
 
 bool adaptsRadius(const Features& features, const RenderSettings& settings) {
-    return settings.radius == RadiusChoice::adaptive && estimatesBias(features, settings) && !features.media &&
-           photonClasses(features, settings) != 0;
+    return mayAdaptRadius(isMeter(features), features.media, settings) && photonClasses(features, settings) != 0;
 }
 
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {

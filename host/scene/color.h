@@ -17,7 +17,7 @@ Rgb parseColor(const Element& element, ColorUse use);
 inline Rgb operator*(Rgb color, float factor) { return {color.r * factor, color.g * factor, color.b * factor}; }
 inline bool isBlack(Rgb color) { return color.r == 0 && color.g == 0 && color.b == 0; }
 inline float smallest(Rgb color) { return std::min(color.r, std::min(color.g, color.b)); }
-inline double mean(const Rgb& color) { return (double(color.r) + color.g + color.b) / 3; }
 inline float largest(Rgb color) { return std::max(color.r, std::max(color.g, color.b)); }
+inline double mean(Rgb color) { return (double(color.r) + color.g + color.b) / 3; }
 
 } // namespace quasilux

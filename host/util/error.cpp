@@ -11,4 +11,15 @@ std::string SourceLocation::text() const {
     return out;
 }
 
+std::optional<std::string> refusal(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const InputError& error) {
+        return error.what();
+    } catch (const DeviceError& error) {
+        return error.what();
+    }
+    return std::nullopt;
+}
+
 } // namespace quasilux

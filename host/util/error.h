@@ -1,6 +1,8 @@
 // Errors shown to users. Every one says what is wrong, what was expected and what to do.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -30,5 +32,8 @@ class DeviceError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
+
+/// What an InputError or a DeviceError that `action` throws says, as where memory does not suffice; nothing if it succeeds.
+std::optional<std::string> refusal(const std::function<void()>& action);
 
 } // namespace quasilux

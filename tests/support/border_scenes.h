@@ -5,12 +5,13 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 #include <vector>
 
 namespace quasilux {
 
-inline constexpr double pi = 3.14159265358979323846;
 using glm::dvec3;
+using std::numbers::pi;
 
 inline void addMesh(Scene& scene, const std::vector<dvec3>& positions, const std::vector<glm::uvec3>& triangles,
                     const glm::dmat4& toWorld = glm::dmat4(1)) {

@@ -7,12 +7,13 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 Scene withLambert(Scene scene) {
     Bsdf lambert;

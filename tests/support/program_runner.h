@@ -1,7 +1,7 @@
 // Runs the built program from outside, in a folder of its own.
 #pragma once
 
-#include "support/temporary_folder.h"
+#include "util/temporary_folder.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

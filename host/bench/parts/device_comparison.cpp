@@ -2,46 +2,25 @@
 
 #include "bench/bench_run.h"
 #include "compare/measures.h"
+#include "util/temporary_folder.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <stdexcept>
 
 namespace quasilux {
 
 using nlohmann::json;
-namespace fs = std::filesystem;
 
 namespace {
 
 constexpr unsigned comparedPasses = 4;
 constexpr double coldSeconds = 0.1; // only its first pass matters
 
-/// Where runtimes keep compiled kernels; gone with this object.
-class EmptyCache {
-public:
-    EmptyCache() {
-        std::string pattern = (fs::temp_directory_path() / "quasilux-cache-XXXXXX").string();
-        if (!mkdtemp(pattern.data())) throw std::runtime_error("no folder for temporary files can be made: set TMPDIR");
-        folder_ = pattern;
-    }
-    ~EmptyCache() {
-        std::error_code none;
-        fs::remove_all(folder_, none);
-    }
-    EmptyCache(const EmptyCache&) = delete;
-    EmptyCache& operator=(const EmptyCache&) = delete;
-
-    /// PoCL's variable, and that of NVIDIA's driver.
-    std::vector<std::pair<std::string, std::string>> environment() const {
-        return {{"POCL_CACHE_DIR", folder_.string()}, {"CUDA_CACHE_PATH", folder_.string()}};
-    }
-
-private:
-    fs::path folder_;
-};
+/// The variables by which PoCL and NVIDIA's driver keep compiled kernels in this folder.
+std::vector<std::pair<std::string, std::string>> cacheIn(const std::filesystem::path& folder) {
+    return {{"POCL_CACHE_DIR", folder.string()}, {"CUDA_CACHE_PATH", folder.string()}};
+}
 
 FilmImage imageOf(const Scene& scene, int device) {
     TimedRenderer timed(device, scene, settingsFromScene(scene));
@@ -99,11 +78,11 @@ std::vector<DeviceResult> compareDevices(const PartScene& scene, const std::vect
         DeviceResult result;
         result.scene = scene.path;
         result.device = place;
-        const EmptyCache cache;
+        const TemporaryFolder cache;
         onStep(fmt::format("{}, device {}, nothing compiled yet", scene.path, place));
-        result.cold = measureInChild(scene, device, coldSeconds, cache.environment());
+        result.cold = measureInChild(scene, device, coldSeconds, cacheIn(cache.path()));
         onStep(fmt::format("{}, device {}, kernels compiled", scene.path, place));
-        result.warm = measureInChild(scene, device, seconds, cache.environment());
+        result.warm = measureInChild(scene, device, seconds, cacheIn(cache.path()));
         onStep(fmt::format("{}, device {}, image", scene.path, place));
         const FilmImage image = imageOf(*scene.scene, device);
         if (reference)

@@ -68,16 +68,12 @@ GrowthSeries measureGrowth(const std::string& subject, int device, unsigned step
         RenderSettings settings = settingsFromScene(scene);
         settings.photonsPerPass = task.photons;
         settings.bdd = task.bdd;
-        try {
+        // What does not fit the device ends the series, not the report.
+        const auto refused = refusal([&] {
             series.points.push_back({size, measurePass(device, scene, settings, seconds)});
-        } catch (const InputError&
-                     error) { // what does not fit the device is refused: the end of the series, not of the report
-            series.stopped = error.what();
-        } catch (const DeviceError& error) { // or fails
-            series.stopped = error.what();
-        }
-        if (!series.stopped.empty()) {
-            series.stopped = fmt::format("{:g}: {}", size, series.stopped);
+        });
+        if (refused) {
+            series.stopped = fmt::format("{:g}: {}", size, *refused);
             return series;
         }
     }

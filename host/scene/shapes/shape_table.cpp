@@ -5,6 +5,7 @@
 #include "scene/bsdfs/bsdf_plugin.h"
 #include "scene/emitters/emitters.h"
 #include "scene/media/medium_plugin.h"
+#include "scene/shapes/shape_area.h"
 
 #include <fmt/format.h>
 
@@ -20,17 +21,6 @@ struct ShapePlugin {
 constexpr ShapePlugin shapePlugins[] = {
     {"rectangle", readRectangle}, {"cube", readCube}, {"sphere", readSphere}, {"obj", readObj}, {"ply", readPly},
 };
-
-double areaOf(const ShapeDescription& shape) {
-    if (shape.sphere) return 4 * 3.14159265358979324 * shape.sphere->radius * shape.sphere->radius;
-    double area = 0;
-    for (const glm::uvec3& triangle : shape.mesh.triangles) {
-        const glm::dvec3 a = shape.mesh.positions[triangle.x];
-        area += 0.5 * glm::length(glm::cross(glm::dvec3(shape.mesh.positions[triangle.y]) - a,
-                                             glm::dvec3(shape.mesh.positions[triangle.z]) - a));
-    }
-    return area;
-}
 
 } // namespace
 

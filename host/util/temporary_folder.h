@@ -1,6 +1,7 @@
 // An empty folder that is removed with all that is in it.
 #pragma once
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -12,7 +13,9 @@ class TemporaryFolder {
 public:
     TemporaryFolder() {
         std::string pattern = (std::filesystem::temp_directory_path() / ("quasilux-" + std::string(6, 'X'))).string();
-        if (mkdtemp(pattern.data()) == nullptr) throw std::system_error(errno, std::generic_category(), pattern);
+        if (mkdtemp(pattern.data()) == nullptr)
+            throw std::system_error(errno, std::generic_category(),
+                                    "no temporary folder can be made, set TMPDIR: " + pattern);
         path_ = pattern;
     }
     ~TemporaryFolder() {
