@@ -87,7 +87,7 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, params->pass, STREAM_CAMERA, index);
     CameraPath path;
-    const float3 even = pixelNumbers(index, params->pass, seed);
+    const float4 even = pixelNumbers(index, params->pass, seed);
     path.ray = cameraRay(&params->camera, pixel, even.xy);
     path.firstChoice = even.z;
     path.strata = strataOfPath(seed, params->pass, index);
@@ -95,6 +95,7 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
     path.radiusBlock = radiusBlock(params, pixel);
 #endif
     path.throughput = 1;
+    path.radianceScale = 1;
     path.d = path.q = path.depth = 0;
     path.passed = 0;
     path.from = path.ray.origin;
@@ -103,6 +104,8 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
     path.onlyEmission = 0;
 #ifdef HAS_MEDIA
     path.medium = params->camera.medium;
+    path.roulette.number = even.w;
+    path.roulette.survival = 1;
 #endif
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
 #ifdef HAS_IRRADIANCE_METER
