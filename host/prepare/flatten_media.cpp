@@ -20,10 +20,10 @@ constexpr double largestBall = 0.05;  // of the extent
 constexpr double causticFactor = 0.5; // on it: focused light varies faster
 // Of a flat kernel. Light in a plate varies over its thickness along it; across it, that which has not scattered yet
 // varies over a mean free path, the rest over a transport mean free path or the thickness.
-constexpr double flatRadius = 1.0;            // of the thickness
+constexpr double flatRadius = 1.4;            // of the thickness
 constexpr double flatHeightUnscattered = 0.5; // of the mean free path
 constexpr double flatHeightScattered = 0.5;   // of the transport mean free path
-constexpr double flatHeightOfThickness = 0.1;
+constexpr double flatHeightOfThickness = 0.07;
 
 struct KernelSize {
     double radius = 0, halfHeight = 0;
