@@ -22,7 +22,6 @@ from relmse import Error, plate_reference
 
 EXPOSURE = 1.15  # factor on radiance, the same for all pictures
 LEVEL = 0.1  # per sr, of the split by level
-PHOTONS = 115200  # per pass, of every method
 PHOTON_BYTES = 32  # in the index, where the scene does not limit the depth of paths
 # Name: options, and the level of the phase function that they must lead to (null: infinity). `auto` leaves the medium to
 # the scene, which says "yes", and the paper genuine diffuse; `all` would make the paper quasi-specular too, and with
@@ -47,8 +46,7 @@ class Run:
 def methods(knows_map):
     """Options by name of the method."""
     stored = ["--map", "photons"] if knows_map else []
-    photons = ["--photons", str(PHOTONS)]
-    return {f"{name}, BDD {bdd}": [*options, "--bdd", str(bdd), *photons, *stored] for name, (options, _) in SPLITS.items() for bdd in (0, 1)}
+    return {f"{name}, BDD {bdd}": [*options, "--bdd", str(bdd), *stored] for name, (options, _) in SPLITS.items() for bdd in (0, 1)}
 
 
 def check_split(method, statistics):
@@ -118,7 +116,7 @@ def table(runs, points, seconds, load):
     return (
         f"Turbid plate on checkered paper ({first['scene']}), {measured_on(first, seconds, load)}.\n\n"
         "relMSE of the plate, net of the reference's noise; difference of its mean luminance from the reference.\n"
-        f"{PHOTONS:,} photons are emitted in each pass. A photon takes {PHOTON_BYTES} bytes in the index." + (" Camera points: in media and on surfaces." if points else "") + "\n\n"
+        f"A photon takes {PHOTON_BYTES} bytes in the index." + (" Camera points: in media and on surfaces." if points else "") + "\n\n"
         + "\n".join("| " + " | ".join(line) + " |" for line in lines)
         + "\n"
     )

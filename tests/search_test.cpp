@@ -49,7 +49,7 @@ struct Found {
 };
 
 Found search(const World& world, double seconds, Freedom freedom = {true, true, true, true, true},
-             std::optional<double> error = std::nullopt) {
+             std::optional<double> error = std::nullopt, const RenderSettings& start = {}) {
     double clock = 0;
     SearchWorld searched;
     searched.open = [&](const RenderSettings& settings) {
@@ -62,7 +62,6 @@ Found search(const World& world, double seconds, Freedom freedom = {true, true, 
     StopRule stop;
     stop.seconds = seconds;
     stop.relativeError = error;
-    const RenderSettings start;
     auto result = Search(searched, scene, freedom, stop).run(start, searched.open(start));
     return {result.settings, result.report};
 }
@@ -79,6 +78,19 @@ TEST(Search, FindsWhatIsBetterInEachCoordinate) {
     EXPECT_EQ(found.settings.variant, Variant::alternative);
     EXPECT_EQ(found.settings.quasiSpecular, "all");
     EXPECT_THAT(found.report.line(), HasSubstr("auto: BDD 1, alternative, split all"));
+}
+
+// BDD 0 pays only with another split, which is better with BDD 1 too. There is no time for a second round.
+TEST(Search, TriesShorterPathsAgainWithTheSplitThatWon) {
+    const World world = [](const RenderSettings& s) {
+        const bool split = s.quasiSpecular == "none";
+        return Truth{0.1, split ? (s.bdd == 0 ? 0.2 : 0.5) : s.bdd == 0 ? 1.5 : 1};
+    };
+    RenderSettings start;
+    start.bdd = 1;
+    const Found found = search(world, 8, {true, true, true, true, true}, std::nullopt, start);
+    EXPECT_EQ(found.settings.bdd, 0u);
+    EXPECT_EQ(found.settings.quasiSpecular, "none");
 }
 
 // Negative control of the one above: the same world the other way round keeps what it started with.

@@ -118,10 +118,10 @@ std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettin
     return {};
 }
 
-std::vector<Coordinate> searchOrder(const RenderSettings& start) {
+std::array<Coordinate, 5> searchOrder(const RenderSettings& start) {
     using enum Coordinate;
-    if (start.bdd > 0) return {bdd, split, bdd, variant, photons, radius};
-    return {split, variant, photons, radius, bdd};
+    return start.bdd > 0 ? std::array{bdd, split, variant, photons, radius}
+                         : std::array{split, variant, photons, radius, bdd};
 }
 
 bool isFree(Coordinate coordinate, const Freedom& freedom) {
@@ -134,10 +134,8 @@ std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSet
     std::vector<std::string> texts;
     for (const Coordinate coordinate : searchOrder(start)) {
         if (!isFree(coordinate, freedom)) continue;
-        for (const auto& next : neighbours(coordinate, start, photons, scene)) {
-            const std::string candidate = text(next, next.photonsPerPass > 0 ? next.photonsPerPass : photons);
-            if (std::find(texts.begin(), texts.end(), candidate) == texts.end()) texts.push_back(candidate);
-        }
+        for (const auto& next : neighbours(coordinate, start, photons, scene))
+            texts.push_back(text(next, next.photonsPerPass > 0 ? next.photonsPerPass : photons));
     }
     return texts;
 }

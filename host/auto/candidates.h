@@ -3,6 +3,7 @@
 
 #include "auto/freedom.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,8 @@ namespace quasilux {
 
 enum class Coordinate { split, bdd, variant, photons, radius };
 /// One after the other; those that tend to gain most for their time come first. BDD 0 has the shortest paths and mostly
-/// the least error, so it is tried first where the search starts with another, and again with the split that was found; where it
-/// starts with BDD 0, others come last.
-std::vector<Coordinate> searchOrder(const RenderSettings& start);
+/// the least error, so it is tried first where the search starts with another; where it does not, others come last.
+std::array<Coordinate, 5> searchOrder(const RenderSettings& start);
 bool isFree(Coordinate coordinate, const Freedom& freedom);
 
 /// Factors of photons per pass and radius that are tried, and how far they may go from where the search starts.

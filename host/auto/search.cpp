@@ -165,8 +165,11 @@ void Search::tryNeighbours(Coordinate coordinate) {
     if (!isFree(coordinate, freedom_)) return;
     for (const auto& next : neighbours(coordinate, best_.settings, best_.pilot->photonsPerPass(), scene_)) {
         if (interrupted()) return;
-        // Splits do not depend on where they are tried from; a step of a number may be followed by another one.
-        if (tryCandidate(coordinate, next) && coordinate != Coordinate::split) return;
+        if (!tryCandidate(coordinate, next)) continue;
+        if (coordinate != Coordinate::split) return; // a step of a number may be followed by another one
+        const unsigned bdd = best_.settings.bdd;
+        if (bdd > 0) tryNeighbours(Coordinate::bdd); // with this split shorter paths may do
+        if (best_.settings.bdd != bdd) return tryNeighbours(Coordinate::split);
     }
 }
 
