@@ -23,7 +23,7 @@ constexpr double causticFactor = 0.5; // on it: focused light varies faster
 constexpr double flatRadius = 1.4;            // of the thickness
 constexpr double flatHeightUnscattered = 0.5; // of the mean free path
 constexpr double flatHeightScattered = 0.5;   // of the transport mean free path
-constexpr double flatHeightOfThickness = 0.07;
+constexpr double flatHeightOfThickness = 0.1;
 
 struct KernelSize {
     double radius = 0, halfHeight = 0;
