@@ -1,7 +1,7 @@
 // Roulette by one number a path: each event is survived with its probability, also after the number is drawn anew.
 //
-// False alarms: until a new number is drawn the count is exact to two paths, since the numbers are spread evenly; after it
-// four events are held to 4.5 standard errors of a binomial count, 3e-5 for the program; the seed is fixed.
+// False alarms: until a new number is drawn the count is exact to two paths, since the numbers are spread evenly; after
+// it four events are held to 4.5 standard errors of a binomial count, 3e-5 for the program; the seed is fixed.
 #include "support/test_kernels.h"
 
 #include <algorithm>

@@ -18,17 +18,10 @@ constexpr size_t classBatch = totalBatch + 3;
 constexpr size_t biasSums = classBatch + LIGHT_CLASSES * 3;
 constexpr size_t biasFloats = LIGHT_CLASSES * 9 + 6;
 
-// Some numbers of a path are spread evenly over passes in a row, so batches tell more truly how the mean varies, and long ones
-// the most; but few batches tell it less surely. So batches grow with the passes: each has at most a quarter of those before.
-unsigned batchLength(unsigned pass) {
-    unsigned length = 1;
-    while (16 * length <= pass) length *= 4;
-    return length;
-}
-
-// Bias is estimated in the middle half of four passes, about whose middle the radii are even, and in all of the first passes:
-// half the cost, and no change of its mean.
-constexpr unsigned biasInAll = 16;
+// Pixel positions are spread evenly over passes in a row, so batches tell more truly how the mean varies; but of few passes
+// single ones tell more surely. Bias is estimated in the middle half of each batch of four, about whose middle
+// the radii are even, and in all passes before: half the cost, and no change of its mean.
+constexpr unsigned singlePasses = 16, batchPasses = 4;
 
 double sumOf(const float* sum, size_t channel) { return double(sum[channel]) + sum[channel + 3]; }
 
@@ -98,14 +91,14 @@ Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias, 
 
 Film::Pass Film::beginPass(unsigned pass) {
     Pass now{0, 1};
+    const bool single = pass < singlePasses;
     openPasses_ += 1;
-    const unsigned length = batchLength(pass);
-    if (pass % length == length - 1) {
+    if (single || pass % batchPasses == batchPasses - 1) {
         now.batchWeight = static_cast<float>(1 / openPasses_);
         batches_ += 1;
         openPasses_ = 0;
     }
-    if (pass >= biasInAll) now.biasWeight = pass % 4 == 1 || pass % 4 == 2 ? 2.f : 0.f;
+    if (!single) now.biasWeight = pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f;
     biasPasses_ += now.biasWeight;
     return now;
 }

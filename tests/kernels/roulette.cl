@@ -1,5 +1,5 @@
-/* How many events each of `paths` survives by kernels/roulette.clh. Option KEEPS_SURVIVAL: a wrong rule, by which a number
- * drawn anew is held against the probability of having survived from the start. */
+/* How many events each of `paths` survives by kernels/roulette.clh. Option KEEPS_SURVIVAL: a wrong rule, by which a
+ * number drawn anew is held against the probability of having survived from the start. */
 #include "roulette.clh"
 
 inline int survives(Roulette* roulette, float probability, Rng* rng) {
