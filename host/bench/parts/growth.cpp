@@ -69,7 +69,7 @@ GrowthSeries measureGrowth(const std::string& subject, int device, unsigned step
         settings.photonsPerPass = task.photons;
         settings.bdd = task.bdd;
         // What does not fit the device ends the series, not the report.
-        const auto refused = refusal([&] {
+        const auto refused = refusal([&, size = size] { // clang 14 captures no structured binding otherwise
             series.points.push_back({size, measurePass(device, scene, settings, seconds)});
         });
         if (refused) {
