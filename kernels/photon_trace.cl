@@ -5,77 +5,11 @@
 #include "energy_balance.clh"
 #include "lattice.clh"
 #include "law.clh"
-#include "medium_flight.clh"
+#include "photon_medium.clh"
+#include "photon_path.clh"
+#include "photon_walk.clh"
 #include "scatter.clh"
 #include "splat_sums.clh"
-#ifdef MAP_CAMERA
-#include "splat.clh"
-#endif
-#ifdef HAS_METER_PHOTONS
-#include "meter_photons.clh"
-#endif
-
-/* Photon paths go on for sure down to this share of their first flux; below, roulette ends them in proportion. On the
- * Cornell box 0.5 reaches the same error in the same time, with twice the photons to keep. */
-#define PHOTON_ROULETTE_THRESHOLD 1.0f
-
-typedef struct {
-    float3 origin, direction; /* current segment */
-    float3 flux;
-    float referenceFlux; /* largest channel at emission, scale of the roulette */
-    uint events;         /* union of SCATTER_* so far */
-    uint depth;          /* segments */
-#ifdef HAS_MEDIA
-    uint medium; /* index or MEDIUM_NONE */
-#endif
-} PhotonPath;
-
-/* What becomes of a photon where it arrives: `place` and `slot` as in Photon. */
-#ifdef MAP_CAMERA
-typedef SplatTarget PhotonSink;
-
-#ifdef HAS_METER_PHOTONS
-inline MeterSums meterSumsOf(const PhotonSink* target) {
-    const MeterSums sums = {target->sums, target->quantaPerRadiance * target->scene->meter.samples * M_1_PI_F};
-    return sums;
-}
-#endif
-
-inline void deliverPhoton(const PhotonSink* target, RegionCount* count, const PhotonPath* path, float3 position,
-                          float3 flux, uint place, uint slot) {
-    ++count->wanted;
-    const ArrivedPhoton photon = {position, path->direction, flux, min(path->depth, PHOTON_DEPTH_MAX), place, slot};
-    splatPhoton(target, &photon, count);
-}
-#else
-/* A region's own part of the photon buffer. */
-typedef struct {
-    __global Photon* photons;
-    uint capacity;
-#ifdef HAS_METER_PHOTONS
-    MeterSums meter;
-#endif
-} PhotonSink;
-
-#ifdef HAS_METER_PHOTONS
-inline MeterSums meterSumsOf(const PhotonSink* sink) { return sink->meter; }
-#endif
-
-inline void deliverPhoton(const PhotonSink* sink, RegionCount* count, const PhotonPath* path, float3 position,
-                          float3 flux, uint place, uint slot) {
-    if (count->wanted++ >= sink->capacity) return;
-    __global Photon* p = sink->photons + count->stored++;
-    p->position.x = position.x;
-    p->position.y = position.y;
-    p->position.z = position.z;
-    p->direction = encodeOctahedral(-path->direction);
-    p->flux.r = flux.x;
-    p->flux.g = flux.y;
-    p->flux.b = flux.z;
-    p->patchSide = place;
-    p->classDepth = min(path->depth, PHOTON_DEPTH_MAX) << 3 | slot;
-}
-#endif
 
 /* Classes of light that the lobes met here can ever take, restricted to those the kernels store. */
 inline uint storableClasses(__global const Lobe* lobes, uint count) {
@@ -139,38 +73,6 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     return 1;
 }
 
-#ifdef HAS_MEDIA
-/* A collision in the medium that the path is in: delivers the photon, thinned, and scatters it; 0 where it ends. */
-inline int collidePhoton(PhotonPath* path, const FreeFlight* flight, __global const Medium* medium,
-                         const PhotonSink* sink, RegionCount* count, const PhotonParams* params, Rng* rng) {
-    path->origin += flight->distance * path->direction;
-    const uint slot = VOLUME_SLOT(lawPhotonClass(path->events));
-    uint possible = 0;
-    const uint scatterings = phaseScatterings(medium);
-    if (scatterings & SCATTER_GENUINE_DIFFUSE) possible |= lawLightPossible(SCATTER_GENUINE_DIFFUSE);
-    if (scatterings & SCATTER_QUASI_SPECULAR) possible |= lawLightPossible(SCATTER_QUASI_SPECULAR);
-    if ((possible << LIGHT_CLASSES & PHOTON_CLASSES) >> slot & 1) {
-        const float keep = params->keepProbability[slot - LIGHT_CLASSES];
-        if (rngNext(rng) < keep)
-            deliverPhoton(sink, count, path, path->origin, path->flux * inverseExtinction(medium) / keep, path->medium,
-                          slot);
-    }
-    const float arrived = meanFlux(path->flux);
-    path->flux *= loadRgb(medium->albedo);
-    const float scattered = meanFlux(path->flux);
-    const float strength = maxComponent(path->flux) / path->referenceFlux;
-    const float survival = min(1.f, strength / PHOTON_ROULETTE_THRESHOLD);
-    const int goesOn = rngNext(rng) < survival;
-    path->flux /= survival;
-    countScattering(count, arrived, scattered, goesOn ? path->flux : (float3)(0));
-    if (!goesOn) return 0;
-    const float3 before = path->direction;
-    path->direction = phaseSampleDirection(medium, before, rngNext2(rng));
-    path->events |= phaseEvent(medium, phaseValue(medium, dot(before, path->direction)), rngNext(rng));
-    return 1;
-}
-#endif
-
 /* Shows the meter a segment of the path that ends after `length`: at a surface, at a collision, or never. */
 inline void crossMeter(const PhotonPath* path, float length, const PhotonSink* sink, __global const uint* tables,
                        const SceneTables* scene, RegionCount* count) {
@@ -185,112 +87,171 @@ inline void crossMeter(const PhotonPath* path, float length, const PhotonSink* s
 #endif
 }
 
-inline PhotonPath emitPhoton(__global const uint* tables, const PhotonParams* params, const Lattice* lattice,
-                             uint index, Rng* rng) {
+inline PhotonPath emitPhoton(const PhotonWorld* world, const Lattice* lattice, uint index, RegionCount* count) {
+    const PhotonParams* params = world->params;
     const SceneTables* scene = &params->scene;
-    /* Emitters are chosen by stratified numbers, so each gets its share of every pass. */
-    const float uSelect = min((index + rngNext(rng)) / params->paths, 0x1.fffffep-1f);
-    const EmittedPhoton emitted = emitterSampleEmission(
-        SCENE_TABLE(tables, scene, Emitter, emitters), SCENE_TABLE(tables, scene, EmitterTriangle, emitterTriangles),
-        scene->emitterCount, uSelect, latticePoint2(lattice, index, 0), latticePoint2(lattice, index, 2));
     PhotonPath path;
+    path.rng = rngMake((ulong)params->seedHigh << 32 | params->seedLow, params->pass, STREAM_PHOTON, index);
+    /* Emitters are chosen by stratified numbers, so each gets its share of every pass. */
+    const float2 u = rngNext2(&path.rng);
+    const float uSelect = min((index + u.x) / params->paths, 0x1.fffffep-1f);
+    const EmittedPhoton emitted =
+        emitterSampleEmission(SCENE_TABLE(world->tables, scene, Emitter, emitters),
+                              SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles), scene->emitterCount,
+                              uSelect, latticePoint2(lattice, index, 0), latticePoint2(lattice, index, 2));
     path.origin = offsetRayOrigin(emitted.position, emitted.normal, emitted.positionError);
     path.direction = emitted.direction;
     path.flux = emitted.flux / params->paths;
     path.referenceFlux = maxComponent(path.flux);
     path.events = 0;
     path.depth = 0;
+    path.steps = 0;
 #ifdef HAS_MEDIA
-    path.medium = SCENE_TABLE(tables, scene, Emitter, emitters)[emitted.emitter].medium;
+    path.medium = SCENE_TABLE(world->tables, scene, Emitter, emitters)[emitted.emitter].medium;
+    path.thinning = u.y;
 #endif
+    countEnergy(count, ENERGY_EMITTED, meanFlux(path.flux));
     return path;
 }
 
-inline void tracePhotonPath(uint index, const Lattice* lattice, __global const BvhNode* nodes,
-                            __global const PrimitiveBlock* blocks, __global const uint* tables, const PhotonSink* sink,
-                            const PhotonParams* params, RegionCount* count) {
-    const SceneTables* scene = &params->scene;
-    const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
-    Rng rng = rngMake(seed, params->pass, STREAM_PHOTON, index);
-    PhotonPath path = emitPhoton(tables, params, lattice, index, &rng);
-    countEnergy(count, ENERGY_EMITTED, meanFlux(path.flux));
-    for (uint event = 0; event < PATH_EVENTS_MAX; ++event) {
-        if (!all(isfinite(path.flux)) || !all(isfinite(path.direction))) {
-            ++count->nonFinite;
-            return;
-        }
-        if (path.depth >= params->maxDepth) {
-            countEnergy(count, ENERGY_BEYOND_DEPTH, meanFlux(path.flux));
-            return;
-        }
-        Hit hit;
-        Ray ray;
-        ray.origin = path.origin;
-        ray.direction = path.direction;
-        ray.tMin = 0;
-        ray.tMax = INFINITY;
-#ifdef HAS_MEDIA
-        if (inMedium(path.medium)) {
-            __global const Medium* medium = SCENE_TABLE(tables, scene, Medium, media) + path.medium;
-            const MediumSegment segment =
-                followMedium(medium, path.flux, &ray, 1, rngNext2(&rng), nodes, blocks, tables, scene);
-            crossMeter(&path, segment.flight.distance, sink, tables, scene, count);
-            const float before = meanFlux(path.flux);
-            path.flux *= segment.flight.weight;
-            countChance(count, before, meanFlux(path.flux));
-            if (segment.flight.collided) {
-                ++path.depth;
-                if (!collidePhoton(&path, &segment.flight, medium, sink, count, params, &rng)) return;
-                continue;
-            }
-            hit = segment.hit;
-        } else
-#endif
-        {
-            hit = intersectClosestOpaque(nodes, blocks, ray);
-            crossMeter(&path, hit.primitive == QL_NONE ? INFINITY : hit.t, sink, tables, scene, count);
-        }
-        if (hit.primitive == QL_NONE) {
-            countEnergy(count, ENERGY_ESCAPED, meanFlux(path.flux));
-            return;
-        }
-        const Surface s = surfaceAt(hit, path.origin, path.direction, blocks, tables, scene);
-        __global const Shape* shape = SCENE_TABLE(tables, scene, Shape, shapes) + s.shape;
-#ifdef HAS_MEDIA
-        if (s.isNull) { /* the border of a medium that light passes freely */
-            path.medium = mediumBeyond(shape, !s.front, path.medium);
-            path.origin = leavingRay(&s, path.direction).origin;
-            continue;
-        }
-#endif
-        ++path.depth;
-        __global const Lobe* lobes = SCENE_TABLE(tables, scene, Lobe, lobes) + s.firstLobe;
-        const uint lightClass = lawPhotonClass(path.events);
-        if (storableClasses(lobes, s.lobeCount) & (1u << lightClass))
-            deliverPhoton(sink, count, &path, s.position, path.flux * shadingNormalArrival(&s), s.patch << 1 | s.front,
-                          lightClass);
-        const float2 uDirection = rngNext2(&rng);
-        const float3 u = (float3)(rngNext(&rng), uDirection.x, uDirection.y);
-        const float arrived = meanFlux(path.flux);
-        float scattered;
-        const int goesOn = scatterPhoton(&path, &s, lobes, shape, u, &scattered);
-        countScattering(count, arrived, scattered, goesOn ? path.flux : (float3)(0));
-        if (!goesOn) return;
+/* May the path go on? Counts why not. */
+inline int photonMayGoOn(const PhotonPath* path, const PhotonParams* params, RegionCount* count) {
+    if (!all(isfinite(path->flux)) || !all(isfinite(path->direction))) {
+        ++count->nonFinite;
+        return 0;
     }
-    ++count->cutPaths;
-    count->fluxCut += meanFlux(path.flux);
+    if (path->depth >= params->maxDepth) {
+        countEnergy(count, ENERGY_BEYOND_DEPTH, meanFlux(path->flux));
+        return 0;
+    }
+    if (path->steps >= PATH_EVENTS_MAX) {
+        ++count->cutPaths;
+        count->fluxCut += meanFlux(path->flux);
+        return 0;
+    }
+    return 1;
 }
 
+/* A surface that the path has come to; 0 where it ends. */
+inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, const PhotonSink* sink,
+                       RegionCount* count) {
+    const SceneTables* scene = &world->params->scene;
+    const Surface s = surfaceAt(hit, path->origin, path->direction, world->blocks, world->tables, scene);
+    __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
+#ifdef HAS_MEDIA
+    if (s.isNull) { /* the border of a medium that light passes freely */
+        path->medium = mediumBeyond(shape, !s.front, path->medium);
+        path->origin = leavingRay(&s, path->direction).origin;
+        return 1;
+    }
+#endif
+    ++path->depth;
+    __global const Lobe* lobes = SCENE_TABLE(world->tables, scene, Lobe, lobes) + s.firstLobe;
+    const uint lightClass = lawPhotonClass(path->events);
+    if (storableClasses(lobes, s.lobeCount) & (1u << lightClass))
+        deliverPhoton(sink, count, path, s.position, path->flux * shadingNormalArrival(&s), s.patch << 1 | s.front,
+                      lightClass);
+    const float2 uDirection = rngNext2(&path->rng);
+    const float3 u = (float3)(rngNext(&path->rng), uDirection.x, uDirection.y);
+    const float arrived = meanFlux(path->flux);
+    float scattered;
+    const int goesOn = scatterPhoton(path, &s, lobes, shape, u, &scattered);
+    countScattering(count, arrived, scattered, goesOn ? path->flux : (float3)(0));
+    return goesOn;
+}
+
+/* One event of a path: to the next collision or surface, and what happens there; 0 where the path ends. */
+inline int photonEvent(PhotonPath* path, const PhotonWorld* world, const PhotonSink* sink, RegionCount* count) {
+    const SceneTables* scene = &world->params->scene;
+    if (!photonMayGoOn(path, world->params, count)) return 0;
+    ++path->steps;
+    Hit hit;
+    Ray ray;
+    ray.origin = path->origin;
+    ray.direction = path->direction;
+    ray.tMin = 0;
+    ray.tMax = INFINITY;
+#ifdef HAS_MEDIA
+    if (inMedium(path->medium)) {
+        __global const Medium* medium = SCENE_TABLE(world->tables, scene, Medium, media) + path->medium;
+        const MediumSegment segment = followMedium(medium, path->flux, &ray, 1, rngNext2(&path->rng), world->nodes,
+                                                   world->blocks, world->tables, scene);
+        crossMeter(path, segment.flight.distance, sink, world->tables, scene, count);
+        const float before = meanFlux(path->flux);
+        path->flux *= segment.flight.weight;
+        countChance(count, before, meanFlux(path->flux));
+        if (segment.flight.collided) {
+            ++path->depth;
+            return collidePhoton(path, segment.flight.distance, medium, sink, count, world->params);
+        }
+        hit = segment.hit;
+    } else
+#endif
+    {
+        hit = intersectClosestOpaque(world->nodes, world->blocks, ray);
+        crossMeter(path, hit.primitive == QL_NONE ? INFINITY : hit.t, sink, world->tables, scene, count);
+    }
+    if (hit.primitive == QL_NONE) {
+        countEnergy(count, ENERGY_ESCAPED, meanFlux(path->flux));
+        return 0;
+    }
+    return meetSurface(path, hit, world, sink, count);
+}
+
+#ifdef WALK_ABREAST
+/* Follows a path on its own until it may walk with the others; 0 where it ends before. */
+inline int joinWalk(PhotonPath* path, const Walkers* w, LaneMask walking, const PhotonWorld* world,
+                    const PhotonSink* sink, RegionCount* count) {
+    __global const Medium* media = SCENE_TABLE(world->tables, &world->params->scene, Medium, media);
+    while (photonEvent(path, world, sink, count))
+        if (inMedium(path->medium) && media[path->medium].planeCount > 0 && (!walking || path->medium == w->medium))
+            return 1;
+    return 0;
+}
+
+/* Paths `first` to `last` - 1: as many as walk at a time, each on its own where it does not. */
+inline void tracePaths(uint first, uint last, const Lattice* lattice, const PhotonWorld* world, const PhotonSink* sink,
+                       RegionCount* count) {
+    Walkers w;
+    for (uint k = 0; k < WALKERS; ++k) w.paths[k] = idleWalker();
+    LaneMask walking = 0, onTheirOwn = 0;
+    for (;;) {
+        for (uint k = 0; k < WALKERS; ++k) {
+            const LaneMask bit = 1u << k;
+            if (walking & bit & ~onTheirOwn) continue;
+            const int isNew = !(onTheirOwn & bit);
+            walking &= ~bit;
+            onTheirOwn &= ~bit;
+            int joins = !isNew && joinWalk(&w.paths[k], &w, walking, world, sink, count);
+            while (!joins && first < last) {
+                w.paths[k] = emitPhoton(world, lattice, first++, count);
+                joins = joinWalk(&w.paths[k], &w, walking, world, sink, count);
+            }
+            if (!joins) continue;
+            w.medium = w.paths[k].medium;
+            walking |= bit;
+        }
+        if (!walking) return;
+        onTheirOwn = walkAbreast(&w, &walking, world->tables, &world->params->scene, sink, count, world->params);
+    }
+}
+#else
+inline void tracePaths(uint first, uint last, const Lattice* lattice, const PhotonWorld* world, const PhotonSink* sink,
+                       RegionCount* count) {
+    for (uint index = first; index < last; ++index) {
+        PhotonPath path = emitPhoton(world, lattice, index, count);
+        while (photonEvent(&path, world, sink, count)) continue;
+    }
+}
+#endif
+
 /* The paths of one region. */
-inline void traceRegion(uint region, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
-                        __global const uint* tables, const PhotonSink* sink, const PhotonParams* params,
-                        __global RegionCount* counts) {
+inline void traceRegion(uint region, const PhotonWorld* world, const PhotonSink* sink, __global RegionCount* counts) {
+    const PhotonParams* params = world->params;
     RegionCount count = {0, 0, 0, 0, 0, 0, 0, {0}, {0}};
     const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
     const uint first = region * params->pathsPerRegion;
-    const uint last = min(first + params->pathsPerRegion, params->paths);
-    for (uint index = first; index < last; ++index)
-        tracePhotonPath(index, &lattice, nodes, blocks, tables, sink, params, &count);
+    tracePaths(first, min(first + params->pathsPerRegion, params->paths), &lattice, world, sink, &count);
     counts[region] = count;
 }
 
@@ -303,7 +264,8 @@ __kernel void splatPhotons(__global const BvhNode* nodes, __global const Primiti
     if (region >= params.regions) return;
     const SplatTarget target = {{sorted, cellStart, &store.map}, points, borders, sums, tables, &params.scene,
                                 store.quantaPerRadiance};
-    traceRegion(region, nodes, blocks, tables, &target, &params, counts);
+    const PhotonWorld world = {nodes, blocks, tables, &params};
+    traceRegion(region, &world, &target, counts);
 }
 #else
 __kernel void tracePhotons(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
@@ -323,6 +285,7 @@ __kernel void tracePhotons(__global const BvhNode* nodes, __global const Primiti
     sink.meter.sums = meterSums;
     sink.meter.quantaPerIrradiance = quantaPerRadiance * params.scene.meter.samples * M_1_PI_F;
 #endif
-    traceRegion(region, nodes, blocks, tables, &sink, &params, counts);
+    const PhotonWorld world = {nodes, blocks, tables, &params};
+    traceRegion(region, &world, &sink, counts);
 }
 #endif

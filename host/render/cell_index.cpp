@@ -13,9 +13,11 @@ namespace {
 constexpr unsigned scanBlocksMax = 64;
 constexpr size_t vectorWidth = 8; // records are read eight at a time: the last group may reach beyond the last record
 
-// A few cells per disc's worth of records: collisions only cost tests.
-unsigned cellsPerSlot(uint64_t records) {
-    return static_cast<unsigned>(std::clamp<uint64_t>(std::bit_ceil(records / 8), 4096, 1u << 28));
+// A few cells per disc's worth of records: collisions of rows only cost tests, and memory, on a GPU for each of many chunks,
+// more than on a CPU.
+unsigned cellsPerSlot(uint64_t records, const DeviceInfo& device) {
+    const uint64_t recordsPerCell = device.isCpu ? 4 : 8;
+    return static_cast<unsigned>(std::clamp<uint64_t>(std::bit_ceil(records / recordsPerCell), 4096, 1u << 28));
 }
 
 // On a CPU a long chunk for each core, since each has counts of its own for all cells; on a GPU enough of them to occupy it.
@@ -36,7 +38,7 @@ CellIndex::CellIndex(Device& device, const Program& pass, unsigned slots, size_t
 
 void CellIndex::makeTable(uint64_t expected, unsigned regions) {
     map_.regions = regions;
-    map_.cellMask = cellsPerSlot(expected) - 1;
+    map_.cellMask = cellsPerSlot(expected, device_.info()) - 1;
     map_.chunks = chunksFor(device_.info(), regions);
     const size_t cells = size_t(std::popcount(slots_)) * (map_.cellMask + 1);
     map_.scanBlocks = scanBlocksFor(cells);
@@ -48,7 +50,7 @@ void CellIndex::makeTable(uint64_t expected, unsigned regions) {
 
 BufferSizes CellIndex::plan(unsigned slots, uint64_t expected, unsigned regions, size_t fields, const std::string& noun,
                             const DeviceInfo& device) {
-    const size_t cells = size_t(std::popcount(slots)) * cellsPerSlot(expected);
+    const size_t cells = size_t(std::popcount(slots)) * cellsPerSlot(expected, device);
     return {{noun + " cell counts", std::max<size_t>(1, cells * chunksFor(device, regions)) * sizeof(uint32_t)},
             {noun + " scan blocks", scanBlocksFor(cells) * sizeof(uint32_t)},
             {noun + " cells", (cells + 1) * sizeof(uint32_t)},
