@@ -108,6 +108,28 @@ TEST(Polynomials, sineAndCosine) {
               2.5e-7);
 }
 
+// The same polynomials: only what the compiler fuses may differ.
+TEST(Polynomials, eightAtATimeAgreeWithOne) {
+    const auto positive = logarithmically(1e-30, 1e30), turns = evenly(-1, 1), exponents = evenly(-120, 120);
+    const std::vector<float> powers(positive.size(), 1.0f / 3);
+    for (const auto& [function, x] : {std::pair(Log2, positive),
+                                      {Exp2, exponents},
+                                      {Log1p, positive},
+                                      {SinTwoPi, turns},
+                                      {CosTwoPi, turns},
+                                      {Pow, positive}}) {
+        const auto one = evaluate(function, x, powers);
+        Buffer<float> xs(testDevice(), x, "x"), ys(testDevice(), powers, "y"), result(testDevice(), x.size(), "result");
+        program()
+            .kernel("evaluateFunction8")
+            .launch(x.size() / 8, cl_uint(function), xs, ys, result, cl_uint(x.size() / 8));
+        const auto eight = result.read();
+        for (size_t i = 0; i < x.size(); ++i)
+            ASSERT_NEAR(eight[i], one[i], 3e-7 * std::max(1.0f, std::abs(one[i])))
+                << "function " << function << " of " << x[i];
+    }
+}
+
 TEST(Polynomials, atan2OfTheUpperHalfPlane) {
     std::vector<float> x, y;
     for (float r : logarithmically(1e-20, 1e20)) {

@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Rayleigh", {{"phase", "rayleigh"}}, "level:0.1", 1, 5},
         Case{"Isotropic", {{"phase", "isotropic"}}, "none", 1, 5, Variant::main, 2},
         Case{"Coloured", {{"sigma_t", "1,4,0.5"}}, "level:0.1", 1, 13},
-        Case{"OneClearChannel", {{"sigma_t", "0,2,1"}, {"phase", "isotropic"}}, "level:0.05", 1, 15},
+        Case{"OneClearChannel", {{"sigma_t", "0,2,1"}, {"phase", "isotropic"}}, "level:0.05", 1, 30},
         Case{"Glass", {{"border", "glass"}}, "level:0.1", 1, 5},
         Case{"WithinGlass", inside, "level:0.1", glassRadiance, 10},
         Case{"WithinGlassAlternative", inside, "level:0.1", glassRadiance, 7, Variant::alternative}),

@@ -37,6 +37,33 @@ __kernel void evaluateFunction(uint function, __global const float* x, __global 
     if (i < count) result[i] = evaluate(function, x[i], y[i]);
 }
 
+static float8 evaluate8(uint function, float8 x, float8 y) {
+    float8 sine, cosine;
+    switch (function) {
+    case FUNCTION_LOG2:
+        return fastLog28(x);
+    case FUNCTION_EXP2:
+        return fastExp28(x);
+    case FUNCTION_LOG1P:
+        return fastLog1p8(x);
+    case FUNCTION_SIN_TWO_PI:
+        sinCosTurn8(x, &sine, &cosine);
+        return sine;
+    case FUNCTION_COS_TWO_PI:
+        sinCosTurn8(x, &sine, &cosine);
+        return cosine;
+    default:
+        return fastPow8(x, y);
+    }
+}
+
+/* Eight numbers a work-item. */
+__kernel void evaluateFunction8(uint function, __global const float* x, __global const float* y, __global float* result,
+                                uint count) {
+    const uint i = get_global_id(0);
+    if (i < count) vstore8(evaluate8(function, vload8(i, x), vload8(i, y)), i, result);
+}
+
 static Packed3 pack3(float3 v) {
     Packed3 p;
     p.x = v.x;

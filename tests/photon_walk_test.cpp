@@ -1,0 +1,163 @@
+// Photons that walk through a medium eight abreast (kernels/photon_walk.clh) do what they do on their own: the same numbers
+// are drawn, so paths differ by rounding only, which grows from collision to collision. And thinning keeps the mean.
+//
+// Deterministic: photons of the first collisions, of which 99 % must agree to 0.002 mm; with another seed (the negative
+// control) next to none does. Statistical: flux by class, the mean of 12 passes of the ratio of two runs that share their
+// paths, within 4 standard errors of 1 (Student t with 11 degrees of freedom: 0.2 % a case); seeds are fixed.
+#include "support/render_statistics.h"
+#include "support/test_kernels.h"
+#include "support/traversal_device.h"
+
+#include "render/method.h"
+#include "render/photon_stage.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace quasilux {
+namespace {
+
+constexpr unsigned passes = 12, photonCount = 20'000;
+
+struct StoredPhoton {
+    float x, y, z, flux;
+};
+/// By slot of the map, for each pass.
+using Stored = std::vector<std::array<std::vector<StoredPhoton>, PHOTON_SLOTS>>;
+
+struct Tracing {
+    std::string options;
+    std::array<float, LIGHT_CLASSES> keep = {1, 1, 1, 1};
+    unsigned seed = 7;
+    KernelSources replaced = {};
+};
+
+Stored trace(const Tracing& tracing) {
+    RenderSettings settings;
+    settings.quasiSpecular = "level:0.1";
+    settings.quasiSpecularFromCommandLine = true;
+    settings.bdd = 0;
+    FlattenSettings flattening;
+    flattening.largestRadius = [](double) { return 5.0; };
+    flattening.quasiSpecular = settings.quasiSpecular;
+    flattening.overridesScene = true;
+    const auto flat = flattenScene(projectScene("plate_checker.xml"), flattening);
+    const GeometryBuffers geometry(testDevice(), flat);
+    shared::PhotonParams params{};
+    params.seedLow = tracing.seed;
+    params.paths = photonCount;
+    params.maxDepth = QL_NONE;
+    params.scene = flat.offsets;
+    const Program program(testDevice(), "photon_map_pass.cl", kernelOptions(flat, settings) + tracing.options,
+                          tracing.replaced);
+    PhotonStage stage(testDevice(), program, geometry, params, photonClasses(flat.features, settings), false);
+    stage.thinVolume(tracing.keep);
+    Stored stored(passes);
+    for (unsigned pass = 0; pass < passes; ++pass) {
+        const auto count = stage.run(pass, {1, 1, 1, 1}, 1);
+        const auto sorted = stage.index().sorted().read();
+        const auto field = [&](size_t k, uint64_t photon) {
+            return std::bit_cast<float>(sorted[k * stage.index().map().photonStride + photon]);
+        };
+        uint64_t photon = 0; // sorted by slot; PHOTON_X ... of kernels/photon_grid.clh
+        for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
+            for (uint64_t k = 0; k < count.stored[slot]; ++k, ++photon)
+                stored[pass][slot].push_back({field(0, photon), field(1, photon), field(2, photon), field(3, photon)});
+    }
+    return stored;
+}
+
+double flux(const std::vector<StoredPhoton>& photons) {
+    double sum = 0;
+    for (const auto& photon : photons) sum += photon.flux;
+    return sum;
+}
+
+/// Share of the photons of `a` that have a partner in `b`.
+double sharePaired(std::vector<StoredPhoton> a, std::vector<StoredPhoton> b) {
+    constexpr float tolerance = 0.002f;
+    const auto byX = [](const StoredPhoton& one, const StoredPhoton& other) { return one.x < other.x; };
+    std::sort(b.begin(), b.end(), byX);
+    size_t paired = 0;
+    for (const auto& p : a) {
+        auto other = std::lower_bound(b.begin(), b.end(), StoredPhoton{p.x - tolerance, 0, 0, 0}, byX);
+        for (; other != b.end() && other->x <= p.x + tolerance; ++other)
+            if (std::abs(other->y - p.y) <= tolerance && std::abs(other->z - p.z) <= tolerance) {
+                ++paired;
+                break;
+            }
+    }
+    return double(paired) / double(a.size());
+}
+
+struct Ratio {
+    double mean = 0, standardError = 0;
+};
+/// Flux in a slot, `a` to `b`.
+Ratio fluxRatio(const Stored& a, const Stored& b, unsigned slot) {
+    Ratio result;
+    double squares = 0;
+    for (unsigned pass = 0; pass < passes; ++pass) {
+        const double ratio = flux(a[pass][slot]) / flux(b[pass][slot]);
+        result.mean += ratio / passes;
+        squares += ratio * ratio / passes;
+    }
+    result.standardError = std::sqrt(std::max(0.0, squares - result.mean * result.mean) / (passes - 1));
+    return result;
+}
+
+const Stored& abreast() {
+    static const Stored stored = trace({""});
+    return stored;
+}
+
+const std::string onTheirOwn = " -DPORTABLE_MASK";
+
+TEST(PhotonWalk, AbreastPhotonsDoWhatTheyDoOnTheirOwn) {
+    const Stored alone = trace({onTheirOwn}), otherSeed = trace({onTheirOwn, {1, 1, 1, 1}, 8});
+    for (const unsigned lightClass : {LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}) {
+        const unsigned slot = VOLUME_SLOT(lightClass);
+        ASSERT_GT(abreast()[0][slot].size(), 300u) << "too few photons of class " << lightClass;
+        const Ratio ratio = fluxRatio(abreast(), alone, slot);
+        EXPECT_NEAR(ratio.mean, 1, 4 * ratio.standardError + 1e-6) << "class " << lightClass;
+        EXPECT_LT(ratio.standardError, 0.02) << "too noisy to tell anything about class " << lightClass;
+    }
+    const unsigned first = VOLUME_SLOT(LIGHT_CAUSTIC); // first collisions: nothing has scattered before
+    EXPECT_GT(sharePaired(abreast()[0][first], alone[0][first]), 0.99);
+    EXPECT_LT(sharePaired(abreast()[0][first], otherSeed[0][first]), 0.01) << "any photon would have a partner";
+}
+
+// Negative controls: flights that end beyond the border taken for collisions; the phase function's value the wrong way round.
+TEST(PhotonWalk, WrongWalksAreFound) {
+    const Stored alone = trace({onTheirOwn});
+    const unsigned slot = VOLUME_SLOT(LIGHT_DIFFUSE);
+    for (const auto& [right, wrong] :
+         {std::pair("return clearance > 2 *", "return clearance + 0.03f > 2 *"),
+          std::pair("phaseValue8(medium, 1.0f - oneMinusCos)", "phaseValue8(medium, oneMinusCos - 1.0f)")}) {
+        const Stored walked = trace({"", {1, 1, 1, 1}, 7, mutant("photon_walk.clh", right, wrong)});
+        const Ratio ratio = fluxRatio(walked, alone, slot);
+        EXPECT_GT(std::abs(ratio.mean - 1), 4 * ratio.standardError + 1e-6) << wrong;
+    }
+}
+
+TEST(PhotonWalk, ThinningKeepsTheMean) {
+    const std::array<float, LIGHT_CLASSES> keep = {1, 0.5f, 0.3f, 0.11f};
+    for (const std::string& options : {std::string(), onTheirOwn}) {
+        const Stored thinned = trace({options, keep});
+        for (const unsigned lightClass : {LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}) {
+            const unsigned slot = VOLUME_SLOT(lightClass);
+            const Ratio ratio = fluxRatio(thinned, abreast(), slot);
+            EXPECT_NEAR(ratio.mean, 1, 4 * ratio.standardError) << "class " << lightClass << options;
+            EXPECT_LT(ratio.standardError, 0.012) << "too noisy to tell anything about class " << lightClass;
+            // Negative control: flux divided by a share 5 % off would be seen.
+            EXPECT_GT(std::abs(1.05 * ratio.mean - 1), 4 * ratio.standardError) << "class " << lightClass << options;
+            const double share = double(thinned[0][slot].size()) / double(abreast()[0][slot].size());
+            EXPECT_NEAR(share, keep[lightClass], 0.1 * keep[lightClass]);
+        }
+    }
+}
+
+} // namespace
+} // namespace quasilux
