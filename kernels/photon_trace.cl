@@ -232,7 +232,7 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
             walking |= bit;
         }
         if (!walking) return;
-        onTheirOwn = walkAbreast(&w, &walking, world->tables, &world->params->scene, sink, count, world->params);
+        onTheirOwn = walkAbreast(&w, &walking, world->tables, world->params, sink, count);
     }
 }
 #else

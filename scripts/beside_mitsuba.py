@@ -1,0 +1,85 @@
+"""scenes/plate_checker.xml by quasilux and by Mitsuba 3's `volpath`, each twice for the same time, in turns.
+
+Called by scripts/beside_mitsuba.sh. Kernels of both are compiled before the clock starts. Each image is compared with the
+reference, net of its noise; and the two images of a renderer with each other, which tells their noise without any reference:
+half the mean of (A - B)^2 / (R^2 + 0.01 mean(R)^2).
+"""
+import os
+import subprocess
+import sys
+import time
+
+import mitsuba
+import numpy as np
+
+from figures import Renders, argument_parser, measured_on
+from relmse import plate_reference, relmse_weight
+
+VARIANTS = ["llvm_ad_rgb", "scalar_rgb"]  # the first one that works here
+SAMPLES = 16  # per pixel in one call of Mitsuba: some seconds
+METHODS = {
+    "quasilux, split by level": ["--quasi-specular", "level:0.1", "--variant", "alternative", "--bdd", "0"],
+    "quasilux, standard": ["--quasi-specular", "none", "--bdd", "1"],
+}
+
+
+def load_mitsuba(scene):
+    """The scene, in the fastest variant that runs here."""
+    for variant in VARIANTS:
+        try:
+            mitsuba.set_variant(variant)
+            loaded = mitsuba.load_file(str(scene))
+            np.asarray(mitsuba.render(loaded, spp=SAMPLES, seed=0))
+            return loaded, variant
+        except (ImportError, RuntimeError) as error:
+            print(f"beside_mitsuba: {variant} does not run here: {error}", file=sys.stderr)
+    sys.exit("beside_mitsuba: no variant of Mitsuba runs here")
+
+
+def render_mitsuba(scene, seconds, seed):
+    """The mean of as many calls as fit into the time; the number of samples per pixel."""
+    start, total, calls = time.monotonic(), 0.0, 0
+    while time.monotonic() - start < seconds:
+        calls += 1
+        total = total + np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=1000 * seed + calls), np.float64)[..., :3]
+    return total / calls, calls * SAMPLES
+
+
+def row(name, images, work, reference):
+    """Markdown; and the mean net relMSE and the noise of the plate."""
+    plate = reference.masks["plate"]
+    net = np.mean([reference.errors(image)["plate"].net for image in images])
+    squares = (images[0] - images[1]) ** 2 / 2 * relmse_weight(reference.pixels)
+    noise = squares.mean(axis=2)[plate].mean()
+    return f"| {name} | {work} | {net:.2e} | {noise:.2e} |", net, noise
+
+
+def main():
+    options = argument_parser(__doc__, 60).parse_args()
+    reference = plate_reference()
+    renders = Renders(options.program, "beside_mitsuba", "plate_checker.xml", METHODS)
+    renders.warm_up()
+    scene, variant = load_mitsuba(renders.scene)
+    load = os.getloadavg()
+    images, work = {name: [] for name in (*METHODS, "Mitsuba")}, {}
+    for seed in (1, 2):
+        for name in METHODS:
+            renders.methods[name] = [*METHODS[name], "--seed", str(seed)]
+            image, statistics = renders.render(name, options.seconds)
+            images[name].append(image)
+            work[name] = f"{statistics['counters']['passes']} passes"
+        image, samples = render_mitsuba(scene, options.seconds, seed)
+        images["Mitsuba"].append(image)
+        work["Mitsuba"] = f"{samples} samples per pixel"
+    print(f"Turbid plate, {measured_on(statistics, options.seconds, load)}.\n")
+    print("| renderer | work | relMSE of the plate, net | its noise, from two seeds |\n| --- | --- | --- | --- |")
+    title = f"Mitsuba {mitsuba.__version__} volpath ({variant})"
+    _, netThere, noiseThere = theirs = row(title, images["Mitsuba"], work["Mitsuba"], reference)
+    print(theirs[0])
+    for name in METHODS:
+        text, net, noise = row(name, images[name], work[name], reference)
+        print(text, f"{netThere / net:.0f} and {noiseThere / noise:.0f} times less")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# The turbid plate by quasilux and by Mitsuba 3's volumetric path tracer, side by side in equal time:
+# beside_mitsuba.sh [SECONDS, default 60]. Mitsuba comes from PyPI, below build/. Prints a table.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+bash scripts/setup.sh
+cmake --preset release
+cmake --build --preset release --target quasilux
+
+folder=$PWD/build/mitsuba
+if [[ ! -x $folder/bin/python3 ]]; then
+    # Debian's own Python, whose modules read the images.
+    /usr/bin/python3 -m venv --system-site-packages "$folder" || {
+        echo "beside_mitsuba: /usr/bin/python3 -m venv failed; on Debian install python3-venv" >&2
+        exit 1
+    }
+fi
+"$folder/bin/pip" install --quiet --disable-pip-version-check mitsuba
+"$folder/bin/python3" scripts/beside_mitsuba.py "$@"
