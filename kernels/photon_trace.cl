@@ -1,5 +1,5 @@
 /* Stage 1 of a pass: trace photons from the emitters and store them by class.
- * From: emitters. To: photons in regions, in the order of their paths (so the result does not depend on scheduling).
+ * From: emitters. To: photons in regions, in an order that is the region's own (so the result does not depend on scheduling).
  * With MAP_CAMERA it is stage 3 and stores nothing: photons are splatted to camera points. To: sums of splats. */
 #include "emitter.clh"
 #include "energy_balance.clh"
@@ -108,7 +108,7 @@ inline PhotonPath emitPhoton(const PhotonWorld* world, const Lattice* lattice, u
     path.steps = 0;
 #ifdef HAS_MEDIA
     path.medium = SCENE_TABLE(world->tables, scene, Emitter, emitters)[emitted.emitter].medium;
-    path.thinning = u.y;
+    path.thinning = (uint)(u.y * 4294967296.f);
 #endif
     countEnergy(count, ENERGY_EMITTED, meanFlux(path.flux));
     return path;
@@ -199,12 +199,14 @@ inline int photonEvent(PhotonPath* path, const PhotonWorld* world, const PhotonS
 }
 
 #ifdef WALK_ABREAST
-/* Follows a path on its own until it may walk with the others; 0 where it ends before. */
+/* Follows a path on its own until it may walk with the others; 0 where it ends before. Flux that is not finite would not
+ * end in a walk. */
 inline int joinWalk(PhotonPath* path, const Walkers* w, LaneMask walking, const PhotonWorld* world,
                     const PhotonSink* sink, RegionCount* count) {
     __global const Medium* media = SCENE_TABLE(world->tables, &world->params->scene, Medium, media);
     while (photonEvent(path, world, sink, count))
-        if (inMedium(path->medium) && media[path->medium].planeCount > 0 && (!walking || path->medium == w->medium))
+        if (inMedium(path->medium) && media[path->medium].planeCount > 0 && (!walking || path->medium == w->medium) &&
+            all(isfinite(path->flux)))
             return 1;
     return 0;
 }
@@ -217,7 +219,7 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
     LaneMask walking = 0, onTheirOwn = 0;
     for (;;) {
         for (uint k = 0; k < WALKERS; ++k) {
-            const LaneMask bit = 1u << k;
+            const LaneMask bit = laneBit(k);
             if (walking & bit & ~onTheirOwn) continue;
             const int isNew = !(onTheirOwn & bit);
             walking &= ~bit;

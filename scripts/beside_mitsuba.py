@@ -77,9 +77,12 @@ def main():
     title = f"Mitsuba {mitsuba.__version__} volpath ({variant})"
     _, netThere, noiseThere = theirs = row(title, images["Mitsuba"], work["Mitsuba"], reference)
     print(theirs[0])
+    ratios = []
     for name in METHODS:
         text, net, noise = row(name, images[name], work[name], reference)
-        print(text, f"{netThere / net:.0f} and {noiseThere / noise:.0f} times less")
+        print(text)
+        ratios.append(f"{name}: error {netThere / net:.0f} times, noise {noiseThere / noise:.0f} times less than Mitsuba's")
+    print("\n" + "\n".join(ratios))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ cmake --preset release
 cmake --build --preset release --target quasilux
 
 folder=$PWD/build/mitsuba
-if [[ ! -x $folder/bin/python3 ]]; then
+if [[ ! -x $folder/bin/pip ]]; then # a folder without it was left half made
     # Debian's own Python, whose modules read the images.
     /usr/bin/python3 -m venv --system-site-packages "$folder" || {
         echo "beside_mitsuba: /usr/bin/python3 -m venv failed; on Debian install python3-venv" >&2

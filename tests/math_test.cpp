@@ -119,14 +119,16 @@ TEST(Polynomials, eightAtATimeAgreeWithOne) {
                                       {CosTwoPi, turns},
                                       {Pow, positive}}) {
         const auto one = evaluate(function, x, powers);
+        // Logarithms and cosines cross 0 away from 0; there only the error for 1 is promised.
+        const bool relative = function != Log2 && function != CosTwoPi && function != SinTwoPi;
+        const auto allowed = [&](float v) { return 4e-7f * (relative ? std::abs(v) : std::max(1.0f, std::abs(v))); };
         Buffer<float> xs(testDevice(), x, "x"), ys(testDevice(), powers, "y"), result(testDevice(), x.size(), "result");
         program()
             .kernel("evaluateFunction8")
             .launch(x.size() / 8, cl_uint(function), xs, ys, result, cl_uint(x.size() / 8));
         const auto eight = result.read();
         for (size_t i = 0; i < x.size(); ++i)
-            ASSERT_NEAR(eight[i], one[i], 3e-7 * std::max(1.0f, std::abs(one[i])))
-                << "function " << function << " of " << x[i];
+            ASSERT_NEAR(eight[i], one[i], allowed(one[i])) << "function " << function << " of " << x[i];
     }
 }
 
