@@ -75,8 +75,8 @@ def main():
     print(f"Turbid plate, {measured_on(statistics, options.seconds, load)}.\n")
     print("| renderer | work | relMSE of the plate, net | its noise, from two seeds |\n| --- | --- | --- | --- |")
     title = f"Mitsuba {mitsuba.__version__} volpath ({variant})"
-    _, netThere, noiseThere = theirs = row(title, images["Mitsuba"], work["Mitsuba"], reference)
-    print(theirs[0])
+    text, netThere, noiseThere = row(title, images["Mitsuba"], work["Mitsuba"], reference)
+    print(text)
     ratios = []
     for name in METHODS:
         text, net, noise = row(name, images[name], work[name], reference)

@@ -98,33 +98,27 @@ TEST(EnergyBalance, CutPaths) {
     EXPECT_GT(counters.energy->cut / counters.energy->emitted, 0.5);
 }
 
-struct Share {
-    double mean = 0, standardError = 0;
-};
 /// Net loss by chance, relative to what was emitted.
-Share lossByChance(const std::string& file, PhotonRule rule) {
+MeanAndError lossByChance(const std::string& file, PhotonRule rule) {
     constexpr unsigned passes = 12;
     auto settings = countingSettings(20'000);
     settings.photonRule = rule;
     Renderer renderer(testDevice(), small(projectScene(file)), settings);
-    Share share;
-    double before = 0, squares = 0;
+    std::vector<double> shares;
+    double before = 0;
     for (unsigned pass = 0; pass < passes; ++pass) {
         renderer.renderPass(pass);
         const EnergyBalance& energy = *renderer.counters().energy;
-        const double net = (energy.lost - energy.gained - before) * (pass + 1) / energy.emitted;
+        shares.push_back((energy.lost - energy.gained - before) * (pass + 1) / energy.emitted);
         before = energy.lost - energy.gained;
-        share.mean += net / passes;
-        squares += net * net / passes;
     }
-    share.standardError = std::sqrt((squares - share.mean * share.mean) / (passes - 1));
-    return share;
+    return meanAndError(shares);
 }
 
 // Albedos of these scenes are known exactly.
 TEST(EnergyBalance, ChanceTakesAsMuchAsItGives) {
     for (const char* file : {"furnace_split.xml", "furnace_textured.xml", "furnace_medium.xml"}) {
-        const Share share = lossByChance(file, PhotonRule::right);
+        const MeanAndError share = lossByChance(file, PhotonRule::right);
         EXPECT_LE(std::abs(share.mean), 4 * share.standardError) << file;
         EXPECT_LT(share.standardError, 0.005) << file << " is too noisy to tell anything";
     }
@@ -138,7 +132,7 @@ TEST(EnergyBalanceControl, ALostTermIsFound) {
     EXPECT_GT(std::abs(counters.energy->imbalance()), balanceBound);
 }
 TEST(EnergyBalanceControl, ScatteringThatGainsIsFound) {
-    const Share share = lossByChance("furnace_split.xml", PhotonRule::scatteringGains);
+    const MeanAndError share = lossByChance("furnace_split.xml", PhotonRule::scatteringGains);
     EXPECT_LT(share.mean, -4 * share.standardError);
 }
 

@@ -50,14 +50,9 @@ DeviceScene flattenFurnace() {
 }
 
 MeanAndError overPasses(const std::vector<std::array<double, LIGHT_CLASSES>>& flux, unsigned lightClass) {
-    MeanAndError result;
-    double squares = 0;
-    for (const auto& pass : flux) {
-        result.mean += pass[lightClass] / passes;
-        squares += pass[lightClass] * pass[lightClass] / passes;
-    }
-    result.standardError = std::sqrt(std::max(0.0, squares - result.mean * result.mean) / (passes - 1));
-    return result;
+    std::vector<double> ofClass;
+    for (const auto& pass : flux) ofClass.push_back(pass[lightClass]);
+    return meanAndError(ofClass);
 }
 
 TEST(PhotonTrace, StoredFluxIsTheEmittedFluxTimesItsSeries) {

@@ -95,20 +95,11 @@ double sharePaired(std::vector<StoredPhoton> a, std::vector<StoredPhoton> b) {
     return double(paired) / double(a.size());
 }
 
-struct Ratio {
-    double mean = 0, standardError = 0;
-};
 /// Flux in a slot, `a` to `b`.
-Ratio fluxRatio(const Stored& a, const Stored& b, unsigned slot) {
-    Ratio result;
-    double squares = 0;
-    for (unsigned pass = 0; pass < passes; ++pass) {
-        const double ratio = flux(a[pass][slot]) / flux(b[pass][slot]);
-        result.mean += ratio / passes;
-        squares += ratio * ratio / passes;
-    }
-    result.standardError = std::sqrt(std::max(0.0, squares - result.mean * result.mean) / (passes - 1));
-    return result;
+MeanAndError fluxRatio(const Stored& a, const Stored& b, unsigned slot) {
+    std::vector<double> ratios;
+    for (unsigned pass = 0; pass < passes; ++pass) ratios.push_back(flux(a[pass][slot]) / flux(b[pass][slot]));
+    return meanAndError(ratios);
 }
 
 const std::string walking = " -DWALK_ANYWHERE", onTheirOwn = " -DPORTABLE_MASK";
@@ -123,7 +114,7 @@ TEST(PhotonWalk, AbreastPhotonsDoWhatTheyDoOnTheirOwn) {
     for (const unsigned lightClass : {LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}) {
         const unsigned slot = VOLUME_SLOT(lightClass);
         ASSERT_GT(abreast()[0][slot].size(), 300u) << "too few photons of class " << lightClass;
-        const Ratio ratio = fluxRatio(abreast(), alone, slot);
+        const MeanAndError ratio = fluxRatio(abreast(), alone, slot);
         EXPECT_NEAR(ratio.mean, 1, 4 * ratio.standardError + 1e-6) << "class " << lightClass;
         EXPECT_LT(ratio.standardError, 0.02) << "too noisy to tell anything about class " << lightClass;
     }
@@ -140,7 +131,7 @@ TEST(PhotonWalk, WrongWalksAreFound) {
          {std::pair("return clearance > 2 *", "return clearance + 0.03f > 2 *"),
           std::pair("phaseValue8(in->medium, 1.0f - oneMinusCos)", "phaseValue8(in->medium, oneMinusCos - 1.0f)")}) {
         const Stored walked = trace({walking, {1, 1, 1, 1}, 7, mutant("photon_walk.clh", right, wrong)});
-        const Ratio ratio = fluxRatio(walked, alone, slot);
+        const MeanAndError ratio = fluxRatio(walked, alone, slot);
         EXPECT_GT(std::abs(ratio.mean - 1), 4 * ratio.standardError + 1e-6) << wrong;
     }
 }
@@ -151,7 +142,7 @@ TEST(PhotonWalk, ThinningKeepsTheMean) {
         const Stored thinned = trace({options, keep});
         for (const unsigned lightClass : {LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}) {
             const unsigned slot = VOLUME_SLOT(lightClass);
-            const Ratio ratio = fluxRatio(thinned, abreast(), slot);
+            const MeanAndError ratio = fluxRatio(thinned, abreast(), slot);
             EXPECT_NEAR(ratio.mean, 1, 4 * ratio.standardError) << "class " << lightClass << options;
             EXPECT_LT(ratio.standardError, 0.012) << "too noisy to tell anything about class " << lightClass;
             // Negative control: flux divided by a share 5 % off would be seen.

@@ -26,6 +26,18 @@ std::vector<double> groupSums(const FilmImage& image, const std::vector<int>& gr
 
 } // namespace
 
+MeanAndError meanAndError(const std::vector<double>& values) {
+    const auto n = static_cast<double>(values.size());
+    MeanAndError result;
+    double squares = 0;
+    for (const double value : values) {
+        result.mean += value / n;
+        squares += value * value / n;
+    }
+    result.standardError = std::sqrt(std::max(0.0, squares - result.mean * result.mean) / (n - 1));
+    return result;
+}
+
 Scene projectScene(const std::string& name, const std::vector<std::pair<std::string, std::string>>& parameters) {
     return loadScene(std::string(QUASILUX_SOURCE_DIR) + "/scenes/" + name, parameters);
 }
@@ -34,20 +46,16 @@ std::vector<MeanAndError> renderGroups(const Scene& scene, const RenderSettings&
                                        const std::vector<int>& group, unsigned batches, unsigned passesPerBatch) {
     const auto groups = static_cast<size_t>(*std::max_element(group.begin(), group.end()) + 1);
     Renderer renderer(testDevice(), scene, settings);
-    std::vector<MeanAndError> out(groups);
-    std::vector<double> before(groups), squares(groups);
+    std::vector<std::vector<double>> means(groups);
+    std::vector<double> before(groups);
     for (unsigned batch = 0; batch < batches; ++batch) {
         for (unsigned k = 0; k < passesPerBatch; ++k) renderer.renderPass(batch * passesPerBatch + k);
         const auto sums = groupSums(renderer.develop(), group, groups);
-        for (size_t g = 0; g < groups; ++g) {
-            const double mean = (sums[g] - before[g]) / passesPerBatch;
-            out[g].mean += mean / batches;
-            squares[g] += mean * mean / batches;
-        }
+        for (size_t g = 0; g < groups; ++g) means[g].push_back((sums[g] - before[g]) / passesPerBatch);
         before = sums;
     }
-    for (size_t g = 0; g < groups; ++g)
-        out[g].standardError = std::sqrt(std::max(0.0, squares[g] - out[g].mean * out[g].mean) / (batches - 1));
+    std::vector<MeanAndError> out;
+    for (const auto& ofGroup : means) out.push_back(meanAndError(ofGroup));
     return out;
 }
 

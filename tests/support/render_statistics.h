@@ -13,6 +13,9 @@ struct MeanAndError {
     double standardError = 0; ///< of the mean, from the spread of the batches (photon noise is shared between pixels)
 };
 
+/// Of independent values, at least two.
+MeanAndError meanAndError(const std::vector<double>& values);
+
 /// Scene of scenes/, with `parameters` replacing its defaults.
 Scene projectScene(const std::string& name, const std::vector<std::pair<std::string, std::string>>& parameters = {});
 
