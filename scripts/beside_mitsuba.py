@@ -2,7 +2,7 @@
 
 Called by scripts/beside_mitsuba.sh. Kernels of both are compiled before the clock starts. Each image is compared with the
 reference, net of its noise; and the two images of a renderer with each other, which tells their noise without any reference:
-half the mean of (A - B)^2 / (R^2 + 0.01 mean(R)^2).
+half the mean of (A - B)^2 with the weights of net relMSE.
 """
 import os
 import subprocess
@@ -13,7 +13,7 @@ import mitsuba
 import numpy as np
 
 from figures import Renders, argument_parser, measured_on
-from relmse import plate_reference, relmse_weight
+from relmse import plate_reference
 
 VARIANTS = ["llvm_ad_rgb", "scalar_rgb"]  # the first one that works here
 SAMPLES = 16  # per pixel in one call of Mitsuba: some seconds
@@ -50,7 +50,7 @@ def row(name, images, work, reference):
     """Markdown; and the mean net relMSE and the noise of the plate."""
     plate = reference.masks["plate"]
     net = np.mean([reference.errors(image)["plate"].net for image in images])
-    squares = (images[0] - images[1]) ** 2 / 2 * relmse_weight(reference.pixels)
+    squares = (images[0] - images[1]) ** 2 / 2 * reference.weight
     noise = squares.mean(axis=2)[plate].mean()
     return f"| {name} | {work} | {net:.2e} | {noise:.2e} |", net, noise
 

@@ -4,8 +4,9 @@
     scripts/relmse.py IMAGE.exr [SCENE, cornell_phong (default) or plate_checker]
 
 relMSE is the mean over pixels and channels of (I - R)^2 / (R^2 + 0.01 mean(R)^2), on linear RGB; no pixel is dropped.
-The reference is noisy too and its noise adds to the relMSE of any image, so it is subtracted ("net"). "mean" is the
-signed relative difference of the region's mean luminance: what is left of it when noise is averaged away is bias.
+The reference is noisy too and its noise adds to the relMSE of any image, so it is subtracted ("net"). Of the plate, whose
+reference has 9 % of noise a pixel, "net" is divided by the mean R of the eight neighbours: R itself in the denominator would add
+6 times the square of the reference's own relMSE (docs/accuracy.md). "mean" is the signed relative difference of the region's mean luminance: what is left of it when noise is averaged away is bias.
 The scripts that draw figures import this; `quasilux compare` measures the same of any two images, with standard errors.
 Needs Debian's python3-numpy and python3-openimageio.
 """
@@ -62,27 +63,41 @@ def read_regions():
     return np.rint(gray / REGION_STEP).astype(int)
 
 
-def relmse_weight(pixels):
-    """What squared differences from the reference `pixels` are multiplied with."""
-    return 1 / (pixels**2 + 0.01 * pixels.mean() ** 2)
+def relmse_weight(pixels, scale=None):
+    """What squared differences from the reference `pixels` are multiplied with; `scale` stands for it in the denominators."""
+    return 1 / ((pixels if scale is None else scale) ** 2 + 0.01 * pixels.mean() ** 2)
+
+
+def neighbours(pixels):
+    """Mean of the up to eight pixels about each one, which know nothing of its own noise where the filter was a box."""
+    total, count = np.zeros_like(pixels), np.zeros((*pixels.shape[:2], 1))
+    padded = np.pad(pixels, ((1, 1), (1, 1), (0, 0)))
+    inside = np.pad(np.ones((*pixels.shape[:2], 1)), ((1, 1), (1, 1), (0, 0)))
+    for row, column in ((r, c) for r in range(3) for c in range(3) if (r, c) != (1, 1)):
+        window = np.s_[row : row + pixels.shape[0], column : column + pixels.shape[1]]
+        total, count = total + padded[window], count + inside[window]
+    return total / count
 
 
 class Reference:
-    """The converged image, its regions and the share of its own noise in the relMSE of each pixel."""
+    """The converged image, its regions, and of each pixel the weight of squared differences in `net` and the share of the reference's
+    own noise in it."""
 
-    def __init__(self, pixels, masks, noise):
+    def __init__(self, pixels, masks, noise, weight=None):
         self.pixels, self.masks, self.noise = pixels, masks, noise
+        self.weight = relmse_weight(pixels) if weight is None else weight
 
     def errors(self, image):
         """Error by region name of an image of the reference's size."""
         if image.shape != self.pixels.shape:
             sys.exit(f"the image has {image.shape[1]}x{image.shape[0]} pixels, expected {self.pixels.shape[1]}x{self.pixels.shape[0]}")
-        squares = ((image - self.pixels) ** 2 * relmse_weight(self.pixels)).mean(axis=2)
+        squares = (image - self.pixels) ** 2
+        relmse_of, net_of = ((squares * weight).mean(axis=2) for weight in (relmse_weight(self.pixels), self.weight))
         result = {}
         for name, mask in self.masks.items():
-            relmse = squares[mask].mean()
+            relmse, net = relmse_of[mask].mean(), net_of[mask].mean() - self.noise[mask].mean()
             mean = (image @ LUMINANCE)[mask].mean() / (self.pixels @ LUMINANCE)[mask].mean() - 1
-            result[name] = Error(relmse, relmse - self.noise[mask].mean(), mean)
+            result[name] = Error(relmse, net, mean)
         return result
 
 
@@ -122,7 +137,8 @@ def plate_reference():
     pixels = np.repeat(read_channels(REFERENCES / "plate_checker_reference.exr", ["Y"]), 3, axis=2)
     stderr = np.repeat(read_channels(REFERENCES / "plate_checker_reference_stderr.exr", ["Y"]), 3, axis=2)
     masks = {"all": np.ones(pixels.shape[:2], bool), "plate": plate_mask(*pixels.shape[:2])}
-    return Reference(pixels, masks, (stderr**2 * relmse_weight(pixels)).mean(axis=2))
+    weight = relmse_weight(pixels, neighbours(pixels))
+    return Reference(pixels, masks, (stderr**2 * weight).mean(axis=2), weight)
 
 
 REFERENCE_OF = {"cornell_phong": box_reference, "plate_checker": plate_reference}

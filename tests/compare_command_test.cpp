@@ -138,6 +138,20 @@ TEST_F(CompareCommandTest, PixelsThatAreNotFiniteAreNamed) {
     EXPECT_EQ(left["nonFinite"]["leftOut"], true);
 }
 
+TEST_F(CompareCommandTest, AnotherImageInTheDenominators) {
+    write("half.exr", rgb, [](int, int, int) { return 1.0; });
+    write("sigma.exr", {"Y"}, [](int, int, int) { return 1.0; });
+    EXPECT_NEAR(report({"image.exr", "reference.exr", "--scale", "half.exr"})["regions"][0]["relMSE"], 0.125 / 1.01,
+                1e-9);
+    EXPECT_THAT(run({"compare", "image.exr", "reference.exr", "--reference-stderr", "sigma.exr"}).errors,
+                HasSubstr("--scale FILE divides by another image"));
+    EXPECT_EQ(run({"compare", "image.exr", "reference.exr"}).errors, "") << "nothing is known of the noise";
+    write("broken.exr", rgb,
+          [](int x, int y, int) { return x == 5 && y == 3 ? std::numeric_limits<double>::quiet_NaN() : 2.0; });
+    refuse({"image.exr", "reference.exr", "--scale", "broken.exr"}, "--scale: broken.exr is not finite at (5, 3)");
+    refuse({"image.exr", "reference.exr", "--scale", "missing.exr"}, "missing.exr");
+}
+
 TEST_F(CompareCommandTest, StandardErrorsFromLayersOrAFile) {
     const std::vector<std::string> layers{"R", "G", "B", "stderr.R", "stderr.G", "stderr.B"};
     write("noisy.exr", layers, [](int, int, int c) { return c < 3 ? 2.0 : 0.25; });

@@ -80,7 +80,24 @@ TEST(Search, FindsWhatIsBetterInEachCoordinate) {
     EXPECT_THAT(found.report.line(), HasSubstr("auto: BDD 1, alternative, split all"));
 }
 
-// Negative control of the one above: the same world the other way round keeps what it started with.
+// Following everything pays with the alternative variant only; with the main one it is the standard method.
+TEST(Search, FollowsEverythingInTheAlternativeVariantOnly) {
+    const World world = [](const RenderSettings& s) {
+        Truth truth;
+        const bool isAlternative = s.variant == Variant::alternative;
+        truth.noisePerPass = s.quasiSpecular == "all" && isAlternative ? 0.1 : isAlternative ? 1.5 : 1;
+        return truth;
+    };
+    const Found found = search(world, 200);
+    EXPECT_EQ(found.settings.quasiSpecular, "all");
+    EXPECT_EQ(found.settings.variant, Variant::alternative);
+    Freedom noVariant{true, true, false, true, true};
+    const Found main = search(world, 200, noVariant);
+    for (const auto& row : main.report.rows) EXPECT_NE(row.settings.quasiSpecular, "all") << "the same as none";
+    EXPECT_EQ(main.report.chosen, 0u);
+}
+
+// Negative control of FindsWhatIsBetterInEachCoordinate: the same world the other way round keeps what it started with.
 TEST(Search, KeepsTheStartWhereNothingIsBetter) {
     const World world = [](const RenderSettings& s) {
         Truth truth;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace quasilux {
 
@@ -29,13 +30,6 @@ void forEachLobe(const Split& split, const Visit& visit) {
             for (const auto& lobe : *side) visit(lobe.scattering);
 }
 
-std::string splitKey(const Split& split) {
-    std::string key;
-    forEachLobe(split, [&](unsigned scattering) { key += fmt::format("{} ", scattering); });
-    for (const auto& medium : split.media) key += fmt::format("{} ", medium.level);
-    return key;
-}
-
 // What the kernels are compiled for; the level itself is data to them.
 struct Scatterings {
     bool diffuseLobes = false, quasiSpecularLobes = false, diffuseMedia = false, quasiSpecularMedia = false;
@@ -52,6 +46,24 @@ struct Scatterings {
     }
 };
 
+// With nothing genuine diffuse the main variant is the standard method, as if everything were (docs/theory.md).
+bool isStandard(const Scatterings& has, Variant variant) {
+    return variant == Variant::main && !has.diffuseLobes && !has.diffuseMedia;
+}
+
+// The same for splits that come to the same image.
+std::string splitKey(const Split& split, Variant variant) {
+    const bool standard = isStandard(Scatterings(split), variant);
+    std::string key;
+    forEachLobe(split, [&](unsigned scattering) {
+        const bool becomesDiffuse = standard && scattering == SCATTER_QUASI_SPECULAR;
+        key += fmt::format("{} ", becomesDiffuse ? unsigned{SCATTER_GENUINE_DIFFUSE} : scattering);
+    });
+    for (const auto& medium : split.media)
+        key += fmt::format("{} ", standard ? std::numeric_limits<float>::infinity() : medium.level);
+    return key;
+}
+
 // ID.LOBE of lobes that are neither delta nor Lambert, each once.
 std::vector<std::string> singleLobes(const Scene& scene) {
     std::vector<std::string> names;
@@ -66,18 +78,24 @@ std::vector<std::string> singleLobes(const Scene& scene) {
     return names;
 }
 
-std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene& scene) {
+std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene& scene, bool variantIsFree) {
     std::vector<std::string> splits{"auto"};
     if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.3", "level:0.03"});
     splits.insert(splits.end(), {"none", "all"});
     for (const auto& lobe : singleLobes(scene)) splits.push_back(lobe);
-    std::vector<std::string> known{splitKey(splitOf(scene, from))};
+    std::vector<std::string> known{splitKey(splitOf(scene, from), from.variant)};
     std::vector<RenderSettings> found;
     for (const auto& split : splits) {
         RenderSettings next = from;
         next.quasiSpecular = split;
         next.quasiSpecularFromCommandLine = true;
-        const std::string key = splitKey(splitOf(scene, next));
+        const Split decided = splitOf(scene, next);
+        const Scatterings has(decided);
+        // Following everything is the alternative variant's alone: with the main one, it would be found in two steps only.
+        // With nothing followed the variants are one, and its candidate has been there before.
+        if (variantIsFree && isStandard(has, next.variant)) next.variant = Variant::alternative;
+        if (variantIsFree && !has.quasiSpecularLobes && !has.quasiSpecularMedia) next.variant = Variant::main;
+        const std::string key = splitKey(decided, next.variant);
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         known.push_back(key);
         found.push_back(next);
@@ -85,21 +103,28 @@ std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene&
     return found;
 }
 
+bool isFree(Coordinate coordinate, const Freedom& freedom) {
+    const bool free[] = {freedom.split, freedom.bdd, freedom.variant, freedom.photons, freedom.radius};
+    return free[static_cast<size_t>(coordinate)];
+}
+
 } // namespace
 
 std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettings& from, unsigned photons,
-                                       const Scene& scene) {
+                                       const Scene& scene, const Freedom& freedom) {
+    if (!isFree(coordinate, freedom)) return {};
     RenderSettings next = from;
     switch (coordinate) {
     case Coordinate::bdd:
         next.bdd = from.bdd == 0 ? 1 : 0;
         return {next};
     case Coordinate::split:
-        return otherSplits(from, scene);
+        return otherSplits(from, scene, freedom.variant);
     case Coordinate::variant: {
         const Scatterings has(splitOf(scene, from));
         if (!has.quasiSpecularLobes && !has.quasiSpecularMedia) return {}; // the variants are one
         next.variant = from.variant == Variant::main ? Variant::alternative : Variant::main;
+        if (isStandard(has, next.variant)) return {}; // a candidate of splits
         return {next};
     }
     case Coordinate::photons: {
@@ -124,17 +149,11 @@ std::array<Coordinate, 5> searchOrder(const RenderSettings& start) {
                          : std::array{split, variant, photons, radius, bdd};
 }
 
-bool isFree(Coordinate coordinate, const Freedom& freedom) {
-    const bool free[] = {freedom.split, freedom.bdd, freedom.variant, freedom.photons, freedom.radius};
-    return free[static_cast<size_t>(coordinate)];
-}
-
 std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSettings& start, unsigned photons,
                                          const Scene& scene) {
     std::vector<std::string> texts;
     for (const Coordinate coordinate : searchOrder(start)) {
-        if (!isFree(coordinate, freedom)) continue;
-        for (const auto& next : neighbours(coordinate, start, photons, scene))
+        for (const auto& next : neighbours(coordinate, start, photons, scene, freedom))
             texts.push_back(text(next, next.photonsPerPass > 0 ? next.photonsPerPass : photons));
     }
     return texts;

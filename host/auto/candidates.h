@@ -13,15 +13,15 @@ enum class Coordinate { split, bdd, variant, photons, radius };
 /// One after the other; those that tend to gain most for their time come first. BDD 0 has the shortest paths and mostly
 /// the least error, so it is tried first where the search starts with another; where it does not, others come last.
 std::array<Coordinate, 5> searchOrder(const RenderSettings& start);
-bool isFree(Coordinate coordinate, const Freedom& freedom);
 
 /// Factors of photons per pass and radius that are tried, and how far they may go from where the search starts.
 inline constexpr double photonsStep = 2, mostPhotons = 4, radiusStep = 1.4;
 
-/// What may be tried in this coordinate instead of `from`; splits that come to the same as another one are left out.
+/// What may be tried in this coordinate instead of `from`, nothing where it is not free; splits that come to the same as
+/// another one are left out. A split with nothing genuine diffuse comes with the alternative variant where that is free.
 /// `photons`: those that a pass of `from` emits.
 std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettings& from, unsigned photons,
-                                       const Scene& scene);
+                                       const Scene& scene, const Freedom& freedom);
 
 /// text() of all neighbours of where the search starts, in the order in which they are tried.
 std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSettings& start, unsigned photons,

@@ -162,8 +162,8 @@ bool Search::isWorthTrying(Coordinate coordinate, const RenderSettings& settings
 }
 
 void Search::tryNeighbours(Coordinate coordinate) {
-    if (!isFree(coordinate, freedom_)) return;
-    for (const auto& next : neighbours(coordinate, best_.settings, best_.pilot->photonsPerPass(), scene_)) {
+    const unsigned photons = best_.pilot->photonsPerPass();
+    for (const auto& next : neighbours(coordinate, best_.settings, photons, scene_, freedom_)) {
         if (interrupted()) return;
         if (!tryCandidate(coordinate, next)) continue;
         if (coordinate != Coordinate::split) return; // a step of a number may be followed by another one

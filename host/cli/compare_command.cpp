@@ -73,6 +73,29 @@ std::vector<std::string> exceededLimits(const CompareOptions& options, const Com
     return lines;
 }
 
+/// Of the whole picture: noise in the denominators is told where it is more than this share of net relMSE.
+constexpr double muchOfNet = 0.1;
+
+void warnOfDenominators(const CompareOptions& options, const Comparison& comparison) {
+    const RegionMeasures& all = comparison.regions.front();
+    if (all.denominatorNoise && *all.denominatorNoise > muchOfNet * std::abs(all.netRelMse))
+        warn(options,
+             fmt::format("relMSE is divided by the squared reference, whose noise adds about {:.1e} to the net "
+                         "relMSE of {:.1e}; --scale FILE divides by another image",
+                         *all.denominatorNoise, all.netRelMse));
+}
+
+/// Throws InputError.
+RadianceImage readScale(const std::string& path, const RadianceImage& reference) {
+    RadianceImage scale = readRadiance(path);
+    requireEqualSizes(scale, reference);
+    for (size_t i = 0; i < scale.radiance.size(); ++i)
+        if (!std::isfinite(scale.radiance[i]))
+            throw InputError(fmt::format("--scale: {} is not finite at ({}, {}), expected finite values", path,
+                                         i / 3 % scale.width, i / 3 / scale.width));
+    return scale;
+}
+
 std::string numberText(const std::optional<double>& value) { return value ? fmt::format("{:.3e}", *value) : "unknown"; }
 
 std::vector<TableRow> regionRows(const Comparison& comparison) {
@@ -149,8 +172,11 @@ int compareCommand(const CompareOptions& options) {
         throw InputError("--net-of-image-noise: " + image.path + " has no usable layers stderr.R, stderr.G, stderr.B");
     settings.maximumNonFinite = options.maximumNonFinite;
     settings.worstPixels = options.worstPixels;
+    std::optional<RadianceImage> scale;
+    if (!options.scale.empty()) settings.scale = &scale.emplace(readScale(options.scale, reference));
     const Comparison comparison = compareImages(image, reference, regions, settings);
 
+    warnOfDenominators(options, comparison);
     const std::vector<std::string> exceeded = exceededLimits(options, comparison);
     PageText text;
     const auto fileName = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };

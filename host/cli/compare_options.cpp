@@ -27,6 +27,12 @@ void declareNoise(CLI::App& command, CompareOptions& options) {
         ->excludes(file)
         ->group(group);
     command
+        .add_option("--scale", options.scale,
+                    "Image whose values stand for the reference's in the denominators of relMSE: of the same view, and "
+                    "of noise that is not IMAGE's or REFERENCE's, or of little (default: the reference)")
+        ->type_name("FILE")
+        ->group(group);
+    command
         .add_flag("--net-of-image-noise", options.netOfImageNoise,
                   "Subtract the image's own noise from relMSE too, which leaves bias (default: off)")
         ->group(group);

@@ -10,9 +10,9 @@
 namespace quasilux {
 
 struct CompareOptions {
-    std::string image, reference, mask, referenceStandardError, html; ///< paths; empty = not given
-    std::vector<std::string> regions;                                 ///< "NAME=VALUE,VALUE..."
-    std::vector<std::string> referenceNoise;                          ///< "X" or "NAME=X"
+    std::string image, reference, mask, referenceStandardError, scale, html; ///< paths; empty = not given
+    std::vector<std::string> regions;                                        ///< "NAME=VALUE,VALUE..."
+    std::vector<std::string> referenceNoise;                                 ///< "X" or "NAME=X"
     bool netOfImageNoise = false;
     std::optional<double> maximumRelMse, maximumRmse, maximumBias;
     uint64_t maximumNonFinite = 0, worstPixels = 5;

@@ -18,6 +18,7 @@ json regionJson(const RegionMeasures& region) {
             {"referenceNoise", orNull(region.referenceNoise)},
             {"imageNoise", orNull(region.imageNoise)},
             {"netRelMSE", region.netRelMse},
+            {"denominatorNoise", orNull(region.denominatorNoise)},
             {"RMSE", region.rmse},
             {"meanImage", region.meanImage},
             {"meanReference", region.meanReference},

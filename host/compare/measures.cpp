@@ -24,7 +24,8 @@ double square(double x) { return x * x; }
 struct Pair {
     const RadianceImage& image;
     const RadianceImage& reference;
-    double floor = 0; ///< 0.01 mean(R)^2
+    const RadianceImage& denominator; ///< the reference, or what stands for it
+    double floor = 0;                 ///< 0.01 mean(R)^2
     bool leaveOut = false;
     size_t tileSide = 1, tileColumns = 1;
 
@@ -35,10 +36,8 @@ struct Pair {
         return static_cast<double>(image.radiance[i]) - static_cast<double>(reference.radiance[i]);
     }
     /// A black reference has no scale: equal values then have no error.
-    double relative(double squared, size_t i) const {
-        const double scale = square(reference.radiance[i]) + floor;
-        return squared == 0 && scale == 0 ? 0 : squared / scale;
-    }
+    double scale(size_t i) const { return square(denominator.radiance[i]) + floor; }
+    double relative(double squared, size_t i) const { return squared == 0 && scale(i) == 0 ? 0 : squared / scale(i); }
     double relativeSquare(size_t pixel) const {
         double sum = 0;
         for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) sum += relative(square(difference(i)), i);
@@ -49,13 +48,13 @@ struct Pair {
     }
 };
 
-/// Over the pixels that count: one that is not finite makes every relMSE not finite, since mean(R) is in all of them.
-double meanReference(const Pair& pair) {
+/// mean(R) over the pixels that count: one that is not finite makes every relMSE not finite, since mean(R) is in all of them.
+double meanDenominator(const Pair& pair) {
     double sum = 0;
     size_t count = 0;
     for (size_t pixel = 0; pixel < pair.image.pixels(); ++pixel) {
         if (!pair.counts(pixel)) continue;
-        for (size_t c = 0; c < 3; ++c) sum += pair.reference.radiance[3 * pixel + c];
+        for (size_t c = 0; c < 3; ++c) sum += pair.denominator.radiance[3 * pixel + c];
         count += 3;
     }
     const double mean = sum / static_cast<double>(count);
@@ -69,6 +68,20 @@ std::optional<double> noiseShare(const Pair& pair, const std::vector<float>& sta
     double sum = 0;
     for (const size_t pixel : pixels)
         for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) sum += pair.relative(square(standardError[i]), i);
+    return sum / static_cast<double>(3 * pixels.size());
+}
+
+/// Expectation of ((I - R)^2 - sigma^2) / (R^2 + floor) where I is right and R normal about it, to the fourth order in
+/// sigma: 2 sigma^4 / s^2 (4 R^2 / s - 1), s = R^2 + floor, which is 6 (sigma / R)^4 where the floor is small.
+std::optional<double> denominatorNoise(const Pair& pair, const std::vector<size_t>& pixels) {
+    const auto& sigma = pair.reference.standardError;
+    if (sigma.empty() || &pair.denominator != &pair.reference) return std::nullopt;
+    double sum = 0;
+    for (const size_t pixel : pixels)
+        for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+            const double share = pair.relative(square(sigma[i]), i);
+            sum += 2 * square(share) * (4 * pair.relative(square(pair.reference.radiance[i]), i) - 1);
+        }
     return sum / static_cast<double>(3 * pixels.size());
 }
 
@@ -139,6 +152,7 @@ RegionMeasures measure(const Pair& pair, const Region& region, const CompareSett
     result.imageNoise = noiseShare(pair, pair.image.standardError, pixels);
     result.netRelMse = result.relMse - result.referenceNoise.value_or(0) -
                        (settings.netOfImageNoise ? result.imageNoise.value_or(0) : 0);
+    result.denominatorNoise = denominatorNoise(pair, pixels);
     result.meanImage = meanOf(pair.image, pixels);
     result.meanReference = meanOf(pair.reference, pixels);
     result.meanLuminance = dot(result.meanImage);
@@ -207,7 +221,7 @@ std::optional<double> errorInStandardErrors(const RadianceImage& image, const Ra
 
 Comparison compareImages(const RadianceImage& image, const RadianceImage& reference, const std::vector<Region>& regions,
                          const CompareSettings& settings) {
-    Pair pair{image, reference};
+    Pair pair{image, reference, settings.scale ? *settings.scale : reference};
     pair.tileSide = (std::max(image.width, image.height) + tilesAcross - 1) / tilesAcross;
     pair.tileColumns = (image.width + pair.tileSide - 1) / pair.tileSide;
     Comparison result;
@@ -218,7 +232,7 @@ Comparison compareImages(const RadianceImage& image, const RadianceImage& refere
     }
     const size_t nonFinite = result.nonFinitePixels.size();
     pair.leaveOut = result.nonFiniteLeftOut = nonFinite > 0 && nonFinite <= settings.maximumNonFinite;
-    pair.floor = 0.01 * square(meanReference(pair));
+    pair.floor = 0.01 * square(meanDenominator(pair));
     for (const auto& region : regions) result.regions.push_back(measure(pair, region, settings));
     for (size_t pixel = 0; pixel < image.pixels(); ++pixel)
         result.relativeSquares.push_back(pair.finite(pixel) ? pair.relativeSquare(pixel) : infinity);

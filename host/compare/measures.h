@@ -14,6 +14,8 @@ struct CompareSettings {
     /// relMSE of the reference's noise where it has no standard errors: by region name, "" for those not named.
     std::map<std::string, double> referenceNoise = {};
     bool netOfImageNoise = false; ///< subtract the image's own noise too
+    /// Stands for R in the denominators of relMSE, of the reference's size and finite; nullptr: the reference itself.
+    const RadianceImage* scale = nullptr;
     size_t maximumNonFinite = 0;  ///< up to so many pixels that are not finite are left out instead of spoiling sums
     size_t worstPixels = 5;
 };
@@ -29,6 +31,9 @@ struct RegionMeasures {
     double relMse = 0;
     std::optional<double> referenceNoise, imageNoise; ///< expected share of relMse; nothing where unknown
     double netRelMse = 0;                             ///< relMse less what is known and was to be subtracted
+    /// What the reference's noise adds to netRelMse through the denominators (docs/accuracy.md), which subtracting
+    /// referenceNoise leaves. Nothing where the reference has no standard errors or CompareSettings::scale is given.
+    std::optional<double> denominatorNoise;
     double rmse = 0;                                  ///< over pixels and channels
 
     std::array<double, 3> meanImage{}, meanReference{}; ///< R, G, B
