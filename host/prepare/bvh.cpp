@@ -1,8 +1,9 @@
-// Runs Embree's binned-SAH builder with eight-wide nodes and eight-wide leaves, and flattens its tree
+// Runs Embree's binned-SAH builder with eight-wide leaves, and flattens its binary tree into nodes of eight
 // (docs/traversal.md).
 #include "prepare/bvh.h"
 
 #include "prepare/bvh_block.h"
+#include "prepare/bvh_collapse.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,52 +17,32 @@ namespace quasilux {
 namespace {
 
 constexpr size_t maximumPrimitives = size_t(PRIMITIVE_INDEX_MASK); // the mask itself is left to QL_NONE
+constexpr unsigned maximumDepth = 128; // of the binary tree: beyond it the builder halves by count
 constexpr size_t maximumBlocks = size_t(BVH_LEAF_FIRST_MASK) + 1;
-
-/// What Embree's builder makes of the tree before it is flattened; lives in Embree's own arena. Leaves are many: they
-/// take a tenth of an inner node.
-struct BuildItem {
-    unsigned count; // children, or primitives of a leaf
-    bool isLeaf;
-};
-struct BuildLeaf : BuildItem {
-    unsigned primitive[BVH_WIDTH];
-};
-struct BuildNode : BuildItem {
-    BuildItem* child[BVH_WIDTH];
-    RTCBounds bounds[BVH_WIDTH];
-};
-
-/// Counted as the builder's threads go, so that the flat tree is allocated once.
-struct BuildCounts {
-    std::atomic<size_t> nodes = 0, leaves = 0;
-};
 
 template <typename Item>
 Item* allocateItem(RTCThreadLocalAllocator allocator) {
     return new (rtcThreadLocalAlloc(allocator, sizeof(Item), 16)) Item;
 }
 
-void* createNode(RTCThreadLocalAllocator allocator, unsigned childCount, void* counts) {
+void* createNode(RTCThreadLocalAllocator allocator, unsigned, void*) {
     auto* node = allocateItem<BuildNode>(allocator);
     node->isLeaf = false;
-    node->count = childCount;
-    ++static_cast<BuildCounts*>(counts)->nodes;
     return node;
 }
 
-void setChildren(void* node, void** children, unsigned childCount, void*) {
-    for (unsigned i = 0; i < childCount; ++i)
-        static_cast<BuildNode*>(node)->child[i] = static_cast<BuildItem*>(children[i]);
+void setChildren(void* node, void** children, unsigned, void*) {
+    for (unsigned side = 0; side < 2; ++side)
+        static_cast<BuildNode*>(node)->child[side] = static_cast<BuildItem*>(children[side]);
 }
 
-void setBounds(void* node, const RTCBounds** bounds, unsigned childCount, void*) {
-    for (unsigned i = 0; i < childCount; ++i) static_cast<BuildNode*>(node)->bounds[i] = *bounds[i];
+void setBounds(void* node, const RTCBounds** bounds, unsigned, void*) {
+    for (unsigned side = 0; side < 2; ++side) static_cast<BuildNode*>(node)->bounds[side] = *bounds[side];
 }
 
-void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count, void* counts) {
+void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count, void* leaves) {
     auto* item = allocateItem<BuildLeaf>(allocator);
-    ++static_cast<BuildCounts*>(counts)->leaves;
+    ++*static_cast<std::atomic<size_t>*>(leaves);
     item->isLeaf = true;
     item->count = unsigned(count);
     for (size_t i = 0; i < count; ++i) item->primitive[i] = primitives[i].primID;
@@ -70,10 +51,11 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     return item;
 }
 
-RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, BuildCounts& counts) {
+RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, std::atomic<size_t>& leaves) {
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
-    arguments.maxBranchingFactor = BVH_WIDTH;
+    arguments.maxBranchingFactor = 2;
+    arguments.maxDepth = maximumDepth;
     // Minimum = maximum = block size: with smaller leaves allowed, half of the lanes stay empty.
     arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = BVH_WIDTH;
     arguments.bvh = bvh;
@@ -84,7 +66,7 @@ RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& pri
     arguments.setNodeChildren = setChildren;
     arguments.setNodeBounds = setBounds;
     arguments.createLeaf = createLeaf;
-    arguments.userPtr = &counts;
+    arguments.userPtr = &leaves;
     return arguments;
 }
 
@@ -131,13 +113,13 @@ public:
     /// Appends `item` and what lies below it; returns the reference that a parent's slot holds.
     unsigned append(const BuildItem& item, unsigned depth) {
         if (item.isLeaf) return appendLeaf(static_cast<const BuildLeaf&>(item));
-        const auto& node = static_cast<const BuildNode&>(item);
+        const WideNode node = wideNode(static_cast<const BuildNode&>(item));
         const unsigned index = unsigned(bvh_.nodes.size());
         bvh_.depth = std::max(bvh_.depth, depth);
         bvh_.nodes.push_back(emptyNode());
-        for (unsigned slot = 0; slot < item.count; ++slot) {
-            setSlot(bvh_.nodes[index], slot, node.bounds[slot]);
-            const unsigned reference = append(*node.child[slot], depth + 1);
+        for (unsigned slot = 0; slot < node.count; ++slot) {
+            setSlot(bvh_.nodes[index], slot, *node.slot[slot].bounds);
+            const unsigned reference = append(*node.slot[slot].item, depth + 1);
             bvh_.nodes[index].child[slot] = reference;
         }
         return index;
@@ -195,15 +177,14 @@ Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
     if (!device)
         throw std::runtime_error(fmt::format("Embree did not start (error {})", int(rtcGetDeviceError(nullptr))));
     const std::unique_ptr<RTCBVHTy, EmbreeRelease> arena(rtcNewBVH(device.get()));
-    BuildCounts counts;
-    const RTCBuildArguments arguments = buildArguments(arena.get(), bounded, counts);
-    const BuildItem* root = static_cast<const BuildItem*>(rtcBuildBVH(&arguments));
+    std::atomic<size_t> leaves = 0; // counted as the builder's threads go, so that blocks are allocated once
+    const RTCBuildArguments arguments = buildArguments(arena.get(), bounded, leaves);
+    auto* root = static_cast<BuildItem*>(rtcBuildBVH(&arguments));
     if (!root)
         throw std::runtime_error(fmt::format("Embree could not build the tree over {} primitives (error {})",
                                              primitives.size(), int(rtcGetDeviceError(device.get()))));
 
-    bvh.nodes.reserve(std::max<size_t>(1, counts.nodes));
-    bvh.blocks.reserve(counts.leaves);
+    bvh.blocks.reserve(leaves);
     Flattener flattener(primitives, bvh);
     if (root->isLeaf) {
         bvh.nodes.push_back(emptyNode());
@@ -211,6 +192,9 @@ Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
         const unsigned reference = flattener.append(*root, 1);
         bvh.nodes[0].child[0] = reference;
     } else {
+        auto& node = static_cast<BuildNode&>(*root);
+        weighSlots(node, halfArea(all));
+        bvh.nodes.reserve(countWideNodes(node));
         flattener.append(*root, 1);
     }
     return bvh;
