@@ -64,13 +64,15 @@ class Table:
             for variant in ["main", "alternative"]:
                 if split == "none" and variant == "alternative":
                     continue  # nothing is quasi-specular: the variants are one
+                if split == "all" and variant == "main":
+                    continue  # nothing is genuine diffuse: the standard method, as none
                 for bdd in ["0", "1"]:
                     yield ["--fixed", "--quasi-specular", split, "--variant", variant, "--bdd", bdd]
 
     def screened(self, scene):
-        """The fixed settings that a render of a sixth of the time does not rule out: their error is within 1.5 times the least."""
+        """The fixed settings that a render of a sixth of the time does not rule out: their error is within 1.3 times the least."""
         told = {tuple(settings): self.errors(scene, settings, self.options.time / 6)[0] for settings in self.fixed(scene)}
-        return [settings for settings in told if told[settings] <= 1.5 * min(told.values())]
+        return [settings for settings in told if told[settings] <= 1.3 * min(told.values())]
 
     def numbers(self, best, photons):
         """Other photon counts and radii for the best of the fixed settings."""

@@ -5,6 +5,7 @@
 #include "util/error.h"
 
 #include <cmath>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -128,6 +129,25 @@ TEST_F(BenchCommand, ScenesOfOneNameStayApart) {
     ASSERT_EQ(report.at("runs").size(), 2u);
     EXPECT_EQ(report["runs"][0]["scene"], "scene.xml");
     EXPECT_EQ(report["runs"][1]["scene"], "other/scene.xml");
+}
+
+TEST_F(BenchCommand, ARunThatFailsLeavesTheOthers) {
+    std::string huge = readText(folder / "scene.xml");
+    for (const std::string side : {"width", "height"}) { // more pixels than any device has memory for
+        const std::string small = "name=\"" + side + "\" value=\"4\"";
+        ASSERT_THAT(huge, HasSubstr(small));
+        huge.replace(huge.find(small), small.size(), "name=\"" + side + "\" value=\"32768\"");
+    }
+    std::ofstream(folder / "huge.xml") << huge;
+    const Outcome outcome = run({"bench", "huge.xml", "scene.xml", "--time", "0.05", "--method", "scene", "--json"});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_THAT(outcome.errors, HasSubstr("error: huge.xml, scene, device 0: "));
+    const json report = json::parse(outcome.output, nullptr, false);
+    ASSERT_EQ(report.at("runs").size(), 1u);
+    EXPECT_EQ(report["runs"][0]["scene"], "scene.xml");
+    ASSERT_EQ(report.at("failures").size(), 1u);
+    EXPECT_EQ(report["failures"][0]["what"], "huge.xml, scene, device 0");
+    expectRefused({"bench", "huge.xml", "--time", "0.05", "--method", "scene"}, "memory");
 }
 
 TEST_F(BenchCommand, BadInputIsRefused) {

@@ -81,6 +81,8 @@ std::string benchPage(const BenchReport& report) {
     out += fmt::format("<h1>quasilux {} bench</h1>\n<p>{:g} s a run{}; load average {:.1f} before, {:.1f} after.</p>\n",
                        QUASILUX_VERSION, report.seconds, report.interrupted ? ", interrupted" : "",
                        report.loadBefore[0], report.loadAfter[0]);
+    for (const BenchFailure& failure : report.failures)
+        out += fmt::format("<p>Not measured: {}: {}</p>\n", htmlEscaped(failure.what), htmlEscaped(failure.message));
     out += deviceList(report);
     for (const std::string& scene : scenesOf(report)) {
         out += fmt::format("<h2>{}</h2>\n", htmlEscaped(scene)) + errorPlots(report, scene);

@@ -163,10 +163,18 @@ json benchJson(const BenchReport& report) {
     for (const BenchRun& run : report.runs) runs.push_back(runJson(report, run));
     for (const auto& [scene, reference] : report.references)
         references[scene] = {{"file", reference.image.path}, {"noise", reference.noise}};
-    json all{{"version", QUASILUX_VERSION},       {"secondsPerRun", report.seconds},
-             {"interrupted", report.interrupted}, {"loadBefore", report.loadBefore},
-             {"loadAfter", report.loadAfter},     {"devices", devices},
-             {"references", references},          {"runs", runs}};
+    json failures = json::array();
+    for (const BenchFailure& failure : report.failures)
+        failures.push_back({{"what", failure.what}, {"message", failure.message}});
+    json all{{"version", QUASILUX_VERSION},
+             {"secondsPerRun", report.seconds},
+             {"interrupted", report.interrupted},
+             {"loadBefore", report.loadBefore},
+             {"loadAfter", report.loadAfter},
+             {"devices", devices},
+             {"references", references},
+             {"runs", runs},
+             {"failures", failures}};
     all["micro"] = report.micro ? microJson(*report.micro) : json();
     for (const BenchSection& section : report.sections) all[section.key] = section.figures;
     return all;

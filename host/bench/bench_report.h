@@ -9,6 +9,11 @@
 
 namespace quasilux {
 
+/// A run or a part that could not be measured; the others go on.
+struct BenchFailure {
+    std::string what, message;
+};
+
 struct BenchReport {
     std::vector<DeviceInfo> devices;                  ///< in the order asked for; BenchRun::device counts along it
     std::map<std::string, BenchReference> references; ///< by scene, where given
@@ -17,6 +22,7 @@ struct BenchReport {
     std::array<double, 3> loadBefore{}, loadAfter{};  ///< of the machine, runnable processes: 1, 5, 15 minutes
     double seconds = 0;                               ///< of each run
     std::optional<MicroReport> micro;                 ///< where asked for
+    std::vector<BenchFailure> failures;
     bool interrupted = false;
 };
 

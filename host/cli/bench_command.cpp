@@ -61,17 +61,17 @@ void readReferences(const BenchOptions& options, const std::vector<Scene>& scene
 }
 
 void runAll(const BenchOptions& options, const std::vector<Scene>& scenes, const std::vector<BenchMethod>& methods,
-            const std::vector<int>& devices, BenchReport& report) {
+            const std::vector<int>& devices, Attempts& attempts, BenchReport& report) {
     ProgressLine line(stderr, !options.quiet);
     const size_t total = scenes.size() * methods.size() * devices.size();
+    size_t begun = 0;
     for (size_t s = 0; s < scenes.size(); ++s)
         for (const BenchMethod& method : methods)
-            for (size_t d = 0; d < devices.size() && !interruptFlag(); ++d) {
+            for (size_t d = 0; d < devices.size(); ++d) {
                 const std::string& name = options.scenes[s];
                 const auto reference = report.references.find(name);
                 Progress progress;
-                progress.phase = fmt::format("{} of {}: {}, {}", report.runs.size() + 1, total, name, method.name);
-                line.update(progress);
+                progress.phase = fmt::format("{} of {}: {}, {}", ++begun, total, name, method.name);
                 const auto onProgress = [&](unsigned passes, double seconds) {
                     catchInterrupt();
                     progress.passes = passes;
@@ -79,12 +79,15 @@ void runAll(const BenchOptions& options, const std::vector<Scene>& scenes, const
                     progress.secondsLeft = std::max(0.0, options.seconds - seconds);
                     line.update(progress);
                 };
-                auto run = measureRun(devices[d], scenes[s], method, options.seconds,
-                                      reference == report.references.end() ? nullptr : &reference->second, onProgress,
-                                      interruptFlag());
-                run.scene = name;
-                run.device = d;
-                report.runs.push_back(std::move(run));
+                attempts.run(fmt::format("{}, {}, device {}", name, method.name, d), [&] {
+                    line.update(progress);
+                    auto run = measureRun(devices[d], scenes[s], method, options.seconds,
+                                          reference == report.references.end() ? nullptr : &reference->second,
+                                          onProgress, interruptFlag());
+                    run.scene = name;
+                    run.device = d;
+                    report.runs.push_back(std::move(run));
+                });
             }
 }
 
@@ -135,12 +138,16 @@ int benchCommand(const BenchOptions& options) {
     const std::vector<int> devices = options.devices.empty() ? std::vector<int>{-1} : options.devices;
     for (const int device : devices) report.devices.push_back(Device(device).info());
     report.loadBefore = loadAverage();
-    runAll(options, scenes, methods, devices, report);
-    runParts(options, scenes, devices, report.sections);
-    if (options.micro && !interruptFlag()) runMicroParts(options, microNames, report);
+    Attempts attempts(report.failures);
+    runAll(options, scenes, methods, devices, attempts, report);
+    runParts(options, scenes, devices, attempts, report.sections);
+    if (options.micro) attempts.run("micro", [&] { runMicroParts(options, microNames, report); });
     report.loadAfter = loadAverage();
     report.interrupted = interruptFlag();
-    if (report.runs.empty() && report.sections.empty() && (!report.micro || report.micro->rows.empty())) return 130;
+    if (report.runs.empty() && report.sections.empty() && (!report.micro || report.micro->rows.empty())) {
+        attempts.rethrowFirst();
+        return 130;
+    }
 
     if (!options.output.empty()) writeJson(options.output, benchJson(report));
     if (!options.html.empty()) writeText(options.html, benchPage(report));
@@ -148,7 +155,9 @@ int benchCommand(const BenchOptions& options) {
         fmt::print("{}\n", benchJson(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else if (!options.quiet)
         printTables(report);
-    return 0;
+    for (const BenchFailure& failure : report.failures)
+        fmt::print(stderr, "quasilux: error: {}: {}\n", failure.what, failure.message);
+    return report.failures.empty() ? 0 : 1;
 }
 
 } // namespace quasilux

@@ -130,25 +130,19 @@ void checkParts(const BenchOptions& options) {
 }
 
 void runParts(const BenchOptions& options, const std::vector<Scene>& scenes, const std::vector<int>& devices,
-              std::vector<BenchSection>& sections) {
+              Attempts& attempts, std::vector<BenchSection>& sections) {
     if (!options.hasParts()) return;
     Parts parts(options, scenes, devices);
     const bool growsOnItsOwn = std::any_of(options.growth.begin(), options.growth.end(),
                                            [](const std::string& subject) { return subject != "threads"; });
-    // Ctrl-C meets the children of a part too: then it has failed, and what the others measured is reported.
-    const auto add = [&](bool isWanted, BenchSection (Parts::*measure)()) {
-        if (!isWanted || interruptFlag()) return;
-        try {
-            sections.push_back((parts.*measure)());
-        } catch (const std::exception&) {
-            if (!interruptFlag()) throw;
-        }
+    const auto add = [&](const char* what, bool isWanted, BenchSection (Parts::*measure)()) {
+        if (isWanted) attempts.run(what, [&] { sections.push_back((parts.*measure)()); });
     };
-    add(options.passTimes, &Parts::passTimes);
-    add(growsOnItsOwn, &Parts::growth);
-    add(isAskedFor(options, "threads"), &Parts::threads);
-    add(options.compareDevices, &Parts::devices);
-    add(options.compareKernels, &Parts::kernels);
+    add("pass times", options.passTimes, &Parts::passTimes);
+    add("growth", growsOnItsOwn, &Parts::growth);
+    add("growth of threads", isAskedFor(options, "threads"), &Parts::threads);
+    add("comparison of devices", options.compareDevices, &Parts::devices);
+    add("comparison of kernels", options.compareKernels, &Parts::kernels);
 }
 
 } // namespace quasilux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench/bench_section.h"
+#include "cli/bench_attempt.h"
 #include "cli/bench_options.h"
 #include "scene/scene.h"
 
@@ -10,9 +11,9 @@ namespace quasilux {
 /// Throws InputError where scenes or devices that the parts need are missing.
 void checkParts(const BenchOptions& options);
 
-/// Adds a section for each part that was asked for. `scenes` are those of the options; -1 among `devices` is the
+/// Adds a section for each part that was asked for and can be measured. `scenes` are those of the options; -1 among `devices` is the
 /// default one.
 void runParts(const BenchOptions& options, const std::vector<Scene>& scenes, const std::vector<int>& devices,
-              std::vector<BenchSection>& sections);
+              Attempts& attempts, std::vector<BenchSection>& sections);
 
 } // namespace quasilux

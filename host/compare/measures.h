@@ -16,7 +16,7 @@ struct CompareSettings {
     bool netOfImageNoise = false; ///< subtract the image's own noise too
     /// Stands for R in the denominators of relMSE, of the reference's size and finite; nullptr: the reference itself.
     const RadianceImage* scale = nullptr;
-    size_t maximumNonFinite = 0;  ///< up to so many pixels that are not finite are left out instead of spoiling sums
+    size_t maximumNonFinite = 0; ///< up to so many pixels that are not finite are left out instead of spoiling sums
     size_t worstPixels = 5;
 };
 
@@ -34,7 +34,7 @@ struct RegionMeasures {
     /// What the reference's noise adds to netRelMse through the denominators (docs/accuracy.md), which subtracting
     /// referenceNoise leaves. Nothing where the reference has no standard errors or CompareSettings::scale is given.
     std::optional<double> denominatorNoise;
-    double rmse = 0;                                  ///< over pixels and channels
+    double rmse = 0; ///< over pixels and channels
 
     std::array<double, 3> meanImage{}, meanReference{}; ///< R, G, B
     double meanLuminance = 0, referenceLuminance = 0;

@@ -1,0 +1,22 @@
+#include "cli/bench_attempt.h"
+
+#include "cli/interrupt.h"
+
+namespace quasilux {
+
+void Attempts::run(const std::string& what, const std::function<void()>& step) {
+    if (interruptFlag()) return;
+    try {
+        step();
+    } catch (const std::exception& error) {
+        if (interruptFlag()) return;
+        failures_.push_back({what, error.what()});
+        if (!first_) first_ = std::current_exception();
+    }
+}
+
+void Attempts::rethrowFirst() const {
+    if (first_) std::rethrow_exception(first_);
+}
+
+} // namespace quasilux
