@@ -24,6 +24,9 @@ public:
     RandomTree(unsigned seed, unsigned leaves) : random_(seed) { root_ = static_cast<BuildNode*>(make(leaves)); }
 
     BuildNode& root() { return *root_; }
+    void flatten() {
+        for (BuildNode& node : nodes_) node.bounds = {boxOf(0), boxOf(0)};
+    }
     const std::list<BuildLeaf>& leaves() const { return leaves_; } ///< from left to right
 
 private:
@@ -110,7 +113,7 @@ TEST(BvhCollapse, HasTheLeastAreaOfAllWays) {
     double chosen = 0, greedy = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
         RandomTree tree(seed, 9 + seed % 7);
-        weighSlots(tree.root(), 1);
+        weighSlots(tree.root(), 1, 0);
         std::vector<const BuildItem*> leaves, others;
         const double area = walk(tree.root(), 1, wideNode, leaves);
         EXPECT_NEAR(area, leastArea(tree.root(), 1), 1e-5) << "seed " << seed;
@@ -124,9 +127,20 @@ TEST(BvhCollapse, HasTheLeastAreaOfAllWays) {
     EXPECT_GT(greedy, 1.02 * chosen) << "the control must be seen to be worse";
 }
 
+// Boxes without area: all ways are alike but for the number of nodes. Control: at no cost a node they stay binary.
+TEST(BvhCollapse, TakesFewNodesWhereAreasDoNotTell) {
+    RandomTree tree(3, 200);
+    tree.flatten();
+    weighSlots(tree.root(), 0, leastWideCost(0));
+    const size_t few = countWideNodes(tree.root());
+    EXPECT_LE(few, 60u);
+    weighSlots(tree.root(), 0, 0);
+    EXPECT_GT(countWideNodes(tree.root()), 2 * few);
+}
+
 TEST(BvhCollapse, CountsWhatItMakes) {
     RandomTree tree(7, 200);
-    weighSlots(tree.root(), 1);
+    weighSlots(tree.root(), 1, 0);
     size_t count = 0;
     const auto counted = [&](const BuildNode& node) {
         ++count;

@@ -50,6 +50,16 @@ TEST(Bvh, ManyDuplicatesStayShallow) {
     EXPECT_GE(bvh.blocks.size(), 12500u);
 }
 
+// The builder sees no way to split points on a line that is better than another one.
+TEST(Bvh, PointsOnALineAreHeld) {
+    Primitives primitives(200000, cornellBoxPrimitives()[0]);
+    for (size_t i = 0; i < primitives.size(); ++i)
+        primitives[i].v0 = primitives[i].v1 = primitives[i].v2 = glm::vec3(1e-3f * float(i), 0, 0);
+    const Bvh bvh = buildBvh(primitives);
+    EXPECT_GE(bvh.blocks.size(), 25000u);
+    EXPECT_LE(bvh.depth, 256u) << "the stack of a ray grows by 7 entries a level";
+}
+
 TEST(Bvh, StackHoldsWhatTheDepthMayLeaveBehind) {
     Bvh bvh;
     for (bvh.depth = 1; bvh.depth <= 40; ++bvh.depth) {

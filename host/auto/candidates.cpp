@@ -46,14 +46,14 @@ struct Scatterings {
     }
 };
 
-// With nothing genuine diffuse the main variant is the standard method, as if everything were (docs/theory.md).
+// With nothing genuine diffuse the main variant is the standard method with BDD 0, as if everything were (docs/theory.md).
 bool isStandard(const Scatterings& has, Variant variant) {
     return variant == Variant::main && !has.diffuseLobes && !has.diffuseMedia;
 }
 
-// The same for splits that come to the same image.
-std::string splitKey(const Split& split, Variant variant) {
-    const bool standard = isStandard(Scatterings(split), variant);
+// The same for splits that come to the same image with this variant and BDD.
+std::string splitKey(const Split& split, Variant variant, unsigned bdd) {
+    const bool standard = bdd == 0 && isStandard(Scatterings(split), variant);
     std::string key;
     forEachLobe(split, [&](unsigned scattering) {
         const bool becomesDiffuse = standard && scattering == SCATTER_QUASI_SPECULAR;
@@ -83,7 +83,7 @@ std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene&
     if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.3", "level:0.03"});
     splits.insert(splits.end(), {"none", "all"});
     for (const auto& lobe : singleLobes(scene)) splits.push_back(lobe);
-    std::vector<std::string> known{splitKey(splitOf(scene, from), from.variant)};
+    std::vector<std::string> known{splitKey(splitOf(scene, from), from.variant, from.bdd)};
     std::vector<RenderSettings> found;
     for (const auto& split : splits) {
         RenderSettings next = from;
@@ -95,7 +95,7 @@ std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene&
         // With nothing followed the variants are one, and its candidate has been there before.
         if (variantIsFree && isStandard(has, next.variant)) next.variant = Variant::alternative;
         if (variantIsFree && !has.quasiSpecularLobes && !has.quasiSpecularMedia) next.variant = Variant::main;
-        const std::string key = splitKey(decided, next.variant);
+        const std::string key = splitKey(decided, next.variant, next.bdd);
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         known.push_back(key);
         found.push_back(next);
@@ -124,7 +124,8 @@ std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettin
         const Scatterings has(splitOf(scene, from));
         if (!has.quasiSpecularLobes && !has.quasiSpecularMedia) return {}; // the variants are one
         next.variant = from.variant == Variant::main ? Variant::alternative : Variant::main;
-        if (isStandard(has, next.variant)) return {}; // a candidate of splits
+        // With nothing genuine diffuse, the other variant is a candidate of splits.
+        if (freedom.split && (isStandard(has, from.variant) || isStandard(has, next.variant))) return {};
         return {next};
     }
     case Coordinate::photons: {

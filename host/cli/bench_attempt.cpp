@@ -2,6 +2,8 @@
 
 #include "cli/interrupt.h"
 
+#include <new>
+
 namespace quasilux {
 
 void Attempts::run(const std::string& what, const std::function<void()>& step) {
@@ -10,7 +12,8 @@ void Attempts::run(const std::string& what, const std::function<void()>& step) {
         step();
     } catch (const std::exception& error) {
         if (interruptFlag()) return;
-        failures_.push_back({what, error.what()});
+        const bool isMemory = dynamic_cast<const std::bad_alloc*>(&error);
+        failures_.push_back({what, isMemory ? "the computer's memory is exhausted" : error.what()});
         if (!first_) first_ = std::current_exception();
     }
 }

@@ -145,7 +145,7 @@ int benchCommand(const BenchOptions& options) {
     report.loadAfter = loadAverage();
     report.interrupted = interruptFlag();
     if (report.runs.empty() && report.sections.empty() && (!report.micro || report.micro->rows.empty())) {
-        attempts.rethrowFirst();
+        if (!interruptFlag()) attempts.rethrowFirst();
         return 130;
     }
 

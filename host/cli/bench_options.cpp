@@ -80,8 +80,10 @@ void declareBench(CLI::App& app, BenchOptions& options) {
         ->type_name("FILE")
         ->allow_extra_args(false);
     command
-        .add_option("--reference-noise", options.referenceNoise,
-                    "The reference's own relMSE, one for each --reference in their order (default: 0)")
+        .add_option(
+            "--reference-noise", options.referenceNoise,
+            "relMSE of a right image against the reference, its own noise mostly; one for each --reference in their "
+            "order (default: 0)")
         ->type_name("X")
         ->allow_extra_args(false)
         ->check(numberBetween(0, 1e30));

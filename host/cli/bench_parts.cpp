@@ -23,8 +23,9 @@ bool isAskedFor(const BenchOptions& options, const std::string& subject) {
 
 class Parts {
 public:
-    Parts(const BenchOptions& options, const std::vector<Scene>& scenes, const std::vector<int>& devices)
-        : options_(options), devices_(devices), line_(stderr, !options.quiet) {
+    Parts(const BenchOptions& options, const std::vector<Scene>& scenes, const std::vector<int>& devices,
+          Attempts& attempts)
+        : options_(options), devices_(devices), attempts_(attempts), line_(stderr, !options.quiet) {
         for (size_t k = 0; k < scenes.size(); ++k)
             scenes_.push_back({options.scenes[k], options.definitions, &scenes[k]});
     }
@@ -53,11 +54,13 @@ public:
         std::vector<GrowthSeries> all;
         for (const std::string& subject : growthSubjects())
             for (size_t place = 0; place < devices_.size(); ++place) {
-                if (!isAskedFor(options_, subject) || interruptFlag()) continue;
+                if (!isAskedFor(options_, subject)) continue;
                 const auto onSize = [&](double size) { say(fmt::format("growth, {} {:g}", subject, size)); };
-                all.push_back(measureGrowth(subject, devices_[place], options_.growthSteps,
-                                            shareOfTime * options_.seconds, onSize, interruptFlag()));
-                all.back().device = place;
+                attempts_.run(fmt::format("growth of {}, device {}", subject, place), [&] {
+                    all.push_back(measureGrowth(subject, devices_[place], options_.growthSteps,
+                                                shareOfTime * options_.seconds, onSize, interruptFlag()));
+                    all.back().device = place;
+                });
             }
         return growthSection(all);
     }
@@ -75,12 +78,12 @@ public:
 
     BenchSection devices() {
         std::vector<DeviceResult> all;
-        for (const PartScene& scene : scenes_) {
-            if (interruptFlag()) break;
-            const auto results = compareDevices(scene, devices_, shareOfTime * options_.seconds,
-                                                [&](const std::string& step) { say(step); });
-            all.insert(all.end(), results.begin(), results.end());
-        }
+        for (const PartScene& scene : scenes_)
+            attempts_.run("comparison of devices: " + scene.path, [&] {
+                const auto results = compareDevices(scene, devices_, shareOfTime * options_.seconds,
+                                                    [&](const std::string& step) { say(step); });
+                all.insert(all.end(), results.begin(), results.end());
+            });
         return deviceSection(all);
     }
 
@@ -105,15 +108,18 @@ private:
     void forEach(const std::string& what, const Measure& measure) {
         for (const PartScene& scene : scenes_)
             for (size_t place = 0; place < devices_.size(); ++place) {
-                if (interruptFlag()) return;
-                say(fmt::format("{}: {}, device {}", what, scene.path, place));
-                measure(scene, place);
+                const std::string step = fmt::format("{}: {}, device {}", what, scene.path, place);
+                attempts_.run(step, [&] {
+                    say(step);
+                    measure(scene, place);
+                });
             }
     }
 
     const BenchOptions& options_;
     std::vector<PartScene> scenes_;
     const std::vector<int>& devices_;
+    Attempts& attempts_;
     ProgressLine line_;
 };
 
@@ -132,17 +138,19 @@ void checkParts(const BenchOptions& options) {
 void runParts(const BenchOptions& options, const std::vector<Scene>& scenes, const std::vector<int>& devices,
               Attempts& attempts, std::vector<BenchSection>& sections) {
     if (!options.hasParts()) return;
-    Parts parts(options, scenes, devices);
+    Parts parts(options, scenes, devices, attempts);
     const bool growsOnItsOwn = std::any_of(options.growth.begin(), options.growth.end(),
                                            [](const std::string& subject) { return subject != "threads"; });
-    const auto add = [&](const char* what, bool isWanted, BenchSection (Parts::*measure)()) {
-        if (isWanted) attempts.run(what, [&] { sections.push_back((parts.*measure)()); });
+    const auto add = [&](bool isWanted, BenchSection (Parts::*measure)()) {
+        if (!isWanted) return;
+        BenchSection section = (parts.*measure)();
+        if (!section.figures.empty()) sections.push_back(std::move(section));
     };
-    add("pass times", options.passTimes, &Parts::passTimes);
-    add("growth", growsOnItsOwn, &Parts::growth);
-    add("growth of threads", isAskedFor(options, "threads"), &Parts::threads);
-    add("comparison of devices", options.compareDevices, &Parts::devices);
-    add("comparison of kernels", options.compareKernels, &Parts::kernels);
+    add(options.passTimes, &Parts::passTimes);
+    add(growsOnItsOwn, &Parts::growth);
+    add(isAskedFor(options, "threads"), &Parts::threads);
+    add(options.compareDevices, &Parts::devices);
+    add(options.compareKernels, &Parts::kernels);
 }
 
 } // namespace quasilux

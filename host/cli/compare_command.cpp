@@ -73,16 +73,19 @@ std::vector<std::string> exceededLimits(const CompareOptions& options, const Com
     return lines;
 }
 
-/// Of the whole picture: noise in the denominators is told where it is more than this share of net relMSE.
+/// Noise in the denominators is told where it is more than this share of a region's net relMSE.
 constexpr double muchOfNet = 0.1;
 
 void warnOfDenominators(const CompareOptions& options, const Comparison& comparison) {
-    const RegionMeasures& all = comparison.regions.front();
-    if (all.denominatorNoise && *all.denominatorNoise > muchOfNet * std::abs(all.netRelMse))
+    for (const RegionMeasures& region : comparison.regions) {
+        if (!region.denominatorNoise || std::abs(*region.denominatorNoise) <= muchOfNet * std::abs(region.netRelMse))
+            continue;
         warn(options,
              fmt::format("relMSE is divided by the squared reference, whose noise adds about {:.1e} to the net "
-                         "relMSE of {:.1e}; --scale FILE divides by another image",
-                         *all.denominatorNoise, all.netRelMse));
+                         "relMSE {:.1e} of region {}; --scale FILE divides by another image",
+                         *region.denominatorNoise, region.netRelMse, region.name));
+        return; // one line will do
+    }
 }
 
 /// Throws InputError.
@@ -127,13 +130,14 @@ std::vector<TableRow> worstRows(const Comparison& comparison) {
 }
 
 /// What holds for the images as a whole, a line each.
-std::vector<std::string> remarks(const Comparison& comparison, unsigned width) {
+std::vector<std::string> remarks(const Comparison& comparison, unsigned width, const std::string& scale) {
     std::vector<std::string> lines;
     if (!comparison.nonFinitePixels.empty())
         lines.push_back(
             fmt::format("not finite: {} pixels of the image, {} of the reference, at {}; {}", comparison.nonFiniteImage,
                         comparison.nonFiniteReference, pixelNames(comparison, width),
                         comparison.nonFiniteLeftOut ? "left out of all measures" : "they spoil what they are part of"));
+    if (!scale.empty()) lines.push_back("relMSE is divided by the square of " + scale + ", not of the reference");
     if (comparison.beyondThreeStandardErrors)
         lines.push_back(
             fmt::format("{:.2f} % of values are further than 3 standard errors apart (0.27 % of normal errors "
@@ -147,6 +151,7 @@ void printJson(const CompareOptions& options, const Comparison& comparison, cons
     report["version"] = QUASILUX_VERSION;
     report["image"] = options.image;
     report["reference"] = options.reference;
+    report["scale"] = options.scale.empty() ? nlohmann::json() : nlohmann::json(options.scale);
     report["exceeded"] = exceeded;
     fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
@@ -183,7 +188,7 @@ int compareCommand(const CompareOptions& options) {
     text.title = fileName(options.image) + " against " + fileName(options.reference);
     text.regions = regionRows(comparison);
     text.worst = worstRows(comparison);
-    text.remarks = remarks(comparison, image.width);
+    text.remarks = remarks(comparison, image.width, options.scale);
     for (const auto& line : exceeded) text.remarks.push_back("exceeded: " + line);
     if (!options.html.empty()) writeText(options.html, htmlPage(image, reference, comparison, text));
 

@@ -17,7 +17,9 @@ namespace quasilux {
 namespace {
 
 constexpr size_t maximumPrimitives = size_t(PRIMITIVE_INDEX_MASK); // the mask itself is left to QL_NONE
-constexpr unsigned maximumDepth = 128; // of the binary tree: beyond it the builder halves by count
+// Of the binary tree. Eight levels before it the builder halves by count, and it fails where that does not suffice. Where all
+// ways to split cost the same it takes a bin of 32 a level, so 2^29 primitives on a line need 570 levels.
+constexpr unsigned maximumDepth = 1024;
 constexpr size_t maximumBlocks = size_t(BVH_LEAF_FIRST_MASK) + 1;
 
 template <typename Item>
@@ -193,7 +195,8 @@ Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
         bvh.nodes[0].child[0] = reference;
     } else {
         auto& node = static_cast<BuildNode&>(*root);
-        weighSlots(node, halfArea(all));
+        const float area = halfArea(all);
+        weighSlots(node, area, leastWideCost(area));
         bvh.nodes.reserve(countWideNodes(node));
         flattener.append(*root, 1);
     }

@@ -51,11 +51,13 @@ float halfArea(const RTCBounds& bounds) {
     return x * y + y * z + z * x;
 }
 
-void weighSlots(BuildNode& node, float area) {
+float leastWideCost(float rootArea) { return rootArea > 0 ? 1e-6f * rootArea : 1; }
+
+void weighSlots(BuildNode& node, float area, float least) {
     for (unsigned side = 0; side < 2; ++side)
         if (!node.child[side]->isLeaf)
-            weighSlots(static_cast<BuildNode&>(*node.child[side]), halfArea(node.bounds[side]));
-    node.cost[0] = area + bestShare(node, BVH_WIDTH).cost;
+            weighSlots(static_cast<BuildNode&>(*node.child[side]), halfArea(node.bounds[side]), least);
+    node.cost[0] = std::max(area, least) + bestShare(node, BVH_WIDTH).cost;
     for (unsigned slots = 2; slots <= mostSlots; ++slots)
         node.cost[slots - 1] = std::min(bestShare(node, slots).cost, node.cost[slots - 2]);
 }
