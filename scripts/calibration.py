@@ -23,7 +23,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from figures import FIGURES, ROOT
-from relmse import box_reference, plate_reference, read_channels
+from relmse import box_reference, mean_about, plate_reference, read_channels, relmse_weight
 
 BOX_PIXELS = 64
 
@@ -69,14 +69,6 @@ def plate():
 SCENES = {"box": box, "plate": plate}
 
 
-def weight_about(pixels):
-    """As the program weighs squared errors: relMSE's weight of the mean over the 3 x 3 pixels about each."""
-    padded = np.pad(np.dstack([pixels, np.ones(pixels.shape[:2])]), ((1, 1), (1, 1), (0, 0)))
-    sums = sum(padded[v : v + pixels.shape[0], u : u + pixels.shape[1]] for v in range(3) for u in range(3))
-    means = sums[..., :3] / sums[..., 3:]
-    return 1 / (means**2 + 0.01 * pixels.mean() ** 2)
-
-
 def render(program, scene, passes, seed, stem):
     """The image, its layer of bias and its statistics; what was rendered before is read again."""
     image, statistics = stem.with_suffix(".exr"), stem.with_suffix(".json")
@@ -97,7 +89,7 @@ def calibrate(program, name, scene, passes, folder):
     renders = [render(program, scene, passes, seed, folder / f"{name}_{passes}_{seed}") for seed in range(1, seeds + 1)]
     images, biases = (np.array([r[k] for r in renders]) for k in (0, 1))
     told = [r[2]["error"]["total"] for r in renders]
-    weight = weight_about(scene.reference)
+    weight = relmse_weight(scene.reference, mean_about(scene.reference))  # as the program weighs squared errors
     true_bias = unbiased_square(images, weight, scene.reference) - scene.noise
     estimated = unbiased_square(biases, weight, 0)
     difference = images.mean(axis=0) - scene.reference

@@ -5,8 +5,9 @@
 
 relMSE is the mean over pixels and channels of (I - R)^2 / (R^2 + 0.01 mean(R)^2), on linear RGB; no pixel is dropped.
 The reference is noisy too and its noise adds to the relMSE of any image, so it is subtracted ("net"). Of the plate, whose
-reference has 9 % of noise a pixel, "net" is divided by the mean R of the eight neighbours: R itself in the denominator would add
-6 times the square of the reference's own relMSE (docs/accuracy.md). "mean" is the signed relative difference of the region's mean luminance: what is left of it when noise is averaged away is bias.
+reference has 9 % of noise a pixel, "net" is divided by the mean R of the eight neighbours: R itself in the denominator
+would add 6 times the square of the reference's own relMSE (docs/accuracy.md). "mean" is the signed relative difference of
+the region's mean luminance: what is left of it when noise is averaged away is bias.
 The scripts that draw figures import this; `quasilux compare` measures the same of any two images, with standard errors.
 Needs Debian's python3-numpy and python3-openimageio.
 """
@@ -68,15 +69,13 @@ def relmse_weight(pixels, scale=None):
     return 1 / ((pixels if scale is None else scale) ** 2 + 0.01 * pixels.mean() ** 2)
 
 
-def neighbours(pixels):
-    """Mean of the up to eight pixels about each one, which know nothing of its own noise where the filter was a box."""
-    total, count = np.zeros_like(pixels), np.zeros((*pixels.shape[:2], 1))
-    padded = np.pad(pixels, ((1, 1), (1, 1), (0, 0)))
-    inside = np.pad(np.ones((*pixels.shape[:2], 1)), ((1, 1), (1, 1), (0, 0)))
-    for row, column in ((r, c) for r in range(3) for c in range(3) if (r, c) != (1, 1)):
-        window = np.s_[row : row + pixels.shape[0], column : column + pixels.shape[1]]
-        total, count = total + padded[window], count + inside[window]
-    return total / count
+def mean_about(pixels, with_centre=True):
+    """Mean of the 3 x 3 pixels about each one, of fewer at the border. Without the centre it knows nothing of the pixel's own noise,
+    where the filter was a box."""
+    padded = np.pad(np.dstack([pixels, np.ones(pixels.shape[:2])]), ((1, 1), (1, 1), (0, 0)))
+    windows = [(v, u) for v in range(3) for u in range(3) if with_centre or (v, u) != (1, 1)]
+    sums = sum(padded[v : v + pixels.shape[0], u : u + pixels.shape[1]] for v, u in windows)
+    return sums[..., :-1] / sums[..., -1:]
 
 
 class Reference:
@@ -137,7 +136,7 @@ def plate_reference():
     pixels = np.repeat(read_channels(REFERENCES / "plate_checker_reference.exr", ["Y"]), 3, axis=2)
     stderr = np.repeat(read_channels(REFERENCES / "plate_checker_reference_stderr.exr", ["Y"]), 3, axis=2)
     masks = {"all": np.ones(pixels.shape[:2], bool), "plate": plate_mask(*pixels.shape[:2])}
-    weight = relmse_weight(pixels, neighbours(pixels))
+    weight = relmse_weight(pixels, mean_about(pixels, with_centre=False))
     return Reference(pixels, masks, (stderr**2 * weight).mean(axis=2), weight)
 
 

@@ -46,7 +46,8 @@ struct Scatterings {
     }
 };
 
-// With nothing genuine diffuse the main variant is the standard method with BDD 0, as if everything were (docs/theory.md).
+// With nothing genuine diffuse the main variant is the standard method with BDD 0, as if everything were
+// (docs/theory.md).
 bool isStandard(const Scatterings& has, Variant variant) {
     return variant == Variant::main && !has.diffuseLobes && !has.diffuseMedia;
 }
@@ -91,8 +92,8 @@ std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene&
         next.quasiSpecularFromCommandLine = true;
         const Split decided = splitOf(scene, next);
         const Scatterings has(decided);
-        // Following everything is the alternative variant's alone: with the main one, it would be found in two steps only.
-        // With nothing followed the variants are one, and its candidate has been there before.
+        // Following everything is the alternative variant's alone: with the main one, it would be found in two steps
+        // only. With nothing followed the variants are one, and its candidate has been there before.
         if (variantIsFree && isStandard(has, next.variant)) next.variant = Variant::alternative;
         if (variantIsFree && !has.quasiSpecularLobes && !has.quasiSpecularMedia) next.variant = Variant::main;
         const std::string key = splitKey(decided, next.variant, next.bdd);

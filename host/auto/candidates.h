@@ -17,9 +17,9 @@ std::array<Coordinate, 5> searchOrder(const RenderSettings& start);
 /// Factors of photons per pass and radius that are tried, and how far they may go from where the search starts.
 inline constexpr double photonsStep = 2, mostPhotons = 4, radiusStep = 1.4;
 
-/// What may be tried in this coordinate instead of `from`, nothing where it is not free; splits that come to the same as
-/// another one are left out. A split with nothing genuine diffuse comes with the alternative variant where that is free.
-/// `photons`: those that a pass of `from` emits.
+/// What may be tried in this coordinate instead of `from`, nothing where it is not free; splits that come to the same
+/// as another one are left out. A split with nothing genuine diffuse comes with the alternative variant where that is
+/// free. `photons`: those that a pass of `from` emits.
 std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettings& from, unsigned photons,
                                        const Scene& scene, const Freedom& freedom);
 

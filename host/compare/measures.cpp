@@ -48,7 +48,7 @@ struct Pair {
     }
 };
 
-/// mean(R) over the pixels that count: one that is not finite makes every relMSE not finite, since mean(R) is in all of them.
+/// mean(R) over the pixels that count: one that is not finite makes every relMSE not finite, since mean(R) is in all.
 double meanDenominator(const Pair& pair) {
     double sum = 0;
     size_t count = 0;
@@ -61,14 +61,20 @@ double meanDenominator(const Pair& pair) {
     return std::isfinite(mean) ? mean : std::nan(""); // an infinite floor would make every error 0
 }
 
+/// Mean over pixels and channels of value(i).
+template <typename Value>
+double meanOver(const std::vector<size_t>& pixels, const Value& value) {
+    double sum = 0;
+    for (const size_t pixel : pixels)
+        for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) sum += value(i);
+    return sum / static_cast<double>(3 * pixels.size());
+}
+
 /// Share of an image's noise in relMSE.
 std::optional<double> noiseShare(const Pair& pair, const std::vector<float>& standardError,
                                  const std::vector<size_t>& pixels) {
     if (standardError.empty()) return std::nullopt;
-    double sum = 0;
-    for (const size_t pixel : pixels)
-        for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) sum += pair.relative(square(standardError[i]), i);
-    return sum / static_cast<double>(3 * pixels.size());
+    return meanOver(pixels, [&](size_t i) { return pair.relative(square(standardError[i]), i); });
 }
 
 /// Expectation of ((I - R)^2 - sigma^2) / (R^2 + floor) where I is right and R normal about it, to the fourth order in
@@ -76,13 +82,10 @@ std::optional<double> noiseShare(const Pair& pair, const std::vector<float>& sta
 std::optional<double> denominatorNoise(const Pair& pair, const std::vector<size_t>& pixels) {
     const auto& sigma = pair.reference.standardError;
     if (sigma.empty() || &pair.denominator != &pair.reference) return std::nullopt;
-    double sum = 0;
-    for (const size_t pixel : pixels)
-        for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
-            const double share = pair.relative(square(sigma[i]), i);
-            sum += 2 * square(share) * (4 * pair.relative(square(pair.reference.radiance[i]), i) - 1);
-        }
-    return sum / static_cast<double>(3 * pixels.size());
+    return meanOver(pixels, [&](size_t i) {
+        const double share = pair.relative(square(sigma[i]), i);
+        return 2 * square(share) * (4 * pair.relative(square(pair.reference.radiance[i]), i) - 1);
+    });
 }
 
 /// Standard error of the mean difference, of pixels independent of each other. Channels of a pixel come from the same
@@ -139,14 +142,9 @@ RegionMeasures measure(const Pair& pair, const Region& region, const CompareSett
         if (!pair.finite(pixel)) ++result.nonFinite;
         if (pair.counts(pixel)) pixels.push_back(pixel);
     }
-    double squares = 0, relativeSquares = 0;
-    for (const size_t pixel : pixels) {
-        relativeSquares += pair.relativeSquare(pixel);
-        for (size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) squares += square(pair.difference(i));
-    }
-    const auto count = static_cast<double>(pixels.size()); // 0 makes every mean not a number
-    result.relMse = relativeSquares / count;
-    result.rmse = std::sqrt(squares / (3 * count));
+    // No pixels make every mean not a number.
+    result.relMse = meanOver(pixels, [&](size_t i) { return pair.relative(square(pair.difference(i)), i); });
+    result.rmse = std::sqrt(meanOver(pixels, [&](size_t i) { return square(pair.difference(i)); }));
     result.referenceNoise = noiseShare(pair, pair.reference.standardError, pixels);
     if (!result.referenceNoise) result.referenceNoise = statedNoise(settings, region.name);
     result.imageNoise = noiseShare(pair, pair.image.standardError, pixels);

@@ -17,8 +17,8 @@ namespace quasilux {
 namespace {
 
 constexpr size_t maximumPrimitives = size_t(PRIMITIVE_INDEX_MASK); // the mask itself is left to QL_NONE
-// Of the binary tree. Eight levels before it the builder halves by count, and it fails where that does not suffice. Where all
-// ways to split cost the same it takes a bin of 32 a level, so 2^29 primitives on a line need 570 levels.
+// Of the binary tree. Eight levels before it the builder halves by count, and it fails where that does not suffice.
+// Where all ways to split cost the same it takes a bin of 32 a level, so 2^29 primitives on a line need 570 levels.
 constexpr unsigned maximumDepth = 1024;
 constexpr size_t maximumBlocks = size_t(BVH_LEAF_FIRST_MASK) + 1;
 

@@ -34,10 +34,10 @@ struct WideNode {
     unsigned count = 0;
 };
 
-/// Fills in `cost` of `node`, whose box has half the area `area`, and of all nodes below it. A wide node costs its area,
-/// but no less than `least`, so that where boxes are flat as lines few nodes are better than many. Dynamic programming over the
-/// binary tree: Ylitie, Karras & Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG
-/// 2017, section 3.1; leaves are given, so their share of the cost is constant and left out.
+/// Fills in `cost` of `node`, whose box has half the area `area`, and of all nodes below it. A wide node costs its
+/// area, but no less than `least`, so that where boxes are flat as lines few nodes are better than many. Dynamic
+/// programming over the binary tree: Ylitie, Karras & Laine, "Efficient Incoherent Ray Traversal on GPUs Through
+/// Compressed Wide BVHs", HPG 2017, section 3.1; leaves are given, so their share of the cost is constant and left out.
 void weighSlots(BuildNode& node, float area, float least);
 
 /// A millionth of the root's area: next to nothing beside it, and something where it is 0.
