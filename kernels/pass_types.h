@@ -23,14 +23,7 @@ typedef struct {
     Meter meter;
 } SceneTables;
 
-/* One photon as traced, before indexing. */
-typedef struct {
-    Packed3 position;
-    unsigned int direction; /* towards where it came from, octahedral 16 + 16 bits */
-    Rgb flux;               /* W */
-    unsigned int patchSide; /* patch << 1 | side: 1 where it arrived on the side of the normal; in a medium its index */
-    unsigned int classDepth; /* segments since the light << 3 | map slot; segments saturate at PHOTON_DEPTH_MAX */
-} Photon;
+/* Segments of a path are counted up to this many. */
 #define PHOTON_DEPTH_MAX 0x1fffffffu
 
 /* Photons on surfaces and in media have maps of their own, by class: slots of one index. */
@@ -45,14 +38,17 @@ typedef struct {
 #define ENERGY_LOST 4u
 #define ENERGY_GAINED 5u
 
-/* One work-item traces the paths of one region and stores into its own part of the photon buffer. */
+/* One work-item traces the paths of one region and stores into blocks of PHOTON_BLOCK photons, which it takes one after the
+ * other (kernels/photon_store.clh). */
+#define PHOTON_BLOCK 16u
 typedef struct {
-    unsigned int stored;   /* photons kept, at most the capacity of the region */
-    unsigned int wanted;   /* photons that it would have kept with room for all */
-    unsigned int cutPaths; /* paths ended by PATH_EVENTS_MAX */
+    unsigned int stored;                /* photons kept */
+    unsigned int wanted;                /* photons that it would have kept with room for all */
+    unsigned int firstBlock, lastBlock; /* of its photons, where it has any */
+    unsigned int cutPaths;              /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
     float fluxCut;                  /* W, mean of R, G, B, of those paths */
-    unsigned int overflows;         /* sums of splats that left the range of their fixed point (camera map) */
+    unsigned int overflows;         /* flux that left the range of packed_flux.clh, sums of splats that left theirs */
     unsigned int meterCaustics;     /* caustic and quasi-caustic photons that were counted at a meter */
     float energy[6], energyRest[6]; /* W, by ENERGY_*: unevaluated sums; 0 without ENERGY_BALANCE */
 } RegionCount;
@@ -63,9 +59,10 @@ typedef struct {
     unsigned int paths; /* photons emitted in the pass */
     unsigned int pathsPerRegion;
     unsigned int regions;
-    unsigned int regionCapacity;          /* photons */
-    unsigned int maxDepth;                /* segments of the whole path, QL_NONE = no limit */
-    float keepProbability[LIGHT_CLASSES]; /* of photons in media, by class: they are thinned where there are many */
+    unsigned int photonBlocks, photonStride; /* room for photons; stride as in MapParams */
+    float perFluxUnit;                       /* 1 / MapParams::fluxUnit */
+    unsigned int maxDepth;                   /* segments of the whole path, QL_NONE = no limit */
+    float keepProbability[LIGHT_CLASSES];    /* of photons in media, by class: they are thinned where there are many */
     SceneTables scene;
 } PhotonParams;
 
@@ -82,9 +79,11 @@ typedef struct {
     unsigned int media;        /* SceneTables::media */
     unsigned int cellMask;     /* cells of one class - 1, a power of two - 1 */
     unsigned int chunks;       /* stable counting sort: each chunk counts and scatters in order */
-    unsigned int regions, regionCapacity;
-    unsigned int photonStride; /* capacity of the sorted arrays, photons */
+    unsigned int regions;
+    unsigned int regionCapacity; /* of camera points */
+    unsigned int photonStride;   /* of the sorted arrays: records from one field to the next */
     unsigned int scanBlocks;
+    float fluxUnit;   /* of photons' flux as stored, W: a power of two */
     float biasWeight; /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
 } MapParams;
 

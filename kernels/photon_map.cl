@@ -1,25 +1,62 @@
-/* Stage 2 of a pass: index the photons by class and cell (cell_sort.clh). */
+/* Stage 2 of a pass: index the photons by class and cell, in the arrays that they were traced into (photon_store.clh). A
+ * stable counting sort: each of `chunks` work-items counts, and later places, the photons of its own run of regions in order.
+ * Within a cell they then stand in the order of their regions whatever the number of chunks, so sums over them are
+ * reproducible. */
 #include "cell_scan.clh"
+#include "photon_store.clh"
 
-#define RECORD Photon
-#define RECORD_REGION RegionCount
-
-inline uint recordCell(__global const Photon* photon, __global const uint* tables, const MapParams* params) {
-    return cellOf(photon->classDepth & (PHOTON_SLOTS - 1), load3(photon->position), photon->patchSide, tables, params);
+inline uint cellOfTraced(__global const uint* photon, size_t stride, __global const uint* tables,
+                         const MapParams* params) {
+    const float3 position =
+        (float3)(as_float(photon[TRACED(PHOTON_X) * stride]), as_float(photon[TRACED(PHOTON_Y) * stride]),
+                 as_float(photon[TRACED(PHOTON_Z) * stride]));
+    return cellOf(photon[PHOTON_PLACE * stride], position, photon[TRACED(PHOTON_PATCH_SIDE) * stride], tables, params);
 }
 
-inline void placeRecord(__global const Photon* photon, uint index, __global uint* sorted, uint place, uint stride) {
-    sorted[(size_t)PHOTON_X * stride + place] = as_uint(photon->position.x);
-    sorted[(size_t)PHOTON_Y * stride + place] = as_uint(photon->position.y);
-    sorted[(size_t)PHOTON_Z * stride + place] = as_uint(photon->position.z);
-    sorted[(size_t)PHOTON_R * stride + place] = as_uint(photon->flux.r);
-    sorted[(size_t)PHOTON_G * stride + place] = as_uint(photon->flux.g);
-    sorted[(size_t)PHOTON_B * stride + place] = as_uint(photon->flux.b);
-    sorted[(size_t)PHOTON_PATCH_SIDE * stride + place] = photon->patchSide;
-    sorted[(size_t)PHOTON_DIRECTION * stride + place] = photon->direction;
-#ifdef HAS_DEPTH_LIMIT
-    sorted[(size_t)PHOTON_DEPTH * stride + place] = photon->classDepth >> 3;
-#endif
+/* counts[chunk * cells + cell]; each photon's cell becomes known, and which places of its block are empty. */
+__kernel void countPhotons(__global uint* photons, __global const uint* blocks, __global const RegionCount* regions,
+                           __global const uint* tables, __global uint* counts, const MapParams params) {
+    const uint chunk = get_global_id(0);
+    if (chunk >= params.chunks) return;
+    const uint cells = cellCount(&params);
+    const size_t stride = params.photonStride;
+    __global uint* own = counts + (size_t)chunk * cells;
+    for (uint cell = 0; cell < cells; ++cell) own[cell] = 0;
+    for (uint region = chunkRegion(chunk, &params); region < chunkRegion(chunk + 1, &params); ++region)
+        for (BlockWalk walk = blocksOf(regions + region); walk.left > 0; toNextBlock(&walk, blocks)) {
+            __global uint* block = photons + walk.block * PHOTON_BLOCK;
+            for (uint k = 0; k < PHOTON_BLOCK; ++k) {
+                const uint cell =
+                    k < photonsInBlock(&walk) ? cellOfTraced(block + k, stride, tables, &params) : QL_NONE;
+                if (cell != QL_NONE) ++own[cell];
+                block[PHOTON_PLACE * stride + k] = cell;
+            }
+        }
 }
 
-#include "cell_sort.clh"
+/* From each photon's cell to its place among the sorted ones. */
+__kernel void placePhotons(__global uint* photons, __global const uint* blocks, __global const RegionCount* regions,
+                           __global uint* counts, const MapParams params) {
+    const uint chunk = get_global_id(0);
+    if (chunk >= params.chunks) return;
+    __global uint* own = counts + (size_t)chunk * cellCount(&params);
+    __global uint* places = photons + (size_t)PHOTON_PLACE * params.photonStride;
+    for (uint region = chunkRegion(chunk, &params); region < chunkRegion(chunk + 1, &params); ++region)
+        for (BlockWalk walk = blocksOf(regions + region); walk.left > 0; toNextBlock(&walk, blocks)) {
+            __global uint* block = places + walk.block * PHOTON_BLOCK;
+            for (uint k = 0; k < photonsInBlock(&walk); ++k) block[k] = own[block[k]]++;
+        }
+}
+
+/* Moves one field of the first `room` photons as traced to its place; the field before it has been moved. Behind the last of
+ * the `sorted` ones as many zeros follow as are read in one go. */
+__kernel void movePhotons(__global uint* photons, const uint field, const uint room, const uint sorted,
+                          const MapParams params) {
+    const uint photon = get_global_id(0);
+    const size_t stride = params.photonStride;
+    __global uint* to = photons + field * stride;
+    if (photon < PHOTONS_READ) to[sorted + photon] = 0;
+    if (photon >= room) return;
+    const uint place = photons[PHOTON_PLACE * stride + photon];
+    if (place != QL_NONE) to[place] = photons[TRACED(field) * stride + photon];
+}

@@ -250,7 +250,7 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
 /* The paths of one region. */
 inline void traceRegion(uint region, const PhotonWorld* world, const PhotonSink* sink, __global RegionCount* counts) {
     const PhotonParams* params = world->params;
-    RegionCount count = {0, 0, 0, 0, 0, 0, 0, {0}, {0}};
+    RegionCount count = {0, 0, 0, 0, 0, 0, 0, 0, 0, {0}, {0}};
     const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
     const uint first = region * params->pathsPerRegion;
     tracePaths(first, min(first + params->pathsPerRegion, params->paths), &lattice, world, sink, &count);
@@ -271,8 +271,8 @@ __kernel void splatPhotons(__global const BvhNode* nodes, __global const Primiti
 }
 #else
 __kernel void tracePhotons(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
-                           __global const uint* tables, __global Photon* photons, __global RegionCount* counts,
-                           const PhotonParams params
+                           __global const uint* tables, __global uint* photons, __global uint* photonBlocks,
+                           __global RegionCount* counts, const PhotonParams params
 #ifdef HAS_METER_PHOTONS
                            ,
                            __global uint* meterSums, const float quantaPerRadiance
@@ -281,8 +281,8 @@ __kernel void tracePhotons(__global const BvhNode* nodes, __global const Primiti
     const uint region = get_global_id(0);
     if (region >= params.regions) return;
     PhotonSink sink;
-    sink.photons = photons + (size_t)region * params.regionCapacity;
-    sink.capacity = params.regionCapacity;
+    const PhotonStore store = {photons, photonBlocks, params.photonBlocks, params.photonStride, params.perFluxUnit};
+    sink.store = store;
 #ifdef HAS_METER_PHOTONS
     sink.meter.sums = meterSums;
     sink.meter.quantaPerIrradiance = quantaPerRadiance * params.scene.meter.samples * M_1_PI_F;

@@ -88,7 +88,7 @@ TEST_F(MemoryTest, OfAnotherRenderDiffers) {
 
 // A render that just fits runs; with a byte less it ends before it starts, and says what it lacks.
 TEST_F(MemoryTest, RenderThatDoesNotFitDoesNotStart) {
-    const Arguments arguments{scene("cornell_phong.xml"), "-D", "resolution=64"};
+    const Arguments arguments{scene("cornell_phong.xml"), "-D", "resolution=128"};
     const auto needed = static_cast<uint64_t>(forecast(arguments).device);
     const auto within = [&](uint64_t bytes) {
         Arguments all = arguments;
@@ -103,7 +103,7 @@ TEST_F(MemoryTest, RenderThatDoesNotFitDoesNotStart) {
     Arguments tight = within(needed - (1u << 20));
     tight.insert(tight.begin(), "render");
     expectRefused(tight, "1.0 MiB too little");
-    expectRefused(tight, "use fewer --photons (now 24576), a smaller film (now 64 x 64)");
+    expectRefused(tight, "use fewer --photons (now 98304), a smaller film (now 128 x 128)");
     Arguments tiny = within(1000); // less than the scene alone: nothing is compiled for it
     tiny.insert(tiny.begin(), "render");
     expectRefused(tiny, "in one buffer");

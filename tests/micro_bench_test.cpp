@@ -2,6 +2,8 @@
 #include "bench/micro/embree_scene.h"
 #include "bench/micro/gather_loop.h"
 #include "bench/micro/micro_bench.h"
+#include "bench/micro/native_flux.h"
+#include "bench/micro/native_grid.h"
 #include "bench/micro/scenes.h"
 #include "support/program_runner.h"
 #include "util/error.h"
@@ -113,7 +115,7 @@ TEST(MicroBench, TreeIsTimed) {
 TEST(MicroBench, AWrongLoopWouldDiffer) {
     std::vector<uint32_t> sorted(8 * 16, 0), cellStart(4097, 1);
     cellStart[0] = 0; // one photon, in the first cell
-    for (unsigned field : {3u, 4u, 5u}) sorted[field * 16] = 0x3f800000;
+    sorted[fieldFlux * 16] = nativePackFlux({1, 1, 1}, nearestCode);
     NativeMap map{sorted.data(), cellStart.data(), {}};
     map.map.cellMask = 4095;
     map.map.photonStride = 16;

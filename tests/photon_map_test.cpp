@@ -2,6 +2,7 @@
 // photons finds, each photon once, also where rows of cells share the table or wrap around its end.
 //
 // No test here is statistical: photons are random but seeded, and what they are compared with is exact or in double.
+#include "bench/micro/native_flux.h"
 #include "device/kernel_sources.h"
 #include "support/photon_index.h"
 #include "support/test_kernels.h"
@@ -18,17 +19,37 @@ namespace quasilux {
 namespace {
 
 // As kernels/photon_grid.clh numbers them.
-enum Field : unsigned { fieldX, fieldY, fieldZ, fieldR, fieldG, fieldB, fieldPatchSide, fieldDirection, fieldDepth };
+enum Field : unsigned { fieldX, fieldY, fieldZ, fieldFlux, fieldPatchSide, fieldDirection, fieldDepth };
+constexpr unsigned fieldCount = fieldDepth; // without a depth limit
 
-using shared::Photon;
+using Photon = TracedPhoton;
+
+// Flux from 0 to above 20,000 is stored in this unit.
+constexpr float fluxUnit = 16384;
+
+PhotonIndexSettings settingsOfFlux() {
+    PhotonIndexSettings settings;
+    settings.fluxUnit = fluxUnit;
+    return settings;
+}
+
+shared::Rgb fluxOf(const Photon& photon) {
+    const shared::Rgb flux = nativeUnpackFlux(photon.flux);
+    return {flux.r * fluxUnit, flux.g * fluxUnit, flux.b * fluxUnit};
+}
+
+uint32_t packed(float r, float g, float b) {
+    return nativePackFlux({r / fluxUnit, g / fluxUnit, b / fluxUnit}, nearestCode);
+}
 
 Photon photonAt(float x, float y, float z, unsigned lightClass, unsigned id) {
     Photon photon{};
     photon.position = {x, y, z};
     photon.direction = id * 2654435761u;
-    photon.flux = {float(id), float(id % 1000) + 0.5f, 1};
+    photon.flux = packed(float(id), float(id % 1000) + 0.5f, 1);
     photon.patchSide = id % 5;
-    photon.classDepth = (1 + id % 200) << 3 | lightClass;
+    photon.depth = 1 + id % 200;
+    photon.slot = lightClass;
     return photon;
 }
 
@@ -53,7 +74,7 @@ std::vector<Photon> awkwardPhotons(unsigned count, float center, float cell, con
 
 /// Cell of the table by the definition in kernels/photon_grid.clh, written down again.
 unsigned expectedCell(const Photon& photon, const PhotonIndexSettings& settings) {
-    const unsigned lightClass = photon.classDepth & (PHOTON_SLOTS - 1);
+    const unsigned lightClass = photon.slot;
     const auto coordinate = [&](float x) {
         return int64_t(std::floor(std::clamp(x / settings.radius[lightClass], -1073741824.f, 1073741824.f)));
     };
@@ -94,12 +115,11 @@ void expectSorted(const std::vector<Photon>& photons, const PhotonIndexSettings&
     const PhotonIndex index = indexPhotons(photons, settings);
     const ExpectedIndex expected = expectIndex(photons, settings);
     EXPECT_EQ(index.cellStart.read(), expected.cellStart);
-    std::vector<std::vector<uint32_t>> fields(settings.storesDepth ? 9 : 8);
+    std::vector<std::vector<uint32_t>> fields(settings.storesDepth ? fieldCount + 1 : fieldCount);
     for (const unsigned k : expected.order) {
         const Photon& p = photons[k];
-        const uint32_t values[] = {bits(p.position.x), bits(p.position.y), bits(p.position.z),
-                                   bits(p.flux.r),     bits(p.flux.g),     bits(p.flux.b),
-                                   p.patchSide,        p.direction,        p.classDepth >> 3};
+        const uint32_t values[] = {
+            bits(p.position.x), bits(p.position.y), bits(p.position.z), p.flux, p.patchSide, p.direction, p.depth};
         for (size_t f = 0; f < fields.size(); ++f) fields[f].push_back(values[f]);
     }
     for (unsigned f = 0; f < fields.size(); ++f) EXPECT_EQ(index.field(f), fields[f]) << "field " << f;
@@ -108,7 +128,7 @@ void expectSorted(const std::vector<Photon>& photons, const PhotonIndexSettings&
 TEST(PhotonMap, IsAStableSortByCell) {
     for (const unsigned cells : {4u, 64u, 4096u})
         for (const float center : {0.f, -3000.f, 2e5f}) {
-            PhotonIndexSettings settings;
+            PhotonIndexSettings settings = settingsOfFlux();
             settings.classes = 1u << LIGHT_CAUSTIC | 1u << LIGHT_DIFFUSE;
             settings.radius = {9, 0.25f, 9, 0.5f};
             settings.cells = cells;
@@ -117,7 +137,7 @@ TEST(PhotonMap, IsAStableSortByCell) {
 }
 
 TEST(PhotonMap, EveryClassHasItsRun) {
-    PhotonIndexSettings settings;
+    PhotonIndexSettings settings = settingsOfFlux();
     settings.classes = 15;
     settings.radius = {0.5f, 0.125f, 1, 2};
     settings.cells = 256;
@@ -130,7 +150,7 @@ TEST(PhotonMap, EveryClassHasItsRun) {
 
 TEST(PhotonMap, ChunksAndBlocksDoNotChangeABit) {
     const auto photons = awkwardPhotons(10007, -10, 0.25f, {LIGHT_DIFFUSE});
-    PhotonIndexSettings settings;
+    PhotonIndexSettings settings = settingsOfFlux();
     settings.radius[LIGHT_DIFFUSE] = 0.25f;
     settings.regions = 61;
     settings.chunks = settings.scanBlocks = 1;
@@ -140,12 +160,12 @@ TEST(PhotonMap, ChunksAndBlocksDoNotChangeABit) {
         settings.scanBlocks = parts;
         const PhotonIndex again = indexPhotons(photons, settings);
         EXPECT_EQ(again.cellStart.read(), once.cellStart.read());
-        for (unsigned f = 0; f < 8; ++f) EXPECT_EQ(again.field(f), once.field(f));
+        for (unsigned f = 0; f < fieldCount; ++f) EXPECT_EQ(again.field(f), once.field(f));
     }
 }
 
 TEST(PhotonMap, NoPhotonsAndOnePhoton) {
-    PhotonIndexSettings settings;
+    PhotonIndexSettings settings = settingsOfFlux();
     settings.cells = 4;
     expectSorted({}, settings);
     expectSorted({photonAt(-1, 5, 0.5f, LIGHT_DIFFUSE, 3)}, settings);
@@ -199,17 +219,16 @@ struct ExactSum {
 ExactSum searchAll(const std::vector<Photon>& photons, const Query& query, const GatherSettings& what) {
     ExactSum sum;
     for (const Photon& p : photons) {
-        if ((p.classDepth & (PHOTON_SLOTS - 1)) != what.lightClass || p.patchSide != what.patchSide ||
-            p.classDepth >> 3 > what.depthMax)
-            continue;
+        if (p.slot != what.lightClass || p.patchSide != what.patchSide || p.depth > what.depthMax) continue;
         const double x = double(p.position.x) - query.x, y = double(p.position.y) - query.y,
                      z = double(p.position.z) - query.z;
         const double q = (x * x + y * y + z * z) / (double(query.radius) * query.radius);
         if (q >= 1) continue;
-        sum.r += (1 - q) * p.flux.r;
-        sum.g += (1 - q) * p.flux.g;
-        sum.b += (1 - q) * p.flux.b;
-        sum.lit += p.flux.b > 0;
+        const shared::Rgb flux = fluxOf(p);
+        sum.r += (1 - q) * flux.r;
+        sum.g += (1 - q) * flux.g;
+        sum.b += (1 - q) * flux.b;
+        sum.lit += flux.b > 0;
     }
     return sum;
 }
@@ -233,7 +252,7 @@ TEST(PhotonSearch, SumsAreThoseOfAllPhotons) {
     for (const unsigned cells : {4u, 16u, 1024u})
         for (const float center : {0.f, -40.f, 3000.f})
             for (const float share : {1.f, 0.37f}) { // a region may be smaller than the cells
-                PhotonIndexSettings settings;
+                PhotonIndexSettings settings = settingsOfFlux();
                 settings.classes = 1u << LIGHT_CAUSTIC | 1u << LIGHT_DIFFUSE;
                 settings.radius = {9, 0.3f, 9, 0.25f};
                 settings.cells = cells;
@@ -267,7 +286,7 @@ unsigned faultsOfSingles(const PhotonIndexSettings& settings, unsigned& singles,
     for (unsigned lit = 0; lit < 12; ++lit) {
         for (size_t k = 0; k < photons.size(); ++k) {
             const float flux = k * 7919 % 397 == lit * 33 ? 1.f : 0.f;
-            photons[k].flux = {flux, flux, flux};
+            photons[k].flux = packed(flux, flux, flux);
         }
         const auto sums = gather(indexPhotons(photons, settings), queries, settings, what);
         for (size_t k = 0; k < queries.size(); ++k) {
@@ -282,7 +301,7 @@ unsigned faultsOfSingles(const PhotonIndexSettings& settings, unsigned& singles,
 TEST(PhotonSearch, EachPhotonIsMetOnce) {
     unsigned singles = 0;
     for (const unsigned cells : {4u, 8u, 64u, 4096u}) {
-        PhotonIndexSettings settings;
+        PhotonIndexSettings settings = settingsOfFlux();
         settings.radius[LIGHT_DIFFUSE] = 0.25f;
         settings.cells = cells;
         EXPECT_EQ(faultsOfSingles(settings, singles, true), 0u) << cells << " cells";
@@ -292,7 +311,7 @@ TEST(PhotonSearch, EachPhotonIsMetOnce) {
 
 TEST(PhotonSearch, RowsThatShareCellsFailWithoutTheCheck) {
     unsigned singles = 0;
-    PhotonIndexSettings settings;
+    PhotonIndexSettings settings = settingsOfFlux();
     settings.radius[LIGHT_DIFFUSE] = 0.25f;
     settings.cells = 8;
     EXPECT_GT(faultsOfSingles(settings, singles, false), 100u);
@@ -318,7 +337,7 @@ TEST(PhotonSearch, EndsExactlyAtTheRadius) {
                                            z + float(direction[2]) * s, LIGHT_DIFFUSE, 0));
                 expected.push_back(steps == 128 ? 0 : 1 - (127.0 / 128) * (127.0 / 128));
             }
-    PhotonIndexSettings settings;
+    PhotonIndexSettings settings = settingsOfFlux();
     settings.radius[LIGHT_DIFFUSE] = 0.25f;
     settings.cells = 64;
     const auto sums = gather(indexPhotons(photons, settings), queries, settings);
@@ -326,7 +345,7 @@ TEST(PhotonSearch, EndsExactlyAtTheRadius) {
 }
 
 TEST(PhotonSearch, PatchSideAndDepthAreAskedFor) {
-    PhotonIndexSettings settings;
+    PhotonIndexSettings settings = settingsOfFlux();
     settings.radius[LIGHT_DIFFUSE] = 0.25f;
     settings.storesDepth = true;
     const auto photons = awkwardPhotons(4001, 0, 0.25f, {LIGHT_DIFFUSE});

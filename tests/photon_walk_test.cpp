@@ -7,10 +7,13 @@
 // Deterministic: photons of the first collisions, of which 99 % must agree to 0.002 mm; with another seed (the negative
 // control) next to none does. Statistical: flux by class, the mean of 12 passes of the ratio of two runs that share their
 // paths, within 4 standard errors of 1 (Student t with 11 degrees of freedom: 0.2 % a case); seeds are fixed.
+#include "bench/micro/native_flux.h"
+#include "bench/micro/native_grid.h"
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
 #include "support/traversal_device.h"
 
+#include "render/flux_unit.h"
 #include "render/method.h"
 #include "render/photon_stage.h"
 
@@ -51,6 +54,7 @@ Stored trace(const Tracing& tracing) {
     shared::PhotonParams params{};
     params.seedLow = tracing.seed;
     params.paths = photonCount;
+    params.perFluxUnit = 1 / fluxUnit(flat.emittedFlux, params.paths);
     params.maxDepth = QL_NONE;
     params.scene = flat.offsets;
     const Program program(testDevice(), "photon_map_pass.cl", kernelOptions(flat, settings) + tracing.options,
@@ -60,14 +64,17 @@ Stored trace(const Tracing& tracing) {
     Stored stored(passes);
     for (unsigned pass = 0; pass < passes; ++pass) {
         const auto count = stage.run(pass, {1, 1, 1, 1}, 1);
-        const auto sorted = stage.index().sorted().read();
+        const auto sorted = stage.sorted().read();
         const auto field = [&](size_t k, uint64_t photon) {
-            return std::bit_cast<float>(sorted[k * stage.index().map().photonStride + photon]);
+            return sorted[k * stage.table().map().photonStride + photon];
         };
-        uint64_t photon = 0; // sorted by slot; PHOTON_X ... of kernels/photon_grid.clh
+        const auto coordinate = [&](size_t k, uint64_t photon) { return std::bit_cast<float>(field(k, photon)); };
+        uint64_t photon = 0; // sorted by slot
         for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
             for (uint64_t k = 0; k < count.stored[slot]; ++k, ++photon)
-                stored[pass][slot].push_back({field(0, photon), field(1, photon), field(2, photon), field(3, photon)});
+                stored[pass][slot].push_back({coordinate(fieldX, photon), coordinate(fieldY, photon),
+                                              coordinate(fieldZ, photon),
+                                              nativeUnpackFlux(field(fieldFlux, photon)).r});
     }
     return stored;
 }

@@ -13,7 +13,6 @@ namespace {
 
 constexpr unsigned photonsPerRegion = 256;
 constexpr unsigned pixelsPerRegion = 64;
-constexpr size_t pointFields = 5;        // POINT_FIELDS of kernels/photon_grid.clh
 constexpr size_t cameraSampleFloats = 6; // SAMPLE_FLOATS of kernels/camera_paths.cl
 
 unsigned divideUp(size_t count, unsigned by) { return static_cast<unsigned>((count + by - 1) / by); }
@@ -24,9 +23,8 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
                                shared::CameraParams camera, shared::PhotonParams photons, unsigned classes,
                                double meanRadiance)
     : device_(device), geometry_(geometry), film_(film), traceCameraPoints_(pass.kernel("traceCameraPoints")),
-      addSamples_(pass.kernel("addSamples")), splatPhotons_(pass.kernel("splatPhotons")),
-      index_(device, pass, classes, pointFields, "camera point"), cameraParams_(camera), photonParams_(photons),
-      classes_(classes) {
+      addSamples_(pass.kernel("addSamples")), splatPhotons_(pass.kernel("splatPhotons")), index_(device, pass, classes),
+      cameraParams_(camera), photonParams_(photons), classes_(classes) {
     photonParams_.pathsPerRegion = photonsPerRegion;
     photonParams_.regions = divideUp(photonParams_.paths, photonsPerRegion);
     std::fill_n(photonParams_.keepProbability, LIGHT_CLASSES, 1.f);
@@ -35,11 +33,12 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
     points_.pixelsPerRegion = pixelsPerRegion;
     points_.quantaPerRadiance = quantaPerRadiance(meanRadiance);
     points_.borderCapacity = pixelsPerRegion / 2;
-    index_.map().regionCapacity = pixelsPerRegion;
-    index_.map().media = camera.scene.media;
+    index_.table().map().regionCapacity = pixelsPerRegion;
+    index_.table().map().media = camera.scene.media;
+    index_.table().map().fluxUnit = 1 / photons.perFluxUnit;
     const size_t paths = film.pixels() * pathsPerPixel();
     const unsigned regions = divideUp(paths, pixelsPerRegion);
-    index_.makeTable(static_cast<unsigned>(paths), regions);
+    index_.make(paths, regions);
     regions_ = Buffer<shared::PointRegionCount>(device, regions, "camera point regions");
     samples_ = Buffer<float>(device, cameraSampleFloats * paths, "camera samples");
     sums_ = Buffer<uint32_t>(device, splatWords(classes) * film.pixels(), "splats");
@@ -52,7 +51,7 @@ void CameraMapStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProb
 }
 
 void CameraMapStage::makeRegions() {
-    const shared::MapParams& map = index_.map();
+    const shared::MapParams& map = index_.table().map();
     const uint64_t capacity = uint64_t(map.regions) * map.regionCapacity;
     if (capacity > UINT32_MAX)
         throw DeviceError(fmt::format("room for {} camera points in one pass, at most {} can be indexed: render a "
@@ -75,7 +74,7 @@ std::vector<shared::PointRegionCount> CameraMapStage::traceCameraPoints() {
             points = std::max(points, count.wanted);
             borders = std::max(borders, count.wantedBorders);
         }
-        unsigned& capacity = index_.map().regionCapacity;
+        unsigned& capacity = index_.table().map().regionCapacity;
         if (points <= capacity && borders <= points_.borderCapacity) return counts;
         if (points > capacity) capacity = points + points / 4;
         if (borders > points_.borderCapacity) points_.borderCapacity = borders + borders / 4;
@@ -85,16 +84,16 @@ std::vector<shared::PointRegionCount> CameraMapStage::traceCameraPoints() {
 
 void CameraMapStage::splatPhotons(CameraMapPassCount& total) {
     splatPhotons_.launchLong(photonParams_.regions, geometry_.nodes, geometry_.blocks, geometry_.tables,
-                             index_.cellStart(), index_.sorted(), traced_, borders_, sums_, photonRegions_,
+                             index_.table().cellStart(), index_.sorted(), traced_, borders_, sums_, photonRegions_,
                              photonParams_, points_);
     for (const auto& count : photonRegions_.read()) total.add(count);
 }
 
 void CameraMapStage::beginPass(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale) {
-    std::copy(radius.begin(), radius.end(), index_.map().radius);
-    index_.map().volumeScale = volumeScale;
+    std::copy(radius.begin(), radius.end(), index_.table().map().radius);
+    index_.table().map().volumeScale = volumeScale;
     cameraParams_.pass = photonParams_.pass = pass;
-    cameraParams_.map = points_.map = index_.map();
+    cameraParams_.map = points_.map = index_.table().map();
 }
 
 void CameraMapStage::makeRoom(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale) {
@@ -117,8 +116,8 @@ CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LI
     }
     if (classes_ != 0) {
         index_.sort(traced_, regions_, geometry_, stored);
-        total.points = index_.countBySlot();
-        points_.map = index_.map();
+        total.points = index_.table().countBySlot();
+        points_.map = index_.table().map();
         splatPhotons(total);
     }
     addSamples_.launch(film_.pixels(), samples_, sums_, film_.sums(), film_.counterBuffer(),

@@ -1,8 +1,8 @@
 // A pass in the camera map's order: camera points are stored and indexed, then photons are splatted to them on the fly.
 #pragma once
 
-#include "render/cell_index.h"
 #include "render/film.h"
+#include "render/point_index.h"
 #include "render/trace_count.h"
 
 namespace quasilux {
@@ -34,7 +34,7 @@ public:
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : photonParams_.paths; }
     /// Bytes of a camera point, as traced and in the index, and of the border record that some have.
-    size_t pointBytes() const { return sizeof(shared::CameraPoint) + index_.recordBytes(); }
+    static size_t pointBytes() { return sizeof(shared::CameraPoint) + PointIndex::pointBytes(); }
     static size_t borderBytes() { return sizeof(shared::PointBorder); }
 
 private:
@@ -48,7 +48,7 @@ private:
     const GeometryBuffers& geometry_;
     Film& film_;
     Kernel traceCameraPoints_, addSamples_, splatPhotons_;
-    CellIndex index_;
+    PointIndex index_;
     shared::CameraParams cameraParams_;
     shared::PhotonParams photonParams_;
     shared::PointParams points_{}; // with a copy of the index's map

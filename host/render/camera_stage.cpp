@@ -18,8 +18,8 @@ void CameraStage::trace(Film& film, const shared::CameraParams& params, const Bu
                         const PhotonStage& photons) {
     const auto launch = [&](const auto&... more) {
         traceCameraPaths_.launch(film.pixels(), geometry_.nodes, geometry_.blocks, geometry_.tables,
-                                 photons.index().cellStart(), photons.index().sorted(), film.sums(),
-                                 film.counterBuffer(), params, more...);
+                                 photons.table().cellStart(), photons.sorted(), film.sums(), film.counterBuffer(),
+                                 params, more...);
     };
     if (radiusScales)
         launch(*radiusScales);
@@ -36,7 +36,7 @@ void CameraStage::runOn(Film& film, const Buffer<float>* radiusScales, const Pho
 
 void CameraStage::run(unsigned pass, const PhotonStage& photons) {
     params_.pass = pass;
-    params_.map = photons.index().map();
+    params_.map = photons.table().map();
     params_.radiusBlock = radii_ ? radii_->block() : 1;
     runOn(film_, radii_ ? &radii_->scales() : nullptr, photons);
     if (radii_ && radii_->pilotIsDue()) runPilot(photons);

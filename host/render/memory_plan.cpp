@@ -1,7 +1,6 @@
 #include "render/memory_plan.h"
 
 #include "render/adaptive_radius.h"
-#include "render/cell_index.h"
 #include "render/film.h"
 #include "render/meter_stage.h"
 #include "render/meter_sums.h"
@@ -60,16 +59,13 @@ BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings) 
             {"camera counters", sizeof(shared::CameraCounters)}};
 }
 
-BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, const PhotonRoom& room,
+BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, uint64_t photons,
                      const DeviceInfo& device) {
     BufferSizes sizes = planScene(scene, settings);
     const unsigned classes = photonClasses(scene.features, settings);
     const unsigned regions = PhotonStage::regionCount(photonsPerPass(settings, scene.camera));
-    sizes["photons as traced"] = uint64_t(regions) * room.ofRegion * sizeof(shared::Photon);
     sizes["photon regions"] = regions * sizeof(shared::RegionCount);
-    sizes.merge(CellIndex::plan(classes, room.inMap, regions,
-                                PhotonStage::mapFields(compiledFeatures(scene, settings).depthLimit), "photon",
-                                device));
+    sizes.merge(PhotonArrays::plan(classes, photons, regions, compiledFeatures(scene, settings).depthLimit, device));
     if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes));
     if (const shared::Meter& meter = scene.offsets.meter; meter.kind != METER_NONE) {
         sizes["meter"] = splatWords(classes) * pixelsOf(scene) * sizeof(uint32_t);

@@ -16,17 +16,11 @@ using BufferSizes = std::map<std::string, uint64_t>;
 
 uint64_t sumOf(const BufferSizes& sizes);
 
-/// Room for the photons of a pass.
-struct PhotonRoom {
-    unsigned ofRegion = 0; ///< photons that one region may store
-    uint64_t inMap = 0;    ///< photons that the index may hold
-};
-
 /// Buffers that depend on the scene and the film alone.
 BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings);
 
-/// All buffers of a pass of --map photons.
-BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, const PhotonRoom& room,
+/// All buffers of a pass of --map photons with room for so many `photons`.
+BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, uint64_t photons,
                      const DeviceInfo& device);
 
 /// Bytes on the host while the film is developed: its copy and the layers of the image.

@@ -21,7 +21,7 @@ void MeterStage::compile(const PhotonStage& photons) {
     shared::CameraParams nothing = params_;
     nothing.camera.width = nothing.camera.height = 0;
     traceMeterPaths_.launch(film_.pixels() * params_.scene.meter.samples, geometry_.nodes, geometry_.blocks,
-                            geometry_.tables, photons.index().cellStart(), photons.index().sorted(), samples_,
+                            geometry_.tables, photons.table().cellStart(), photons.sorted(), samples_,
                             film_.counterBuffer(), nothing);
     addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(), 0u, 0u, 0.f,
                             counted_.quantaPerRadiance, 0.f);
@@ -30,11 +30,10 @@ void MeterStage::compile(const PhotonStage& photons) {
 void MeterStage::run(unsigned pass, const PhotonStage& photons) {
     const shared::Meter& meter = params_.scene.meter;
     params_.pass = pass;
-    params_.map = photons.index().map();
+    params_.map = photons.table().map();
     params_.batchWeight = film_.beginPass(pass).batchWeight;
     traceMeterPaths_.launch(film_.pixels() * meter.samples, geometry_.nodes, geometry_.blocks, geometry_.tables,
-                            photons.index().cellStart(), photons.index().sorted(), samples_, film_.counterBuffer(),
-                            params_);
+                            photons.table().cellStart(), photons.sorted(), samples_, film_.counterBuffer(), params_);
     addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(),
                             static_cast<unsigned>(film_.pixels()), meter.samples, sampleScale(meter),
                             counted_.quantaPerRadiance, params_.batchWeight);

@@ -1,9 +1,8 @@
 // Stages 1 and 2 of a pass: trace photons by kernels/photon_trace.cl, index them by kernels/photon_map.cl.
 #pragma once
 
-#include "render/cell_index.h"
-#include "render/memory_plan.h"
 #include "render/meter_sums.h"
+#include "render/photon_arrays.h"
 #include "render/trace_count.h"
 
 #include <array>
@@ -14,20 +13,18 @@ namespace quasilux {
 /// What one pass traced and stored.
 struct PhotonPassCount : TraceCount {
     std::array<uint64_t, PHOTON_SLOTS> stored{}; ///< by slot of the map: classes on surfaces, then in media
-    unsigned fullestRegion = 0;                  ///< most photons that one region stored
 };
 
 class PhotonStage {
 public:
     static constexpr unsigned pathsPerRegion = 256;
     static unsigned regionCount(unsigned paths) { return (paths + pathsPerRegion - 1) / pathsPerRegion; }
-    /// 32-bit words of a photon in the map.
-    static size_t mapFields(bool storesDepth) { return storesDepth ? 9 : 8; }
 
-    /// `pass` is photon_map_pass.cl; `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where the kernels are compiled with HAS_DEPTH_LIMIT;
-    /// `room` saves enlarging the buffers later.
+    /// `pass` is photon_map_pass.cl; `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where the
+    /// kernels are compiled with HAS_DEPTH_LIMIT; room for so many `photons` saves enlarging the buffers
+    /// later.
     PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry, shared::PhotonParams params,
-                unsigned classes, bool storesDepth, const PhotonRoom& room = {});
+                unsigned classes, bool storesDepth, uint64_t photons = 0);
 
     /// Traces the photons of a pass and indexes them with these radii, by class. A photon buffer that proves too small
     /// is enlarged and the pass traced again, so none is lost. `volumeScale` is that of kernels in media to their first
@@ -42,23 +39,19 @@ public:
 
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : params_.paths; }
-    /// Bytes of a photon, as traced and in the map.
-    size_t photonBytes() const { return sizeof(shared::Photon) + index_.recordBytes(); }
-
-    const CellIndex& index() const { return index_; }
+    /// The photons of the last pass, sorted.
+    const Buffer<uint32_t>& sorted() const { return photons_.sorted(); }
+    const CellTable& table() const { return photons_.table(); }
 
 private:
     std::vector<shared::RegionCount> trace();
-    void makeRegions(unsigned capacity); // of photons as traced
 
-    Device& device_;
     const GeometryBuffers& geometry_;
     Kernel tracePhotons_;
-    CellIndex index_;
+    PhotonArrays photons_;
     shared::PhotonParams params_;
     unsigned classes_; // bits 1 << slot
     MeterSums* meter_ = nullptr;
-    Buffer<shared::Photon> photons_;
     Buffer<shared::RegionCount> regions_;
 };
 

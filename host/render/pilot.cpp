@@ -22,20 +22,16 @@ double upperBound(double perPath, double count) {
 PilotResult expectPass(const PhotonPassCount& counted, unsigned paths) {
     PilotResult result;
     const double traced = std::min(pilotPaths, paths), passesOverPilot = paths / traced;
-    double kept = 0, all = 0;
+    double kept = 0;
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
         const auto inVolume = double(counted.stored[VOLUME_SLOT(c)]), onSurfaces = double(counted.stored[c]);
         const double keep = std::min(1.0, volumePhotonsPerPath * paths / std::max(passesOverPilot * inVolume, 1.0));
         result.keepProbability[c] = static_cast<float>(keep);
         kept += keep * inVolume + onSurfaces;
-        all += inVolume + onSurfaces;
     }
     // The pilot itself may have met fewer than is usual.
     const double perPath = upperBound(kept / traced, traced) / traced;
-    const double fullestRegion = all > 0 ? counted.fullestRegion * kept / all : 0;
-    const double perPathThere = std::max(perPath, fullestRegion / PhotonStage::pathsPerRegion);
-    result.room.ofRegion = static_cast<unsigned>(std::ceil(upperBound(perPathThere, PhotonStage::pathsPerRegion))) + 8;
-    result.room.inMap = static_cast<uint64_t>(std::ceil(upperBound(perPath, paths))) + 8;
+    result.photons = static_cast<uint64_t>(std::ceil(upperBound(perPath, paths)));
     return result;
 }
 

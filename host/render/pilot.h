@@ -1,7 +1,6 @@
 // A few photons traced apart from all passes: how many a pass will store decides its buffers and how they are thinned.
 #pragma once
 
-#include "render/memory_plan.h"
 #include "render/photon_stage.h"
 
 namespace quasilux {
@@ -10,7 +9,7 @@ namespace quasilux {
 struct PilotResult {
     /// Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
     std::array<float, LIGHT_CLASSES> keepProbability{1, 1, 1, 1};
-    PhotonRoom room;
+    uint64_t photons = 0; ///< that a pass stores, at most in all likelihood
 };
 
 constexpr unsigned pilotPaths = 2048;

@@ -2,6 +2,7 @@
 
 #include "render/camera_map_stage.h"
 #include "render/camera_stage.h"
+#include "render/flux_unit.h"
 #include "render/meter_stage.h"
 #include "render/method.h"
 #include "render/pilot.h"
@@ -41,6 +42,7 @@ shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, c
     params.seedLow = static_cast<unsigned>(settings.seed);
     params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
     params.paths = photonsPerPass(settings, flat.camera);
+    params.perFluxUnit = 1 / fluxUnit(flat.emittedFlux, params.paths);
     params.maxDepth = scene.maxDepth < 0 ? QL_NONE : static_cast<unsigned>(scene.maxDepth);
     params.scene = flat.offsets;
     return params;
@@ -147,10 +149,10 @@ struct Renderer::Stages {
         else
             meter.emplace(device, program, geometry, film, path, classes, meanRadiance(flat));
         const PilotResult expected = pilot(program, photon, classes, true);
-        const BufferSizes sizes = planPass(flat, settings, expected.room, device.info());
+        const BufferSizes sizes = planPass(flat, settings, expected.photons, device.info());
         checkFits(sizes, device.info(), flat, settings);
         forecast(sizes, sumOf(sizes) - sumOf(planScene(flat, settings)));
-        photons.emplace(device, program, geometry, photon, classes, storesDepth(), expected.room);
+        photons.emplace(device, program, geometry, photon, classes, storesDepth(), expected.photons);
         photons->thinVolume(expected.keepProbability);
         if (meterCountsPhotons(flat.features, settings)) photons->countAt(meter->counted());
     }
@@ -237,7 +239,7 @@ struct Renderer::Stages {
             if (count.stored[slot] > 0) counters.photonsStored[slotName(slot)] += count.stored[slot];
             stored += count.stored[slot];
         }
-        noteMapSize(stored, stored * photons->photonBytes());
+        noteMapSize(stored, stored * PhotonArrays::photonBytes(storesDepth()));
         counters.photonsEmitted += photons->photonsPerPass();
     }
 
@@ -249,7 +251,7 @@ struct Renderer::Stages {
             if (count.points[slot] > 0) counters.cameraPointsStored[slotName(slot)] += count.points[slot];
             stored += count.points[slot];
         }
-        noteMapSize(stored, stored * cameraMap->pointBytes() + count.borders * CameraMapStage::borderBytes());
+        noteMapSize(stored, stored * CameraMapStage::pointBytes() + count.borders * CameraMapStage::borderBytes());
         counters.photonsEmitted += cameraMap->photonsPerPass();
         counters.throughputCut += count.throughputCut;
     }

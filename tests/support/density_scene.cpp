@@ -1,5 +1,6 @@
 #include "support/density_scene.h"
 
+#include "bench/micro/native_flux.h"
 #include "support/photon_index.h"
 #include "support/test_kernels.h"
 
@@ -97,7 +98,8 @@ std::vector<RegionAnswer> DensityScene::regions(const std::vector<RegionQuery>& 
 
 std::vector<Estimate> DensityScene::estimates(const std::vector<RegionQuery>& queries, const UniformPhotons& photons,
                                               const std::string& options) {
-    const auto settings = indexSettings(radius_, unsigned(photons.photons.size()));
+    auto settings = indexSettings(radius_, unsigned(photons.photons.size()));
+    settings.fluxUnit = photons.fluxUnit;
     const PhotonIndex index = indexPhotons(photons.photons, settings);
     Program program =
         testProgram("density.cl", photonIndexOptions(settings) + device_.features.options() + ' ' + options);
@@ -118,17 +120,18 @@ UniformPhotons DensityScene::lightUp(unsigned count, const Hidden& hidden, std::
     std::uniform_real_distribution<double> uniform(0, 1);
     UniformPhotons out;
     out.density = count / area;
-    const float flux = float(area / count);
+    out.fluxUnit = float(area / count) * 8;
+    std::uniform_int_distribution<uint32_t> rounding(0, (1u << 18) - 1);
     for (unsigned k = 0; k < count; ++k) {
         const Piece& piece = pieces[choose(random)];
         const double u = uniform(random), v = uniform(random);
         const glm::dvec3 p = piece.point(u, v);
         if (hidden && hidden(p, piece.primitive)) continue;
-        shared::Photon photon{};
+        TracedPhoton photon;
         photon.position = {float(p.x), float(p.y), float(p.z)};
-        photon.flux = {flux, flux * float(5 + p.x), flux};
+        photon.flux = nativePackFlux({0.125f, 0.125f * float(5 + p.x), 0.125f}, rounding(random));
         photon.patchSide = patchOf(piece.primitive) << 1 | 1;
-        photon.classDepth = 1 << 3 | LIGHT_DIFFUSE;
+        photon.slot = LIGHT_DIFFUSE;
         out.photons.push_back(photon);
     }
     return out;

@@ -1,6 +1,7 @@
 // Hand-made surfaces, prepared by the host as for a render, and density estimates on them by the kernels.
 #pragma once
 
+#include "bench/micro/traced_photons.h"
 #include "device/buffer.h"
 #include "prepare/device_scene.h"
 
@@ -34,7 +35,8 @@ struct Estimate {
 
 /// Photons on what is not hidden: red flux 1 per unit of area, green 5 + x.
 struct UniformPhotons {
-    std::vector<shared::Photon> photons;
+    std::vector<TracedPhoton> photons;
+    float fluxUnit = 1; ///< of theirs
     double density = 0; ///< photons per unit of area
 };
 

@@ -1,5 +1,6 @@
 #include "support/photon_index.h"
 
+#include "render/cell_table.h"
 #include "support/test_kernels.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace quasilux {
 
 namespace {
-
-constexpr size_t vectorWidth = 8; // photons are read eight at a time
 
 /// Where each region's photons end. The shares go 0, 1, 2, 0, 1, 2, ... so every third region is empty.
 std::vector<size_t> regionEnds(size_t photons, unsigned regions) {
@@ -31,9 +30,8 @@ std::string photonIndexOptions(const PhotonIndexSettings& settings) {
                        settings.storesDepth ? " -DHAS_DEPTH_LIMIT" : "");
 }
 
-PhotonIndex indexPhotons(const std::vector<shared::Photon>& photons, const PhotonIndexSettings& settings) {
+PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonIndexSettings& settings) {
     Device& device = testDevice();
-    const std::vector<size_t> ends = regionEnds(photons.size(), settings.regions);
     PhotonIndex index;
     index.photons = photons.size();
     shared::MapParams& map = index.map;
@@ -42,37 +40,28 @@ PhotonIndex indexPhotons(const std::vector<shared::Photon>& photons, const Photo
     map.chunks = settings.chunks;
     map.scanBlocks = settings.scanBlocks;
     map.regions = settings.regions;
-    size_t begin = 0;
-    for (const size_t end : ends) {
-        map.regionCapacity = std::max(map.regionCapacity, unsigned(end - begin));
-        begin = end;
-    }
-    map.photonStride = unsigned(photons.size() + vectorWidth);
+    map.fluxUnit = settings.fluxUnit;
+    map.photonStride = unsigned(photons.size() + settings.regions * PHOTON_BLOCK + recordsRead);
 
-    std::vector<shared::Photon> traced(size_t(map.regions) * map.regionCapacity);
-    std::vector<shared::RegionCount> counts(map.regions);
-    begin = 0;
-    for (unsigned k = 0; k < map.regions; ++k) {
-        std::copy(photons.begin() + long(begin), photons.begin() + long(ends[k]),
-                  traced.begin() + long(size_t(k) * map.regionCapacity));
-        counts[k].stored = counts[k].wanted = unsigned(ends[k] - begin);
-        begin = ends[k];
-    }
+    const TracedLayout traced =
+        layOutPhotons(photons, regionEnds(photons.size(), settings.regions), map.photonStride, settings.storesDepth);
     Program program(device, "photon_map.cl", photonIndexOptions(settings));
     const size_t cells = size_t(std::popcount(settings.classes)) * settings.cells;
-    Buffer<shared::Photon> tracedBuffer(device, traced, "photons as traced");
-    Buffer<shared::RegionCount> regionBuffer(device, counts, "photon regions");
+    Buffer<uint32_t> blocks(device, traced.blocks, "photon blocks");
+    Buffer<shared::RegionCount> regions(device, traced.regions, "photon regions");
     Buffer<uint32_t> cellCounts(device, cells * map.chunks, "photon cell counts");
     Buffer<uint32_t> blockSums(device, map.scanBlocks, "photon scan blocks");
     index.cellStart = Buffer<uint32_t>(device, cells + 1, "photon cells");
-    index.sorted = Buffer<uint32_t>(device, size_t(settings.storesDepth ? 9 : 8) * map.photonStride, "photons sorted");
-    index.sorted.fill(0);
+    index.sorted = Buffer<uint32_t>(device, traced.arrays, "photons");
     Buffer<uint32_t> tables(device, 1, "scene tables"); // photons in media alone read them
-    program.kernel("countRecords").launchFew(map.chunks, tracedBuffer, regionBuffer, tables, cellCounts, map);
+    program.kernel("countPhotons").launchFew(map.chunks, index.sorted, blocks, regions, tables, cellCounts, map);
     program.kernel("sumBlocks").launchFew(map.scanBlocks, cellCounts, blockSums, map);
     program.kernel("scanCells").launchFew(map.scanBlocks, cellCounts, blockSums, index.cellStart, map);
-    program.kernel("scatterRecords")
-        .launchFew(map.chunks, tracedBuffer, regionBuffer, tables, cellCounts, index.sorted, map);
+    program.kernel("placePhotons").launchFew(map.chunks, index.sorted, blocks, regions, cellCounts, map);
+    const unsigned room = traced.blocks[0] * PHOTON_BLOCK;
+    for (unsigned field = 0; field < (settings.storesDepth ? 7u : 6u); ++field)
+        program.kernel("movePhotons")
+            .launch(std::max<size_t>(room, recordsRead), index.sorted, field, room, unsigned(photons.size()), map);
     return index;
 }
 

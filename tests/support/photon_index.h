@@ -1,8 +1,8 @@
 // Photons made by a test, indexed by the kernels of kernels/photon_map.cl as the renderer does it.
 #pragma once
 
+#include "bench/micro/traced_photons.h"
 #include "device/program.h"
-#include "pass_types.h"
 
 #include <array>
 #include <vector>
@@ -14,8 +14,9 @@ struct PhotonIndexSettings {
     std::array<float, LIGHT_CLASSES> radius{1, 1, 1, 1};
     unsigned cells = 4096; ///< of one class, a power of two, at least 4
     unsigned chunks = 3, scanBlocks = 5;
-    unsigned regions = 7; ///< parts of the photon buffer; they hold unequal numbers of photons, some none
+    unsigned regions = 7; ///< they hold unequal numbers of photons, some none
     bool storesDepth = false;
+    float fluxUnit = 1; ///< shared::MapParams::fluxUnit
 };
 
 struct PhotonIndex {
@@ -29,8 +30,8 @@ struct PhotonIndex {
     }
 };
 
-/// The photons keep their order: photon i comes before photon i + 1 in the buffer as traced.
-PhotonIndex indexPhotons(const std::vector<shared::Photon>& photons, const PhotonIndexSettings& settings);
+/// The photons keep their order: photon i comes before photon i + 1 as traced.
+PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonIndexSettings& settings);
 
 /// Compiler options of these settings, for kernels that include density.clh.
 std::string photonIndexOptions(const PhotonIndexSettings& settings);

@@ -26,11 +26,13 @@ void flushDenormals() {
 
 void timeInTurns(std::vector<Contender>& contenders, unsigned rounds, const DeviceInfo& device) {
     for (Contender& contender : contenders) {
+        contender.prepare();
         contender.run();
         contender.seconds = std::numeric_limits<double>::infinity();
     }
     for (unsigned round = 0; round < rounds; ++round)
         for (Contender& contender : contenders) {
+            contender.prepare();
             const Stopwatch watch;
             contender.run();
             contender.seconds = std::min(contender.seconds, device.isCpu ? watch.processorSeconds() : watch.seconds());

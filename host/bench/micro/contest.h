@@ -13,6 +13,7 @@ struct Contender {
     std::string name;
     std::function<void()> run; ///< returns when all is done
     double seconds = 0;        ///< best round: processor time on CPU devices, so that other programs disturb it less
+    std::function<void()> prepare = [] {}; ///< before each run, not timed
 };
 
 /// Runs all of them once unmeasured (kernels are compiled and caches warm then), then `rounds` times in turns. On a GPU

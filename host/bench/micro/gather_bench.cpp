@@ -28,21 +28,21 @@ MicroRow gatherRow(const MicroRun& run, Device& device, unsigned threads, const 
     const float radius = std::sqrt(perDisc / (float(photons.density) * std::numbers::pi_v<float>));
     MicroIndex index(device, photons, radius);
     index.sort();
-    index.index().map().biasWeight = bias ? 1.f : 0.f;
-    const shared::MapParams& map = index.index().map();
+    index.table().map().biasWeight = bias ? 1.f : 0.f;
+    const shared::MapParams& map = index.table().map();
     Program program(device, "micro/gather.cl", microPhotonOptions());
     Kernel kernel = program.kernel("gather");
     Buffer<shared::GatherQuery> queries(device, photons.queries, "queries");
     Buffer<shared::GatherSum> sums(device, photons.queries.size(), "sums");
 
-    const auto sorted = index.index().sorted().read(), cellStart = index.index().cellStart().read();
+    const auto sorted = index.sorted().read(), cellStart = index.table().cellStart().read();
     const NativeMap native{sorted.data(), cellStart.data(), map};
     const auto count = unsigned(photons.queries.size());
     std::vector<shared::GatherSum> theirs(count);
     std::vector<Contender> contenders{{"quasilux",
                                        [&] {
-                                           kernel.launch(count, index.index().cellStart(), index.index().sorted(),
-                                                         queries, sums, map, count, unsigned(LIGHT_DIFFUSE));
+                                           kernel.launch(count, index.table().cellStart(), index.sorted(), queries,
+                                                         sums, map, count, unsigned(LIGHT_DIFFUSE));
                                            device.finish();
                                        }},
                                       {"C++ loop", [&] {

@@ -1,6 +1,7 @@
 // Compiled with -O3 -ffast-math (CMakeLists.txt), for the processor it runs on: the compiler vectorises the inner loop.
 #include "bench/micro/gather_loop.h"
 
+#include "bench/micro/native_flux.h"
 #include "bench/micro/native_grid.h"
 
 namespace quasilux {
@@ -23,8 +24,8 @@ INTO_EVERY_CLONE void gatherRun(const NativeMap& photons, const shared::GatherQu
                                 bool bias, Sums& sums) {
     const size_t stride = photons.map.photonStride;
     const float* field = reinterpret_cast<const float*>(photons.sorted);
-    const float *x = field, *y = x + stride, *z = y + stride, *r = z + stride, *g = r + stride, *b = g + stride;
-    const uint32_t* patchSide = photons.sorted + fieldPatchSide * stride;
+    const float *x = field, *y = x + stride, *z = y + stride;
+    const uint32_t *fluxes = photons.sorted + fieldFlux * stride, *patchSide = fluxes + stride;
     const float radius = photons.map.radius[LIGHT_DIFFUSE], radiusSquared = radius * radius;
     const float scale = 1 / radiusSquared;
     float sumR = 0, sumG = 0, sumB = 0, biasR = 0, biasG = 0, biasB = 0;
@@ -34,14 +35,15 @@ INTO_EVERY_CLONE void gatherRun(const NativeMap& photons, const shared::GatherQu
         // Without branches, so that the compiler sees what it can do for many photons at once.
         const int inside = int(distanceSquared < radiusSquared) & int(patchSide[i] == query.patchSide);
         const float weight = (1 - distanceSquared * scale) * float(inside);
-        sumR += weight * r[i];
-        sumG += weight * g[i];
-        sumB += weight * b[i];
+        const shared::Rgb flux = nativeUnpackFlux(fluxes[i]);
+        sumR += weight * flux.r;
+        sumG += weight * flux.g;
+        sumB += weight * flux.b;
         if (bias) {
             const float biasWeight = weight * (4 - 6 * weight);
-            biasR += biasWeight * r[i];
-            biasG += biasWeight * g[i];
-            biasB += biasWeight * b[i];
+            biasR += biasWeight * flux.r;
+            biasG += biasWeight * flux.g;
+            biasB += biasWeight * flux.b;
         }
     }
     sums.r += sumR, sums.g += sumG, sums.b += sumB;

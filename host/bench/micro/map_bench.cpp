@@ -1,4 +1,4 @@
-// The render's index of photons (kernels/cell_sort.clh) against a plain counting sort in C++.
+// The render's index of photons (kernels/photon_map.cl) against a plain counting sort in C++.
 #include "bench/micro/contest.h"
 #include "bench/micro/native_grid.h"
 #include "bench/micro/parts.h"
@@ -21,32 +21,30 @@ public:
 
     void run() {
         std::fill(cellStart_.begin(), cellStart_.end(), 0);
-        for (const shared::Photon& photon : photons_) ++cellStart_[cellOf(photon) + 1];
+        for (const TracedPhoton& photon : photons_) ++cellStart_[cellOf(photon) + 1];
         for (size_t cell = 1; cell < cellStart_.size(); ++cell) cellStart_[cell] += cellStart_[cell - 1];
         next_ = cellStart_;
-        for (const shared::Photon& photon : photons_) place(photon, next_[cellOf(photon)]++);
+        for (const TracedPhoton& photon : photons_) place(photon, next_[cellOf(photon)]++);
     }
     const std::vector<uint32_t>& sorted() const { return sorted_; }
     const std::vector<uint32_t>& cellStart() const { return cellStart_; }
 
 private:
-    unsigned cellOf(const shared::Photon& photon) const {
+    unsigned cellOf(const TracedPhoton& photon) const {
         return nativeCell(nativeCoordinate(photon.position, map_.radius[LIGHT_DIFFUSE]), map_.cellMask);
     }
-    void place(const shared::Photon& photon, size_t at) {
+    void place(const TracedPhoton& photon, size_t at) {
         const uint32_t words[microPhotonFields] = {std::bit_cast<uint32_t>(photon.position.x),
                                                    std::bit_cast<uint32_t>(photon.position.y),
                                                    std::bit_cast<uint32_t>(photon.position.z),
-                                                   std::bit_cast<uint32_t>(photon.flux.r),
-                                                   std::bit_cast<uint32_t>(photon.flux.g),
-                                                   std::bit_cast<uint32_t>(photon.flux.b),
+                                                   photon.flux,
                                                    photon.patchSide,
                                                    photon.direction};
         for (size_t field = 0; field < microPhotonFields; ++field)
             sorted_[field * map_.photonStride + at] = words[field];
     }
 
-    const std::vector<shared::Photon>& photons_;
+    const std::vector<TracedPhoton>& photons_;
     shared::MapParams map_;
     std::vector<uint32_t> cellStart_, next_, sorted_;
 };
@@ -62,8 +60,9 @@ void benchMap(const MicroRun& run) {
         if (run.interrupted) return;
         Device device(run.settings.device, 64, 0, threads);
         MicroIndex index(device, photons, radius);
-        NativeSort native(photons, index.index().map());
-        std::vector<Contender> contenders{{"quasilux", [&] { index.sort(); }}, {"C++ sort", [&] { native.run(); }}};
+        NativeSort native(photons, index.table().map());
+        std::vector<Contender> contenders{{"quasilux", [&] { index.sort(); }, 0, [&] { index.putBack(); }},
+                                          {"C++ sort", [&] { native.run(); }}};
         timeInTurns(contenders, run.settings.rounds, device.info());
         MicroRow row{"map", fmt::format("{} photons", photons.photons.size()), threads, "Mrecords/s and thread", {},
                      {}};
@@ -71,9 +70,12 @@ void benchMap(const MicroRun& run) {
         for (const Contender& contender : contenders)
             row.values.emplace_back(contender.name, million / contender.seconds);
         row.ratios.emplace_back("quasilux / C++", contenders[1].seconds / contenders[0].seconds);
-        const auto ours = index.index().sorted().read(), starts = index.index().cellStart().read();
-        row.compared = ours.size() + starts.size();
-        for (size_t i = 0; i < ours.size(); ++i) row.differing += ours[i] != native.sorted()[i] ? 1 : 0;
+        const auto ours = index.sorted().read(), starts = index.table().cellStart().read();
+        const size_t stride = index.table().map().photonStride;
+        row.compared = microPhotonFields * photons.photons.size() + starts.size();
+        for (size_t field = 0; field < microPhotonFields; ++field)
+            for (size_t i = field * stride; i < field * stride + photons.photons.size(); ++i)
+                row.differing += ours[i] != native.sorted()[i] ? 1 : 0;
         for (size_t i = 0; i < starts.size(); ++i) row.differing += starts[i] != native.cellStart()[i] ? 1 : 0;
         run.report.rows.push_back(row);
     }

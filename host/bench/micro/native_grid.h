@@ -23,6 +23,6 @@ inline unsigned nativeCell(const CellCoordinate& c, unsigned cellMask) {
 }
 
 /// Places of fields in the sorted arrays, as PHOTON_* of kernels/photon_grid.clh.
-enum PhotonField { fieldX, fieldY, fieldZ, fieldR, fieldG, fieldB, fieldPatchSide, fieldDirection };
+enum PhotonField { fieldX, fieldY, fieldZ, fieldFlux, fieldPatchSide, fieldDirection };
 
 } // namespace quasilux

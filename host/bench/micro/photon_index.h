@@ -2,12 +2,12 @@
 #pragma once
 
 #include "bench/micro/photons.h"
-#include "render/cell_index.h"
+#include "render/photon_arrays.h"
 
 namespace quasilux {
 
 constexpr unsigned microClasses = 1u << LIGHT_DIFFUSE;
-constexpr size_t microPhotonFields = 8; ///< PHOTON_X to PHOTON_DIRECTION (kernels/photon_grid.clh)
+constexpr size_t microPhotonFields = 6; ///< PHOTON_X to PHOTON_DIRECTION (kernels/photon_grid.clh)
 
 /// Compiler options for photon_map.cl and what includes density.clh.
 std::string microPhotonOptions();
@@ -15,28 +15,36 @@ std::string microPhotonOptions();
 class MicroIndex {
 public:
     MicroIndex(Device& device, const MicroPhotons& photons, float radius)
-        : device_(device), photons_(device, photons.photons, "photons as traced"),
-          regions_(device, photons.regions, "photon regions"), geometry_(device, DeviceScene{}),
-          program_(device, "photon_map.cl", microPhotonOptions()),
-          index_(device, program_, microClasses, microPhotonFields, "photon") {
-        index_.makeTable(unsigned(photons.photons.size()), unsigned(photons.regions.size()));
-        index_.map().regionCapacity = photons.regionCapacity;
-        for (float& r : index_.map().radius) r = radius;
+        : device_(device), geometry_(device, DeviceScene{}), program_(device, "photon_map.cl", microPhotonOptions()),
+          arrays_(device, program_, microClasses, false) {
+        arrays_.make(photons.photons.size(), unsigned(photons.regionEnds.size()));
+        shared::MapParams& map = arrays_.table().map();
+        map.fluxUnit = 1;
+        for (float& r : map.radius) r = radius;
+        traced_ = layOutPhotons(photons.photons, photons.regionEnds, map.photonStride, false);
+        regions_ = Buffer<shared::RegionCount>(device, traced_.regions, "photon regions");
+        putBack();
     }
 
+    /// As traced: sorting takes place in the same memory.
+    void putBack() {
+        arrays_.arrays().write(traced_.arrays);
+        arrays_.blocks().write(traced_.blocks);
+    }
     void sort() {
-        index_.sort(photons_, regions_, geometry_, photons_.size());
+        arrays_.sort(regions_, traced_.regions, geometry_);
         device_.finish();
     }
-    CellIndex& index() { return index_; }
+    CellTable& table() { return arrays_.table(); }
+    const Buffer<uint32_t>& sorted() const { return arrays_.sorted(); }
 
 private:
     Device& device_;
-    Buffer<shared::Photon> photons_;
-    Buffer<shared::RegionCount> regions_;
     GeometryBuffers geometry_;
     Program program_;
-    CellIndex index_;
+    PhotonArrays arrays_;
+    TracedLayout traced_;
+    Buffer<shared::RegionCount> regions_;
 };
 
 } // namespace quasilux

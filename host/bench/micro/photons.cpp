@@ -1,5 +1,6 @@
 #include "bench/micro/photons.h"
 
+#include "bench/micro/native_flux.h"
 #include "bench/micro/ray_sets.h"
 
 #include <random>
@@ -29,27 +30,25 @@ void forHits(const EmbreeScene& embree, const std::vector<MicroRay>& rays, const
 } // namespace
 
 MicroPhotons makePhotons(unsigned photons, unsigned queries) {
-    constexpr unsigned capacity = 1024;
+    constexpr unsigned perRegion = 1024;
     const MicroScene scene = cornellScene();
     const EmbreeScene embree(scene.triangles);
     MicroPhotons made;
-    made.regionCapacity = capacity;
     std::mt19937 engine(9);
     std::uniform_real_distribution<float> flux(0.5f, 1.5f);
     // A part of the rays leaves the box.
     forHits(embree, makeRaySets(scene, embree, 2 * size_t(photons)).random,
             [&](const MicroHit& hit, const glm::vec3& at) {
                 if (made.photons.size() == photons) return;
-                shared::Photon photon{};
+                TracedPhoton photon;
                 photon.position = pack(at);
                 photon.patchSide = patchSideOf(hit);
-                photon.flux = {flux(engine), flux(engine), flux(engine)};
-                photon.classDepth = 2u << 3 | LIGHT_DIFFUSE;
+                photon.flux = nativePackFlux({flux(engine), flux(engine), flux(engine)}, nearestCode);
+                photon.slot = LIGHT_DIFFUSE;
                 made.photons.push_back(photon);
             });
-    made.photons.resize(made.photons.size() / capacity * capacity);
-    made.regions.resize(made.photons.size() / capacity);
-    for (shared::RegionCount& region : made.regions) region.stored = region.wanted = capacity;
+    made.photons.resize(made.photons.size() / perRegion * perRegion);
+    for (size_t end = perRegion; end <= made.photons.size(); end += perRegion) made.regionEnds.push_back(end);
     forHits(embree, makeRaySets(scene, embree, queries).primary, [&](const MicroHit& hit, const glm::vec3& at) {
         made.queries.push_back({pack(at), patchSideOf(hit)});
     });

@@ -1,17 +1,16 @@
 // Photons of a box, as a photon pass leaves them, and points to gather at.
 #pragma once
 
+#include "bench/micro/traced_photons.h"
 #include "micro/gather_types.h"
-#include "pass_types.h"
 
 #include <vector>
 
 namespace quasilux {
 
 struct MicroPhotons {
-    std::vector<shared::Photon> photons; ///< by region, each full
-    std::vector<shared::RegionCount> regions;
-    unsigned regionCapacity = 0;
+    std::vector<TracedPhoton> photons;
+    std::vector<size_t> regionEnds;           ///< where the photons of each region end
     std::vector<shared::GatherQuery> queries; ///< by tiles of the picture
     double density = 0;                       ///< photons per unit of area, mean
 };

@@ -1,17 +1,13 @@
-#include "render/cell_index.h"
-
-#include "util/error.h"
+#include "render/cell_table.h"
 
 #include <algorithm>
 #include <bit>
-#include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
 
 constexpr unsigned scanBlocksMax = 64;
-constexpr size_t vectorWidth = 8; // records are read eight at a time: the last group may reach beyond the last record
 
 // A few cells per disc's worth of records: collisions of rows only cost tests, and memory, on a GPU for each of many chunks,
 // more than on a CPU.
@@ -31,12 +27,11 @@ unsigned scanBlocksFor(size_t cells) {
 
 } // namespace
 
-CellIndex::CellIndex(Device& device, const Program& pass, unsigned slots, size_t fields, std::string noun)
-    : device_(device), countRecords_(pass.kernel("countRecords")), sumBlocks_(pass.kernel("sumBlocks")),
-      scanCells_(pass.kernel("scanCells")), scatterRecords_(pass.kernel("scatterRecords")), slots_(slots),
-      fields_(fields), noun_(std::move(noun)) {}
+CellTable::CellTable(Device& device, const Program& pass, unsigned slots, std::string noun)
+    : device_(device), sumBlocks_(pass.kernel("sumBlocks")), scanCells_(pass.kernel("scanCells")), slots_(slots),
+      noun_(std::move(noun)) {}
 
-void CellIndex::makeTable(uint64_t expected, unsigned regions) {
+void CellTable::make(uint64_t expected, unsigned regions) {
     map_.regions = regions;
     map_.cellMask = cellsPerSlot(expected, device_.info()) - 1;
     map_.chunks = chunksFor(device_.info(), regions);
@@ -45,33 +40,22 @@ void CellIndex::makeTable(uint64_t expected, unsigned regions) {
     counts_ = Buffer<uint32_t>(device_, cells * map_.chunks, noun_ + " cell counts");
     blockSums_ = Buffer<uint32_t>(device_, map_.scanBlocks, noun_ + " scan blocks");
     cellStart_ = Buffer<uint32_t>(device_, cells + 1, noun_ + " cells");
-    reserve(expected);
 }
 
-BufferSizes CellIndex::plan(unsigned slots, uint64_t expected, unsigned regions, size_t fields, const std::string& noun,
+BufferSizes CellTable::plan(unsigned slots, uint64_t expected, unsigned regions, const std::string& noun,
                             const DeviceInfo& device) {
     const size_t cells = size_t(std::popcount(slots)) * cellsPerSlot(expected, device);
     return {{noun + " cell counts", std::max<size_t>(1, cells * chunksFor(device, regions)) * sizeof(uint32_t)},
             {noun + " scan blocks", scanBlocksFor(cells) * sizeof(uint32_t)},
-            {noun + " cells", (cells + 1) * sizeof(uint32_t)},
-            {noun + "s sorted", fields * (expected + vectorWidth) * sizeof(uint32_t)}};
+            {noun + " cells", (cells + 1) * sizeof(uint32_t)}};
 }
 
-void CellIndex::reserve(uint64_t records) {
-    if (records + vectorWidth <= map_.photonStride) return;
-    const uint64_t stride = (map_.photonStride == 0 ? records : records + records / 4) + vectorWidth;
-    if (stride > UINT32_MAX)
-        throw DeviceError(
-            fmt::format("{} {}s in one pass, at most {} can be indexed: use fewer --photons, or a smaller "
-                        "image with --map camera",
-                        records, noun_, UINT32_MAX));
-    map_.photonStride = static_cast<unsigned>(stride);
-    sorted_ = Buffer<uint32_t>();
-    sorted_ = Buffer<uint32_t>(device_, fields_ * stride, noun_ + "s sorted");
-    sorted_.fill(0); // lanes beyond the last record are read, with weight 0: they must be finite
+void CellTable::scan() {
+    sumBlocks_.launchFew(map_.scanBlocks, counts_, blockSums_, map_);
+    scanCells_.launchFew(map_.scanBlocks, counts_, blockSums_, cellStart_, map_);
 }
 
-std::array<uint64_t, PHOTON_SLOTS> CellIndex::countBySlot() const {
+std::array<uint64_t, PHOTON_SLOTS> CellTable::countBySlot() const {
     std::array<uint64_t, PHOTON_SLOTS> counted{};
     size_t first = 0; // cell where the slot begins; its records stand between the starts of two slots
     for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {

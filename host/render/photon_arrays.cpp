@@ -1,0 +1,90 @@
+#include "render/photon_arrays.h"
+
+#include "util/error.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+// PHOTON_FIELDS of kernels/photon_grid.clh.
+constexpr unsigned photonFields(bool storesDepth) { return storesDepth ? 7 : 6; }
+// One array is free, so that the next field has where to go; one says where each photon goes.
+constexpr unsigned arrayCount(bool storesDepth) { return photonFields(storesDepth) + 2; }
+
+constexpr uint64_t divideUp(uint64_t count, uint64_t by) { return (count + by - 1) / by; }
+
+// The last block of each region is not full.
+uint64_t blocksFor(uint64_t photons, unsigned regions) { return divideUp(photons, PHOTON_BLOCK) + regions; }
+
+uint64_t strideOf(uint64_t blocks) { return blocks * PHOTON_BLOCK + recordsRead; }
+
+const std::string noun = "photon";
+
+} // namespace
+
+PhotonArrays::PhotonArrays(Device& device, const Program& pass, unsigned slots, bool storesDepth)
+    : device_(device), table_(device, pass, slots, noun), countPhotons_(pass.kernel("countPhotons")),
+      placePhotons_(pass.kernel("placePhotons")), movePhotons_(pass.kernel("movePhotons")), storesDepth_(storesDepth) {}
+
+void PhotonArrays::make(uint64_t photons, unsigned regions) {
+    table_.make(photons, regions);
+    makeBlocks(blocksFor(photons, regions));
+}
+
+BufferSizes PhotonArrays::plan(unsigned slots, uint64_t photons, unsigned regions, bool storesDepth,
+                               const DeviceInfo& device) {
+    BufferSizes sizes = CellTable::plan(slots, photons, regions, noun, device);
+    const uint64_t blocks = blocksFor(photons, regions);
+    sizes["photons"] = strideOf(blocks) * photonBytes(storesDepth);
+    sizes["photon blocks"] = (1 + blocks) * sizeof(uint32_t);
+    return sizes;
+}
+
+void PhotonArrays::makeBlocks(uint64_t count) {
+    if (strideOf(count) > UINT32_MAX)
+        throw DeviceError(fmt::format("room for {} photons in one pass, at most {} can be indexed: use fewer --photons",
+                                      count * PHOTON_BLOCK, UINT32_MAX - recordsRead));
+    blockCount_ = static_cast<unsigned>(count);
+    table_.map().photonStride = static_cast<unsigned>(strideOf(count));
+    arrays_ = {};
+    blocks_ = {};
+    arrays_ = Buffer<uint32_t>(device_, arrayCount(storesDepth_) * strideOf(count), "photons");
+    blocks_ = Buffer<uint32_t>(device_, 1 + count, "photon blocks");
+}
+
+bool PhotonArrays::enlarge(const std::vector<shared::RegionCount>& regions) {
+    uint64_t wanted = 0;
+    bool lacking = false;
+    for (const auto& region : regions) {
+        wanted += divideUp(region.wanted, PHOTON_BLOCK);
+        lacking |= region.wanted > region.stored;
+    }
+    if (lacking) makeBlocks(wanted + wanted / 8);
+    return lacking;
+}
+
+void PhotonArrays::clear() { blocks_.write({0u}); }
+
+void PhotonArrays::sort(const Buffer<shared::RegionCount>& regionBuffer,
+                        const std::vector<shared::RegionCount>& regions, const GeometryBuffers& geometry) {
+    uint64_t stored = 0, blocks = 0;
+    for (const auto& region : regions) {
+        stored += region.stored;
+        blocks += divideUp(region.stored, PHOTON_BLOCK);
+    }
+    const shared::MapParams& map = table_.map();
+    countPhotons_.launchFew(map.chunks, arrays_, blocks_, regionBuffer, geometry.tables, table_.counts(), map);
+    table_.scan();
+    placePhotons_.launchFew(map.chunks, arrays_, blocks_, regionBuffer, table_.counts(), map);
+    const auto room = static_cast<unsigned>(blocks * PHOTON_BLOCK);
+    for (unsigned field = 0; field < photonFields(storesDepth_); ++field)
+        movePhotons_.launch(std::max<size_t>(room, recordsRead), arrays_, field, room, static_cast<unsigned>(stored),
+                            map);
+}
+
+size_t PhotonArrays::photonBytes(bool storesDepth) { return arrayCount(storesDepth) * sizeof(uint32_t); }
+
+} // namespace quasilux
