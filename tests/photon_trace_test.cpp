@@ -3,15 +3,11 @@
 //     direct P,   quasi-caustic P (0.3 + 0.3^2 + …) = P 0.3 / 0.7,   all together P / (1 - 0.6).
 // All within 4 standard errors of 12 passes (Student t with 11 degrees
 // of freedom: 0.2 % a case); seeds are fixed.
-#include "bench/micro/native_flux.h"
-#include "bench/micro/native_grid.h"
 #include "scene/color.h"
 #include "support/render_statistics.h"
-#include "support/test_kernels.h"
+#include "support/stored_photons.h"
 
-#include "render/flux_unit.h"
 #include "render/method.h"
-#include "render/photon_stage.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -19,31 +15,18 @@
 namespace quasilux {
 namespace {
 
-constexpr unsigned passes = 12, photonCount = 20'000;
+using FluxByClass = std::array<double, LIGHT_CLASSES>;
 
-// Flux of the stored photons by class, for each pass.
-std::vector<std::array<double, LIGHT_CLASSES>> storedFlux(const DeviceScene& flat, const RenderSettings& settings,
-                                                          unsigned paths) {
-    const unsigned classes = photonClasses(flat.features, settings);
-    const GeometryBuffers geometry(testDevice(), flat);
-    shared::PhotonParams params{};
-    params.seedLow = 7;
-    params.paths = paths;
-    params.perFluxUnit = 1 / fluxUnit(flat.emittedFlux, params.paths);
-    params.maxDepth = QL_NONE;
-    params.scene = flat.offsets;
-    const Program program(testDevice(), "photon_map_pass.cl", kernelOptions(flat, settings));
-    PhotonStage stage(testDevice(), program, geometry, params, classes, false);
-    std::vector<std::array<double, LIGHT_CLASSES>> flux(passes);
-    for (unsigned pass = 0; pass < passes; ++pass) {
-        const auto count = stage.run(pass, {0.1f, 0.1f, 0.1f, 0.1f}, 1);
-        const shared::MapParams& map = stage.table().map();
-        const auto sorted = stage.sorted().read();
-        size_t photon = 0; // sorted by class
+// Flux of the stored photons by class, for each of 12 passes.
+std::vector<FluxByClass> storedFlux(const DeviceScene& flat, const RenderSettings& settings, unsigned paths) {
+    PhotonTracing tracing;
+    tracing.paths = paths;
+    tracing.radius = 0.1f;
+    std::vector<FluxByClass> flux;
+    for (const auto& pass : tracePhotons(flat, settings, tracing)) {
+        flux.emplace_back();
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
-            for (uint64_t k = 0; k < count.stored[c]; ++k, ++photon)
-                flux[pass][c] +=
-                    map.fluxUnit * mean(nativeUnpackFlux(sorted[fieldFlux * size_t(map.photonStride) + photon]));
+            for (const StoredPhoton& photon : pass[c]) flux.back()[c] += mean(photon.flux);
     }
     return flux;
 }
@@ -54,7 +37,7 @@ DeviceScene flattenFurnace() {
     return flattenScene(projectScene("furnace_split.xml"), flattening);
 }
 
-MeanAndError overPasses(const std::vector<std::array<double, LIGHT_CLASSES>>& flux, unsigned lightClass) {
+MeanAndError overPasses(const std::vector<FluxByClass>& flux, unsigned lightClass) {
     std::vector<double> ofClass;
     for (const auto& pass : flux) ofClass.push_back(pass[lightClass]);
     return meanAndError(ofClass);
@@ -64,7 +47,7 @@ TEST(PhotonTrace, StoredFluxIsTheEmittedFluxTimesItsSeries) {
     const auto flat = flattenFurnace();
     RenderSettings settings;
     settings.direct = DirectLight::photons;
-    const auto flux = storedFlux(flat, settings, photonCount);
+    const auto flux = storedFlux(flat, settings, 20'000);
     const double emitted = flat.emittedFlux;
     EXPECT_NEAR(emitted, 6 * 4 * 3.141592653589793, 1e-4) << "six walls of area 4 and radiance 1";
 

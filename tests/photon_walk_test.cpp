@@ -7,40 +7,18 @@
 // Deterministic: photons of the first collisions, of which 99 % must agree to 0.002 mm; with another seed (the negative
 // control) next to none does. Statistical: flux by class, the mean of 12 passes of the ratio of two runs that share their
 // paths, within 4 standard errors of 1 (Student t with 11 degrees of freedom: 0.2 % a case); seeds are fixed.
-#include "bench/micro/native_flux.h"
-#include "bench/micro/native_grid.h"
 #include "support/render_statistics.h"
-#include "support/test_kernels.h"
+#include "support/stored_photons.h"
 #include "support/traversal_device.h"
 
-#include "render/flux_unit.h"
-#include "render/method.h"
-#include "render/photon_stage.h"
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <gtest/gtest.h>
 
 namespace quasilux {
 namespace {
 
-constexpr unsigned passes = 12, photonCount = 20'000;
-
-struct StoredPhoton {
-    float x, y, z, flux;
-};
-/// By slot of the map, for each pass.
-using Stored = std::vector<std::array<std::vector<StoredPhoton>, PHOTON_SLOTS>>;
-
-struct Tracing {
-    std::string options;
-    std::array<float, LIGHT_CLASSES> keep = {1, 1, 1, 1};
-    unsigned seed = 7;
-    KernelSources replaced = {};
-};
-
-Stored trace(const Tracing& tracing) {
+StoredPasses trace(const PhotonTracing& tracing) {
     RenderSettings settings;
     settings.quasiSpecular = "level:0.1";
     settings.quasiSpecularFromCommandLine = true;
@@ -49,39 +27,12 @@ Stored trace(const Tracing& tracing) {
     flattening.largestRadius = [](double) { return 5.0; };
     flattening.quasiSpecular = settings.quasiSpecular;
     flattening.overridesScene = true;
-    const auto flat = flattenScene(projectScene("plate_checker.xml"), flattening);
-    const GeometryBuffers geometry(testDevice(), flat);
-    shared::PhotonParams params{};
-    params.seedLow = tracing.seed;
-    params.paths = photonCount;
-    params.perFluxUnit = 1 / fluxUnit(flat.emittedFlux, params.paths);
-    params.maxDepth = QL_NONE;
-    params.scene = flat.offsets;
-    const Program program(testDevice(), "photon_map_pass.cl", kernelOptions(flat, settings) + tracing.options,
-                          tracing.replaced);
-    PhotonStage stage(testDevice(), program, geometry, params, photonClasses(flat.features, settings), false);
-    stage.thinVolume(tracing.keep);
-    Stored stored(passes);
-    for (unsigned pass = 0; pass < passes; ++pass) {
-        const auto count = stage.run(pass, {1, 1, 1, 1}, 1);
-        const auto sorted = stage.sorted().read();
-        const auto field = [&](size_t k, uint64_t photon) {
-            return sorted[k * stage.table().map().photonStride + photon];
-        };
-        const auto coordinate = [&](size_t k, uint64_t photon) { return std::bit_cast<float>(field(k, photon)); };
-        uint64_t photon = 0; // sorted by slot
-        for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
-            for (uint64_t k = 0; k < count.stored[slot]; ++k, ++photon)
-                stored[pass][slot].push_back({coordinate(fieldX, photon), coordinate(fieldY, photon),
-                                              coordinate(fieldZ, photon),
-                                              nativeUnpackFlux(field(fieldFlux, photon)).r});
-    }
-    return stored;
+    return tracePhotons(flattenScene(projectScene("plate_checker.xml"), flattening), settings, tracing);
 }
 
 double flux(const std::vector<StoredPhoton>& photons) {
     double sum = 0;
-    for (const auto& photon : photons) sum += photon.flux;
+    for (const auto& photon : photons) sum += photon.flux.r;
     return sum;
 }
 
@@ -92,7 +43,7 @@ double sharePaired(std::vector<StoredPhoton> a, std::vector<StoredPhoton> b) {
     std::sort(b.begin(), b.end(), byX);
     size_t paired = 0;
     for (const auto& p : a) {
-        auto other = std::lower_bound(b.begin(), b.end(), StoredPhoton{p.x - tolerance, 0, 0, 0}, byX);
+        auto other = std::lower_bound(b.begin(), b.end(), StoredPhoton{p.x - tolerance, 0, 0, {}}, byX);
         for (; other != b.end() && other->x <= p.x + tolerance; ++other)
             if (std::abs(other->y - p.y) <= tolerance && std::abs(other->z - p.z) <= tolerance) {
                 ++paired;
@@ -103,21 +54,21 @@ double sharePaired(std::vector<StoredPhoton> a, std::vector<StoredPhoton> b) {
 }
 
 /// Flux in a slot, `a` to `b`.
-MeanAndError fluxRatio(const Stored& a, const Stored& b, unsigned slot) {
+MeanAndError fluxRatio(const StoredPasses& a, const StoredPasses& b, unsigned slot) {
     std::vector<double> ratios;
-    for (unsigned pass = 0; pass < passes; ++pass) ratios.push_back(flux(a[pass][slot]) / flux(b[pass][slot]));
+    for (unsigned pass = 0; pass < a.size(); ++pass) ratios.push_back(flux(a[pass][slot]) / flux(b[pass][slot]));
     return meanAndError(ratios);
 }
 
 const std::string walking = " -DWALK_ANYWHERE", onTheirOwn = " -DPORTABLE_MASK";
 
-const Stored& abreast() {
-    static const Stored stored = trace({walking});
+const StoredPasses& abreast() {
+    static const StoredPasses stored = trace({walking});
     return stored;
 }
 
 TEST(PhotonWalk, AbreastPhotonsDoWhatTheyDoOnTheirOwn) {
-    const Stored alone = trace({onTheirOwn}), otherSeed = trace({onTheirOwn, {1, 1, 1, 1}, 8});
+    const StoredPasses alone = trace({onTheirOwn}), otherSeed = trace({onTheirOwn, {1, 1, 1, 1}, 8});
     for (const unsigned lightClass : {LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}) {
         const unsigned slot = VOLUME_SLOT(lightClass);
         ASSERT_GT(abreast()[0][slot].size(), 300u) << "too few photons of class " << lightClass;
@@ -132,12 +83,12 @@ TEST(PhotonWalk, AbreastPhotonsDoWhatTheyDoOnTheirOwn) {
 
 // Negative controls: flights that end beyond the border taken for collisions; the phase function's value the wrong way round.
 TEST(PhotonWalk, WrongWalksAreFound) {
-    const Stored alone = trace({onTheirOwn});
+    const StoredPasses alone = trace({onTheirOwn});
     const unsigned slot = VOLUME_SLOT(LIGHT_DIFFUSE);
     for (const auto& [right, wrong] :
          {std::pair("return clearance > 2 *", "return clearance + 0.03f > 2 *"),
           std::pair("phaseValue8(in->medium, 1.0f - oneMinusCos)", "phaseValue8(in->medium, oneMinusCos - 1.0f)")}) {
-        const Stored walked = trace({walking, {1, 1, 1, 1}, 7, mutant("photon_walk.clh", right, wrong)});
+        const StoredPasses walked = trace({walking, {1, 1, 1, 1}, 7, mutant("photon_walk.clh", right, wrong)});
         const MeanAndError ratio = fluxRatio(walked, alone, slot);
         EXPECT_GT(std::abs(ratio.mean - 1), 4 * ratio.standardError + 1e-6) << wrong;
     }
@@ -146,7 +97,7 @@ TEST(PhotonWalk, WrongWalksAreFound) {
 TEST(PhotonWalk, ThinningKeepsTheMean) {
     const std::array<float, LIGHT_CLASSES> keep = {1, 0.5f, 0.3f, 0.11f};
     for (const std::string& options : {walking, onTheirOwn, onTheirOwn + walking}) {
-        const Stored thinned = trace({options, keep});
+        const StoredPasses thinned = trace({options, keep});
         for (const unsigned lightClass : {LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}) {
             const unsigned slot = VOLUME_SLOT(lightClass);
             const MeanAndError ratio = fluxRatio(thinned, abreast(), slot);
