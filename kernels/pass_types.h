@@ -48,7 +48,8 @@ typedef struct {
     unsigned int cutPaths;              /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
     float fluxCut;                  /* W, mean of R, G, B, of those paths */
-    unsigned int overflows;         /* flux that left the range of packed_flux.clh, sums of splats that left theirs */
+    unsigned int overflows;         /* sums of splats that left the range of their fixed point (camera map) */
+    unsigned int clipped;           /* photons with more flux than packed_flux.clh holds */
     unsigned int meterCaustics;     /* caustic and quasi-caustic photons that were counted at a meter */
     float energy[6], energyRest[6]; /* W, by ENERGY_*: unevaluated sums; 0 without ENERGY_BALANCE */
 } RegionCount;
@@ -83,8 +84,9 @@ typedef struct {
     unsigned int regionCapacity; /* of camera points */
     unsigned int photonStride;   /* of the sorted arrays: records from one field to the next */
     unsigned int scanBlocks;
-    float fluxUnit;   /* of photons' flux as stored, W: a power of two */
-    float biasWeight; /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
+    float fluxUnit;               /* of photons' flux as stored, W: a power of two */
+    float perKept[LIGHT_CLASSES]; /* of photons in media, by class: 1 / PhotonParams::keepProbability */
+    float biasWeight;             /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
 } MapParams;
 
 typedef struct {
@@ -125,7 +127,7 @@ typedef struct {
 typedef struct {
     Packed3 position;
     Rgb weight;             /* of (flux * kernel * f) in the pixel; f of Lambert lobes and tints of others included */
-    unsigned int place;     /* Photon::patchSide of the photons that it takes */
+    unsigned int place;     /* PHOTON_PATCH_SIDE of the photons that it takes */
     unsigned int slotDepth; /* segments that such a photon may have behind it << 3 | map slot */
     unsigned int pixel;
     unsigned int scatterer; /* surface: POINT_LAMBERT, or lobe index << 1 | 1 where it transmits; medium: SCATTER_* */

@@ -1,5 +1,5 @@
 /* Stage 1 of a pass: trace photons from the emitters and store them by class.
- * From: emitters. To: photons in regions, in an order that is the region's own (so the result does not depend on scheduling).
+ * From: emitters. To: photons in blocks, chained in an order that is the region's own (so the result does not depend on scheduling).
  * With MAP_CAMERA it is stage 3 and stores nothing: photons are splatted to camera points. To: sums of splats. */
 #include "emitter.clh"
 #include "energy_balance.clh"
@@ -148,9 +148,13 @@ inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, cons
     ++path->depth;
     __global const Lobe* lobes = SCENE_TABLE(world->tables, scene, Lobe, lobes) + s.firstLobe;
     const uint lightClass = lawPhotonClass(path->events);
-    if (storableClasses(lobes, s.lobeCount) & (1u << lightClass))
-        deliverPhoton(sink, count, path, s.position, path->flux * shadingNormalArrival(&s), s.patch << 1 | s.front,
-                      lightClass);
+    if (storableClasses(lobes, s.lobeCount) & (1u << lightClass)) {
+        const float3 arriving = path->flux * shadingNormalArrival(&s);
+        if (all(isfinite(arriving)))
+            deliverPhoton(sink, count, path, s.position, arriving, s.patch << 1 | s.front, lightClass);
+        else
+            ++count->nonFinite;
+    }
     const float2 uDirection = rngNext2(&path->rng);
     const float3 u = (float3)(rngNext(&path->rng), uDirection.x, uDirection.y);
     const float arrived = meanFlux(path->flux);
@@ -250,7 +254,7 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
 /* The paths of one region. */
 inline void traceRegion(uint region, const PhotonWorld* world, const PhotonSink* sink, __global RegionCount* counts) {
     const PhotonParams* params = world->params;
-    RegionCount count = {0, 0, 0, 0, 0, 0, 0, 0, 0, {0}, {0}};
+    RegionCount count = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {0}, {0}};
     const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
     const uint first = region * params->pathsPerRegion;
     tracePaths(first, min(first + params->pathsPerRegion, params->paths), &lattice, world, sink, &count);

@@ -137,7 +137,8 @@ TEST_P(MapOrders, Agree) {
             << componentName(unsigned(k));
     EXPECT_TRUE(camera.counters.photonsStored.empty());
     EXPECT_FALSE(camera.counters.cameraPointsStored.empty());
-    EXPECT_EQ(camera.counters.nonFinite + camera.counters.overflows + camera.counters.cutPaths, 0u);
+    for (const RenderCounters& counters : {photons.counters, camera.counters})
+        EXPECT_EQ(counters.nonFinite + counters.overflows + counters.clipped + counters.cutPaths, 0u);
     EXPECT_EQ(photons.counters.photonsEmitted, camera.counters.photonsEmitted);
 }
 

@@ -30,6 +30,7 @@ std::vector<Case> cases() {
     return {{"film", {scene("cornell_phong.xml"), "-D", "resolution=640", "--photons", "50000"}},
             {"photons", {scene("cornell_phong.xml"), "-D", "resolution=64", "--photons", "2000000"}},
             {"media", {scene("fog_caustic.xml")}},
+            {"no photons", {scene("furnace_split.xml"), "--quasi-specular", "all", "--variant", "alternative"}},
             {"camera map", {scene("cornell_phong.xml"), "--map", "camera", "-D", "resolution=384"}}};
 }
 

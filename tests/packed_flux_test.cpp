@@ -1,8 +1,9 @@
 // Flux in one word: the mean over all random bits is the flux, whatever its size; the codes are what native loops take them
 // for; and what is too large is told.
 //
-// Exact but for the last: the random bits of positions are tested by chi squared, false alarm 1e-4 (support/chi_squared.h).
+// Exact but for the random bits of photons, which are tested by chi squared, false alarm 1e-4 (support/chi_squared.h).
 #include "bench/micro/native_flux.h"
+#include "render/flux_unit.h"
 #include "support/chi_squared.h"
 #include "support/test_kernels.h"
 
@@ -20,13 +21,13 @@ struct Flux {
 constexpr unsigned randomBits = 18;
 
 std::vector<uint32_t> pack(const std::vector<Flux>& flux, const std::vector<uint32_t>& random,
-                           std::vector<int>* overflows = nullptr) {
+                           std::vector<int>* clipped = nullptr) {
     Program program = testProgram("packed_flux.cl");
     Buffer<Flux> input(testDevice(), flux, "flux");
     Buffer<uint32_t> bits(testDevice(), random, "random"), packed(testDevice(), flux.size(), "packed");
-    Buffer<int> lost(testDevice(), flux.size(), "overflows");
+    Buffer<int> lost(testDevice(), flux.size(), "clipped");
     program.kernel("packAll").launch(flux.size(), input, bits, packed, lost, unsigned(flux.size()));
-    if (overflows) *overflows = lost.read();
+    if (clipped) *clipped = lost.read();
     return packed.read();
 }
 
@@ -108,10 +109,10 @@ TEST(PackedFlux, NativeLoopsReadAndWriteTheSame) {
 }
 
 TEST(PackedFlux, WhatIsTooLargeIsTold) {
-    std::vector<int> overflows;
+    std::vector<int> clipped;
     const auto packed =
-        pack({{1.98f, 0, 0}, {2.1f, 0, 0}, {0, 1e20f, 0}, {0, 0, INFINITY}}, std::vector<uint32_t>(4, 0), &overflows);
-    EXPECT_EQ(overflows, (std::vector<int>{0, 1, 1, 1}));
+        pack({{1.98f, 0, 0}, {2.1f, 0, 0}, {0, 1e20f, 0}, {0, 0, INFINITY}}, std::vector<uint32_t>(4, 0), &clipped);
+    EXPECT_EQ(clipped, (std::vector<int>{0, 1, 1, 1}));
     const auto kept = unpack(packed);
     EXPECT_GT(kept[1].r, 1.9f) << "the largest there is, not another number";
     EXPECT_GT(kept[2].g, 1.9f);
@@ -119,31 +120,39 @@ TEST(PackedFlux, WhatIsTooLargeIsTold) {
     EXPECT_GT(kept[3].b, 1.9f);
 }
 
-/// Random bits of photons on one wall, the place of which is the same in z.
-std::vector<uint32_t> roundingsOnAWall(unsigned count) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> place(-1, 1);
-    std::vector<Flux> positions;
-    for (unsigned k = 0; k < count; ++k) positions.push_back({place(random), place(random), 0.25f});
+std::vector<uint32_t> roundings(unsigned count) {
     Program program = testProgram("packed_flux.cl");
-    Buffer<Flux> input(testDevice(), positions, "positions");
     Buffer<uint32_t> bits(testDevice(), count, "random");
-    program.kernel("roundings").launch(count, input, bits, count);
+    program.kernel("roundings").launch(count, bits, count);
     return bits.read();
 }
 
-TEST(PackedFlux, PlacesAreAsGoodAsRandom) {
+TEST(PackedFlux, NeighboursAreRoundedAtRandom) {
     constexpr unsigned cells = 256;
-    std::vector<uint64_t> upper(cells + 1, 0), lower(cells + 1, 0); // the last one counts what is outside
-    for (const uint32_t bits : roundingsOnAWall(200'000)) {
+    std::vector<uint64_t> upper(cells + 1, 0), lower(cells + 1, 0), pairs(cells + 1, 0); // the last: what is outside
+    uint32_t before = 0;
+    for (const uint32_t bits : roundings(200'000)) {
         ++upper[std::min(bits >> (randomBits - 8), cells)];
         ++lower[bits % cells];
+        ++pairs[(before >> (randomBits - 4) << 4) + (bits >> (randomBits - 4))];
+        before = bits;
     }
     const std::vector<double> even(cells, 1.0 / cells);
-    EXPECT_GT(chiSquaredPValue(upper, even), significanceLevel(2));
-    EXPECT_GT(chiSquaredPValue(lower, even), significanceLevel(2));
+    for (const auto& counts : {upper, lower, pairs}) EXPECT_GT(chiSquaredPValue(counts, even), significanceLevel(3));
     lower[0] += 300; // control
-    EXPECT_LT(chiSquaredPValue(lower, even), significanceLevel(2));
+    EXPECT_LT(chiSquaredPValue(lower, even), significanceLevel(3));
+}
+
+// A photon's flux, as emitted and 2000 times that, is well within what can be stored, whatever its size.
+TEST(PackedFlux, UnitFitsThePhotons) {
+    for (const double emitted : {1e-12, 0.3, 1.0, 700.0, 1e9})
+        for (const unsigned paths : {1u, 2048u, 10'000'000u}) {
+            const double unit = fluxUnit(emitted, paths), mostOfAPhoton = 3 * emitted / paths;
+            EXPECT_EQ(std::ilogb(unit), std::log2(unit)) << "a power of two, so that it rounds nothing";
+            EXPECT_LT(2000 * mostOfAPhoton, 1.9 * unit);
+            EXPECT_GT(1e-5 * mostOfAPhoton, 0x1p-30 * unit);
+        }
+    EXPECT_GT(fluxUnit(0, 100), 0) << "a scene without light";
 }
 
 } // namespace

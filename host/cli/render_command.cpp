@@ -128,6 +128,11 @@ void warnOfCounters(const RenderOptions& options, const RenderCounters& counters
     if (counters.overflows > 0)
         warn(options, fmt::format("{} sums of splats left their range: the image is wrong there, use --map photons",
                                   counters.overflows));
+    if (counters.clipped > 0)
+        warn(options,
+             fmt::format("{} photons carried more flux than can be stored and were cut to that: the image lacks "
+                         "the rest",
+                         counters.clipped));
     if (counters.meterCaustics && *counters.meterCaustics < causticsPerPixel * pixels)
         warn(options, fmt::format("{} photons of caustics have met the meter's {} pixels: that light is not known, nor "
                                   "its error; take a larger meter or cells, more --photons or passes, or, for "

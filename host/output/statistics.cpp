@@ -53,6 +53,7 @@ json countersJson(const RenderCounters& counters) {
             {"nonFinite", counters.nonFinite},
             {"cutPaths", counters.cutPaths},
             {"overflows", counters.overflows},
+            {"photonsClipped", counters.clipped},
             {"meterCaustics", counters.meterCaustics ? json(*counters.meterCaustics) : json()},
             {"fluxEmitted", counters.fluxEmitted},
             {"fluxCut", counters.fluxCut},

@@ -27,7 +27,6 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
       cameraParams_(camera), photonParams_(photons), classes_(classes) {
     photonParams_.pathsPerRegion = photonsPerRegion;
     photonParams_.regions = divideUp(photonParams_.paths, photonsPerRegion);
-    std::fill_n(photonParams_.keepProbability, LIGHT_CLASSES, 1.f);
     photonRegions_ = Buffer<shared::RegionCount>(device, photonParams_.regions, "photon regions");
 
     points_.pixelsPerRegion = pixelsPerRegion;
@@ -36,6 +35,7 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
     index_.table().map().regionCapacity = pixelsPerRegion;
     index_.table().map().media = camera.scene.media;
     index_.table().map().fluxUnit = 1 / photons.perFluxUnit;
+    thinVolume({1, 1, 1, 1});
     const size_t paths = film.pixels() * pathsPerPixel();
     const unsigned regions = divideUp(paths, pixelsPerRegion);
     index_.make(paths, regions);
@@ -47,7 +47,10 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
 }
 
 void CameraMapStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability) {
-    std::copy(keepProbability.begin(), keepProbability.end(), photonParams_.keepProbability);
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
+        photonParams_.keepProbability[c] = keepProbability[c];
+        index_.table().map().perKept[c] = 1 / keepProbability[c];
+    }
 }
 
 void CameraMapStage::makeRegions() {

@@ -7,9 +7,9 @@ namespace quasilux {
 
 namespace {
 
-// A photon carries at most three times its share of the emitted flux at first, which is a mean of R, G, B; thinning and
-// shading normals may add to it. What is 2^-21 of it has little to say.
-constexpr int headroomBits = 9;
+// A photon carries at most three times its share of the emitted flux at first, which is a mean of R, G, B; shading normals may
+// add to it. What is 2^-18 of it has little to say.
+constexpr int headroomBits = 12;
 
 } // namespace
 

@@ -19,7 +19,15 @@ constexpr uint64_t divideUp(uint64_t count, uint64_t by) { return (count + by - 
 // The last block of each region is not full.
 uint64_t blocksFor(uint64_t photons, unsigned regions) { return divideUp(photons, PHOTON_BLOCK) + regions; }
 
-uint64_t strideOf(uint64_t blocks) { return blocks * PHOTON_BLOCK + recordsRead; }
+// A block more, so that all blocks begin on a cache line; records are read beyond the last one.
+uint64_t strideOf(uint64_t blocks) { return (blocks + 1) * PHOTON_BLOCK; }
+static_assert(recordsRead <= PHOTON_BLOCK);
+
+// Photons are numbered by 32 bits.
+constexpr uint64_t blocksMax = UINT32_MAX / PHOTON_BLOCK - 1;
+
+// From so many work-items on, kernels are compiled anew (docs/memory.md, "Time to compile"): the pilot is to launch as many.
+constexpr size_t movedAtLeast = 65536;
 
 const std::string noun = "photon";
 
@@ -44,9 +52,9 @@ BufferSizes PhotonArrays::plan(unsigned slots, uint64_t photons, unsigned region
 }
 
 void PhotonArrays::makeBlocks(uint64_t count) {
-    if (strideOf(count) > UINT32_MAX)
+    if (count > blocksMax)
         throw DeviceError(fmt::format("room for {} photons in one pass, at most {} can be indexed: use fewer --photons",
-                                      count * PHOTON_BLOCK, UINT32_MAX - recordsRead));
+                                      count * PHOTON_BLOCK, blocksMax * PHOTON_BLOCK));
     blockCount_ = static_cast<unsigned>(count);
     table_.map().photonStride = static_cast<unsigned>(strideOf(count));
     arrays_ = {};
@@ -62,7 +70,7 @@ bool PhotonArrays::enlarge(const std::vector<shared::RegionCount>& regions) {
         wanted += divideUp(region.wanted, PHOTON_BLOCK);
         lacking |= region.wanted > region.stored;
     }
-    if (lacking) makeBlocks(wanted + wanted / 8);
+    if (lacking) makeBlocks(std::max(wanted, std::min(wanted + wanted / 8, blocksMax)));
     return lacking;
 }
 
@@ -81,7 +89,7 @@ void PhotonArrays::sort(const Buffer<shared::RegionCount>& regionBuffer,
     placePhotons_.launchFew(map.chunks, arrays_, blocks_, regionBuffer, table_.counts(), map);
     const auto room = static_cast<unsigned>(blocks * PHOTON_BLOCK);
     for (unsigned field = 0; field < photonFields(storesDepth_); ++field)
-        movePhotons_.launch(std::max<size_t>(room, recordsRead), arrays_, field, room, static_cast<unsigned>(stored),
+        movePhotons_.launch(std::max<size_t>(room, movedAtLeast), arrays_, field, room, static_cast<unsigned>(stored),
                             map);
 }
 

@@ -5,17 +5,18 @@
 namespace quasilux {
 
 PhotonStage::PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry,
-                         shared::PhotonParams params, unsigned classes, bool storesDepth, uint64_t photons)
+                         shared::PhotonParams params, unsigned classes, bool storesDepth,
+                         std::optional<uint64_t> photons)
     : geometry_(geometry), tracePhotons_(pass.kernel("tracePhotons")), photons_(device, pass, classes, storesDepth),
       params_(params), classes_(classes) {
     params_.pathsPerRegion = pathsPerRegion;
     params_.regions = regionCount(params_.paths);
-    std::fill_n(params_.keepProbability, LIGHT_CLASSES, 1.f);
     regions_ = Buffer<shared::RegionCount>(device, params_.regions, "photon regions");
-    photons_.make(photons ? photons : params_.paths, params_.regions);
+    photons_.make(classes == 0 ? 0 : photons.value_or(params_.paths), params_.regions);
     shared::MapParams& map = photons_.table().map();
     map.media = params_.scene.media;
     map.fluxUnit = 1 / params_.perFluxUnit;
+    thinVolume({1, 1, 1, 1});
 }
 
 std::vector<shared::RegionCount> PhotonStage::trace() {
@@ -38,7 +39,10 @@ std::vector<shared::RegionCount> PhotonStage::trace() {
 }
 
 void PhotonStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability) {
-    std::copy(keepProbability.begin(), keepProbability.end(), params_.keepProbability);
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
+        params_.keepProbability[c] = keepProbability[c];
+        photons_.table().map().perKept[c] = 1 / keepProbability[c];
+    }
 }
 
 PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace quasilux {
 
@@ -24,7 +25,7 @@ public:
     /// kernels are compiled with HAS_DEPTH_LIMIT; room for so many `photons` saves enlarging the buffers
     /// later.
     PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry, shared::PhotonParams params,
-                unsigned classes, bool storesDepth, uint64_t photons = 0);
+                unsigned classes, bool storesDepth, std::optional<uint64_t> photons = std::nullopt);
 
     /// Traces the photons of a pass and indexes them with these radii, by class. A photon buffer that proves too small
     /// is enlarged and the pass traced again, so none is lost. `volumeScale` is that of kernels in media to their first

@@ -219,6 +219,7 @@ struct Renderer::Stages {
         counters.cutPaths += ofPass.cutPaths;
         counters.nonFinite += ofPass.nonFinite;
         counters.overflows += ofPass.overflows;
+        counters.clipped += ofPass.clipped;
         counters.fluxCut += ofPass.fluxCut;
         if (meterCountsCaustics(flat.features, settings))
             counters.meterCaustics = counters.meterCaustics.value_or(0) + ofPass.meterCaustics;
@@ -283,6 +284,7 @@ RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
     nonFinite += other.nonFinite;
     cutPaths += other.cutPaths;
     overflows += other.overflows;
+    clipped += other.clipped;
     if (other.meterCaustics) meterCaustics = meterCaustics.value_or(0) + *other.meterCaustics;
     fluxEmitted += other.fluxEmitted;
     fluxCut += other.fluxCut;

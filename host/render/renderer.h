@@ -56,11 +56,12 @@ struct RenderCounters {
     std::map<std::string, uint64_t> photonsStored;      ///< by class; in media "volume " and the class
     std::map<std::string, uint64_t> cameraPointsStored; ///< the same for the camera map
     uint64_t storedPoints = 0; ///< photons or camera points in the map of one pass, the most of all passes
-    uint64_t storedBytes = 0;  ///< that they take, as traced and in the index
+    uint64_t storedBytes = 0;  ///< that they take, traced and in the index
     uint64_t cameraPaths = 0;
     uint64_t nonFinite = 0; ///< samples dropped since they were not finite; a right render has none
     uint64_t cutPaths = 0;  ///< paths ended by the hard limit on events
     uint64_t overflows = 0; ///< sums of splats that left their range (camera map); a right render has none
+    uint64_t clipped = 0;   ///< photons with more flux than can be stored, which is cut to that
     std::optional<uint64_t>
         meterCaustics;                   ///< photons of caustics that an irradiance meter has met; where it counts any
     double fluxEmitted = 0, fluxCut = 0; ///< W, mean of R, G, B

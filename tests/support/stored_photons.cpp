@@ -13,15 +13,13 @@ namespace quasilux {
 
 namespace {
 
-/// Photon `photon` of the sorted arrays.
-StoredPhoton read(const std::vector<uint32_t>& sorted, const shared::MapParams& map, size_t photon) {
+/// Photon `photon` of the sorted arrays, which is of this slot.
+StoredPhoton read(const std::vector<uint32_t>& sorted, const shared::MapParams& map, size_t photon, unsigned slot) {
     const auto field = [&](size_t number) { return sorted[number * map.photonStride + photon]; };
     const auto coordinate = [&](size_t number) { return std::bit_cast<float>(field(number)); };
     const shared::Rgb flux = nativeUnpackFlux(field(fieldFlux));
-    return {coordinate(fieldX),
-            coordinate(fieldY),
-            coordinate(fieldZ),
-            {map.fluxUnit * flux.r, map.fluxUnit * flux.g, map.fluxUnit * flux.b}};
+    const float unit = map.fluxUnit * (slot < LIGHT_CLASSES ? 1 : map.perKept[slot - LIGHT_CLASSES]);
+    return {coordinate(fieldX), coordinate(fieldY), coordinate(fieldZ), {unit * flux.r, unit * flux.g, unit * flux.b}};
 }
 
 } // namespace
@@ -47,7 +45,7 @@ StoredPasses tracePhotons(const DeviceScene& flat, const RenderSettings& setting
         size_t photon = 0;
         for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
             for (uint64_t k = 0; k < count.stored[slot]; ++k)
-                stored[pass][slot].push_back(read(sorted, stage.table().map(), photon++));
+                stored[pass][slot].push_back(read(sorted, stage.table().map(), photon++, slot));
     }
     return stored;
 }

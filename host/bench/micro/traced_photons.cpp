@@ -24,7 +24,8 @@ void putDown(const TracedPhoton& photon, size_t at, size_t stride, bool storesDe
 TracedLayout layOutPhotons(const std::vector<TracedPhoton>& photons, const std::vector<size_t>& regionEnds,
                            size_t stride, bool storesDepth) {
     TracedLayout made;
-    made.arrays.resize((storesDepth ? 9 : 8) * stride);
+    constexpr uint32_t nan = 0x7fc00000; // what was there before may be anything
+    made.arrays.assign((storesDepth ? 9 : 8) * stride, nan);
     made.blocks.assign(1, 0);
     made.regions.resize(regionEnds.size());
     const auto beginOf = [&](size_t region) { return region == 0 ? 0 : regionEnds[region - 1]; };
