@@ -26,8 +26,8 @@ static_assert(recordsRead <= PHOTON_BLOCK);
 // Photons are numbered by 32 bits.
 constexpr uint64_t blocksMax = UINT32_MAX / PHOTON_BLOCK - 1;
 
-// From so many work-items on, kernels are compiled anew (docs/memory.md, "Time to compile"): the pilot is to launch as many.
-constexpr size_t movedAtLeast = 65536;
+// From so many work-items on, kernels are compiled anew (docs/memory.md, "Time to compile").
+constexpr size_t manyWorkItems = 65536;
 
 const std::string noun = "photon";
 
@@ -89,9 +89,11 @@ void PhotonArrays::sort(const Buffer<shared::RegionCount>& regionBuffer,
     placePhotons_.launchFew(map.chunks, arrays_, blocks_, regionBuffer, table_.counts(), map);
     const auto room = static_cast<unsigned>(blocks * PHOTON_BLOCK);
     for (unsigned field = 0; field < photonFields(storesDepth_); ++field)
-        movePhotons_.launch(std::max<size_t>(room, movedAtLeast), arrays_, field, room, static_cast<unsigned>(stored),
+        movePhotons_.launch(std::max<size_t>(room, recordsRead), arrays_, field, room, static_cast<unsigned>(stored),
                             map);
 }
+
+void PhotonArrays::compile() { movePhotons_.launch(manyWorkItems, arrays_, 0u, 0u, 0u, table_.map()); }
 
 size_t PhotonArrays::photonBytes(bool storesDepth) { return arrayCount(storesDepth) * sizeof(uint32_t); }
 

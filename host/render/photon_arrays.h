@@ -29,6 +29,9 @@ public:
     void sort(const Buffer<shared::RegionCount>& regionBuffer, const std::vector<shared::RegionCount>& regions,
               const GeometryBuffers& geometry);
 
+    /// Has compiled what only passes of many photons would otherwise.
+    void compile();
+
     CellTable& table() { return table_; }
     const CellTable& table() const { return table_; }
     unsigned blockCount() const { return blockCount_; }

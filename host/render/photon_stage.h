@@ -40,6 +40,9 @@ public:
 
     /// Photons emitted in a pass: none where no path can use any class.
     unsigned photonsPerPass() const { return classes_ == 0 ? 0 : params_.paths; }
+    /// Has compiled, after a pass of few photons, what only those of many would otherwise.
+    void compile() { photons_.compile(); }
+
     /// The photons of the last pass, sorted.
     const Buffer<uint32_t>& sorted() const { return photons_.sorted(); }
     const CellTable& table() const { return photons_.table(); }

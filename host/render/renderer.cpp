@@ -185,6 +185,7 @@ struct Renderer::Stages {
         if (meterCountsPhotons(flat.features, settings))
             stage.countAt(uncounted.emplace(device, classes, film.pixels(), meanRadiance(flat)));
         const PhotonPassCount counted = stage.run(pilotPass, radii(0), volumeScale(0));
+        stage.compile();
         if (compilesCamera && camera) camera->compile(stage);
         if (compilesCamera && meter) meter->compile(stage);
         device.finish();
