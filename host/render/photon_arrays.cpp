@@ -78,22 +78,17 @@ void PhotonArrays::clear() { blocks_.write({0u}); }
 
 void PhotonArrays::sort(const Buffer<shared::RegionCount>& regionBuffer,
                         const std::vector<shared::RegionCount>& regions, const GeometryBuffers& geometry) {
-    uint64_t stored = 0, blocks = 0;
-    for (const auto& region : regions) {
-        stored += region.stored;
-        blocks += divideUp(region.stored, PHOTON_BLOCK);
-    }
+    uint64_t stored = 0;
+    for (const auto& region : regions) stored += region.stored;
     const shared::MapParams& map = table_.map();
     countPhotons_.launchFew(map.chunks, arrays_, blocks_, regionBuffer, geometry.tables, table_.counts(), map);
     table_.scan();
     placePhotons_.launchFew(map.chunks, arrays_, blocks_, regionBuffer, table_.counts(), map);
-    const auto room = static_cast<unsigned>(blocks * PHOTON_BLOCK);
     for (unsigned field = 0; field < photonFields(storesDepth_); ++field)
-        movePhotons_.launch(std::max<size_t>(room, recordsRead), arrays_, field, room, static_cast<unsigned>(stored),
-                            map);
+        movePhotons_.launch(std::max<size_t>(stored, recordsRead), arrays_, field, static_cast<unsigned>(stored), map);
 }
 
-void PhotonArrays::compile() { movePhotons_.launch(manyWorkItems, arrays_, 0u, 0u, 0u, table_.map()); }
+void PhotonArrays::compile() { movePhotons_.launch(manyWorkItems, arrays_, 0u, 0u, table_.map()); }
 
 size_t PhotonArrays::photonBytes(bool storesDepth) { return arrayCount(storesDepth) * sizeof(uint32_t); }
 

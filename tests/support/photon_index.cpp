@@ -58,10 +58,9 @@ PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonI
     program.kernel("sumBlocks").launchFew(map.scanBlocks, cellCounts, blockSums, map);
     program.kernel("scanCells").launchFew(map.scanBlocks, cellCounts, blockSums, index.cellStart, map);
     program.kernel("placePhotons").launchFew(map.chunks, index.sorted, blocks, regions, cellCounts, map);
-    const unsigned room = traced.blocks[0] * PHOTON_BLOCK;
     for (unsigned field = 0; field < (settings.storesDepth ? 7u : 6u); ++field)
         program.kernel("movePhotons")
-            .launch(std::max<size_t>(room, recordsRead), index.sorted, field, room, unsigned(photons.size()), map);
+            .launch(std::max(photons.size(), recordsRead), index.sorted, field, unsigned(photons.size()), map);
     return index;
 }
 

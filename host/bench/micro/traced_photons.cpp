@@ -8,15 +8,15 @@ namespace quasilux {
 namespace {
 
 void putDown(const TracedPhoton& photon, size_t at, size_t stride, bool storesDepth, std::vector<uint32_t>& arrays) {
-    std::vector<uint32_t> fields{std::bit_cast<uint32_t>(photon.position.x),
+    std::vector<uint32_t> fields{photon.slot,
+                                 std::bit_cast<uint32_t>(photon.position.x),
                                  std::bit_cast<uint32_t>(photon.position.y),
                                  std::bit_cast<uint32_t>(photon.position.z),
                                  photon.flux,
                                  photon.patchSide,
                                  photon.direction};
     if (storesDepth) fields.push_back(photon.depth);
-    fields.push_back(photon.slot);
-    for (size_t field = 0; field < fields.size(); ++field) arrays[(field + 1) * stride + at] = fields[field];
+    for (size_t array = 0; array < fields.size(); ++array) arrays[array * stride + at] = fields[array];
 }
 
 } // namespace
