@@ -84,7 +84,7 @@ typedef struct {
     unsigned int regionCapacity; /* of camera points */
     unsigned int photonStride;   /* of the sorted arrays: records from one field to the next */
     unsigned int scanBlocks;
-    float fluxUnit;               /* of photons' flux as stored, W: a power of two */
+    float fluxUnit;               /* of photons' flux as stored, W */
     float perKept[LIGHT_CLASSES]; /* of photons in media, by class: 1 / PhotonParams::keepProbability */
     float biasWeight;             /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
 } MapParams;
