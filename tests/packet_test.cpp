@@ -1,4 +1,4 @@
-// Packets of eight rays (kernels/bvh_packet.clh) against single rays, with wrong kernels as control.
+// Packets of sixteen rays (kernels/bvh_packet.clh) against single rays, with wrong kernels as control.
 #include "support/meshes.h"
 #include "support/traversal_device.h"
 
@@ -68,8 +68,8 @@ TEST(PacketsControl, WrongKernelsWouldDiffer) {
         const char *file, *from, *to;
     } controls[] = {
         {"bvh_packet_box.clh", "down ? lower : upper", "down ? upper : lower"},
-        {"bvh_packet_box.clh", "if (!anyEnters(", "if (anyEnters("},
-        {"bvh_packet_block.clh", "smaller(smaller(u, v), w) >= 0.0f", "smaller(u, v) >= 0.0f"},
+        {"bvh_packet_box.clh", "return anyOf16(enter <= leave)", "return !anyOf16(enter <= leave)"},
+        {"bvh_packet_block.clh", "smaller16(smaller16(u, v), w) >= 0.0f", "smaller16(u, v) >= 0.0f"},
         {"bvh_packet.clh", "(kinds == kind)", "(kinds != QL_NONE)"},
     };
     for (const auto& control : controls) {
@@ -80,8 +80,12 @@ TEST(PacketsControl, WrongKernelsWouldDiffer) {
     }
     TraversalDevice uAsV(primitives, everyFeature, mutant("bvh_packet_block.clh", "clamp(second", "clamp(first"));
     EXPECT_GT(packetFaults(uAsV, single).coordinates, 0u);
-    TraversalDevice nullsMet(primitives, everyFeature, mutant("bvh_packet.clh", "&shear, 1, &t", "&shear, 0, &t"));
-    EXPECT_GT(packetFaults(nullsMet, single).occlusion, 0u);
+    const char* const occlusionControls[][2] = {{"&shear, 1, &t", "&shear, 0, &t"}, // nulls met
+                                                {"ray = rayOf(rays, lane)", "ray = rayOf(rays, lane ^ 1)"}}; // few rays
+    for (const auto& control : occlusionControls) {
+        TraversalDevice wrong(primitives, everyFeature, mutant("bvh_packet.clh", control[0], control[1]));
+        EXPECT_GT(packetFaults(wrong, single).occlusion, 0u) << control[1];
+    }
 }
 
 } // namespace

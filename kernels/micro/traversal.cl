@@ -1,5 +1,5 @@
 /* Rays of a buffer (8 floats each: origin, direction, tMin, tMax) through kernels/bvh.clh, and of a
- * buffer of packets (Ray8) through kernels/bvh_packet.clh. */
+ * buffer of packets (Ray16) through kernels/bvh_packet.clh. */
 #include "bvh_packet.clh"
 
 inline Ray loadRay(__global const float* rays, size_t i) {
@@ -30,20 +30,20 @@ __kernel void occlusion(__global const BvhNode* nodes, __global const PrimitiveB
     if (i < count) isOccluded[i] = occluded(nodes, blocks, loadRay(rays, i));
 }
 
-__kernel void closestHits8(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
-                           __global const Ray8* packets, __global Hit8* hits, uint count) {
+__kernel void closestHits16(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                            __global const Ray16* packets, __global Hit16* hits, uint count) {
     const size_t i = get_global_id(0);
     if (i >= count) return;
-    const Ray8 rays = packets[i];
-    Hit8 hit;
-    intersectClosest8(nodes, blocks, &rays, &hit);
+    const Ray16 rays = packets[i];
+    Hit16 hit;
+    intersectClosest16(nodes, blocks, &rays, &hit);
     hits[i] = hit;
 }
 
-__kernel void occlusion8(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
-                         __global const Ray8* packets, __global uint* isOccluded, uint count) {
+__kernel void occlusion16(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                          __global const Ray16* packets, __global uint* isOccluded, uint count) {
     const size_t i = get_global_id(0);
     if (i >= count) return;
-    const Ray8 rays = packets[i];
-    vstore8(as_uint8(occluded8(nodes, blocks, &rays)) & 1u, i, isOccluded);
+    const Ray16 rays = packets[i];
+    vstore16(as_uint16(occluded16(nodes, blocks, &rays)) & 1u, i, isOccluded);
 }

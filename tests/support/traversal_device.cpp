@@ -31,14 +31,14 @@ TraversalDevice::TraversalDevice(const std::vector<BvhPrimitive>& primitives, co
       program_(testDevice(), "micro/traversal.cl", bvhOptions(bvh_) + " " + options, replaced) {}
 
 std::vector<TestHit> TraversalDevice::closestOfPackets(const Rays& rays) {
-    const auto packets = run<DeviceHitPacket>("closestHits8", packetsOf(rays));
+    const auto packets = run<DeviceHitPacket>("closestHits16", packetsOf<packetSize>(rays));
     std::vector<TestHit> hits;
     for (size_t i = 0; i < rays.size(); ++i) hits.push_back(packets[i / packetSize].hit(i % packetSize));
     return hits;
 }
 
 std::vector<unsigned> TraversalDevice::occludedOfPackets(const Rays& rays) {
-    return run<unsigned>("occlusion8", packetsOf(rays), packetSize);
+    return run<unsigned>("occlusion16", packetsOf<packetSize>(rays), packetSize);
 }
 
 } // namespace quasilux

@@ -29,8 +29,26 @@ RTCRay embreeRay(const MicroRay& ray) {
     return result;
 }
 
-/// RTCRay8 begins with the fields of a RayPacket, but for tfar.
-void fill(const RayPacket& packet, RTCRay8& ray) {
+template <unsigned size>
+struct EmbreePacket;
+template <>
+struct EmbreePacket<8> {
+    using Ray = RTCRay8;
+    using RayHit = RTCRayHit8;
+    static constexpr auto intersect = rtcIntersect8;
+    static constexpr auto occluded = rtcOccluded8;
+};
+template <>
+struct EmbreePacket<16> {
+    using Ray = RTCRay16;
+    using RayHit = RTCRayHit16;
+    static constexpr auto intersect = rtcIntersect16;
+    static constexpr auto occluded = rtcOccluded16;
+};
+
+/// RTCRay8 and RTCRay16 begin with the fields of a RayPacket, but for tfar.
+template <unsigned size>
+void fill(const RayPacket<size>& packet, typename EmbreePacket<size>::Ray& ray) {
     std::memcpy(ray.org_x, packet.origin, sizeof packet.origin);
     std::memcpy(ray.tnear, packet.tMin, sizeof packet.tMin);
     std::memcpy(ray.dir_x, packet.direction, sizeof packet.direction);
@@ -48,7 +66,7 @@ RTCIntersectContext contextFor(bool coherent) {
     return context;
 }
 
-alignas(32) constexpr int allLanes[packetSize] = {-1, -1, -1, -1, -1, -1, -1, -1};
+alignas(64) constexpr int allLanes[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 
 MicroHit intersect(RTCScene scene, RTCIntersectContext& context, const MicroRay& ray) {
     RTCRayHit query;
@@ -118,14 +136,15 @@ void EmbreeScene::occluded(const MicroRay* rays, unsigned* blocked, size_t count
     for (size_t i = 0; i < count; ++i) blocked[i] = occlude(scene_->scene, context, rays[i]) ? 1 : 0;
 }
 
-void EmbreeScene::closest(const RayPacket* rays, HitPacket* hits, size_t packets, bool coherent) const {
+template <unsigned size>
+void EmbreeScene::closest(const RayPacket<size>* rays, HitPacket<size>* hits, size_t packets, bool coherent) const {
     RTCIntersectContext context = contextFor(coherent);
-    RTCRayHit8 query;
+    typename EmbreePacket<size>::RayHit query;
     for (size_t i = 0; i < packets; ++i) {
         fill(rays[i], query.ray);
         std::memset(query.hit.geomID, 0xff, sizeof query.hit.geomID);
         std::memset(query.hit.primID, 0xff, sizeof query.hit.primID); // of a miss: QL_NONE
-        rtcIntersect8(allLanes, scene_->scene, &context, &query);
+        EmbreePacket<size>::intersect(allLanes, scene_->scene, &context, &query);
         std::memcpy(hits[i].t, query.ray.tfar, sizeof hits[i].t);
         std::memcpy(hits[i].u, query.hit.u, sizeof hits[i].u);
         std::memcpy(hits[i].v, query.hit.v, sizeof hits[i].v);
@@ -133,29 +152,20 @@ void EmbreeScene::closest(const RayPacket* rays, HitPacket* hits, size_t packets
     }
 }
 
-void EmbreeScene::occluded(const RayPacket* rays, unsigned* blocked, size_t packets, bool coherent) const {
+template <unsigned size>
+void EmbreeScene::occluded(const RayPacket<size>* rays, unsigned* blocked, size_t packets, bool coherent) const {
     RTCIntersectContext context = contextFor(coherent);
-    RTCRay8 query;
+    typename EmbreePacket<size>::Ray query;
     for (size_t i = 0; i < packets; ++i) {
         fill(rays[i], query);
-        rtcOccluded8(allLanes, scene_->scene, &context, &query);
-        for (size_t lane = 0; lane < packetSize; ++lane) blocked[packetSize * i + lane] = query.tfar[lane] < 0 ? 1 : 0;
+        EmbreePacket<size>::occluded(allLanes, scene_->scene, &context, &query);
+        for (size_t lane = 0; lane < size; ++lane) blocked[size * i + lane] = query.tfar[lane] < 0 ? 1 : 0;
     }
 }
 
-std::vector<RayPacket> packetsOf(const std::vector<MicroRay>& rays) {
-    std::vector<RayPacket> packets(rays.size() / packetSize);
-    for (size_t i = 0; i < packetSize * packets.size(); ++i) {
-        RayPacket& packet = packets[i / packetSize];
-        const size_t lane = i % packetSize;
-        for (int axis = 0; axis < 3; ++axis) {
-            packet.origin[axis][lane] = rays[i].origin[axis];
-            packet.direction[axis][lane] = rays[i].direction[axis];
-        }
-        packet.tMin[lane] = rays[i].tMin;
-        packet.tMax[lane] = rays[i].tMax;
-    }
-    return packets;
-}
+template void EmbreeScene::closest(const RayPacket<8>*, HitPacket<8>*, size_t, bool) const;
+template void EmbreeScene::closest(const RayPacket<16>*, HitPacket<16>*, size_t, bool) const;
+template void EmbreeScene::occluded(const RayPacket<8>*, unsigned*, size_t, bool) const;
+template void EmbreeScene::occluded(const RayPacket<16>*, unsigned*, size_t, bool) const;
 
 } // namespace quasilux

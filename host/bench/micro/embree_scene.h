@@ -18,12 +18,14 @@ public:
     MicroHit closest(const MicroRay& ray) const;
     bool occluded(const MicroRay& ray) const;
 
-    /// Runs of rays through rtcIntersect1, rtcOccluded1, rtcIntersect8 and rtcOccluded8. `coherent` tells Embree that
-    /// the rays of a packet lie close together.
+    /// Runs of rays through rtcIntersect1, rtcOccluded1 and their forms for packets of 8 and 16 rays. `coherent` tells
+    /// Embree that the rays of a packet lie close together.
     void closest(const MicroRay* rays, MicroHit* hits, size_t count) const;
     void occluded(const MicroRay* rays, unsigned* blocked, size_t count) const;
-    void closest(const RayPacket* rays, HitPacket* hits, size_t packets, bool coherent) const;
-    void occluded(const RayPacket* rays, unsigned* blocked, size_t packets, bool coherent) const;
+    template <unsigned size>
+    void closest(const RayPacket<size>* rays, HitPacket<size>* hits, size_t packets, bool coherent) const;
+    template <unsigned size>
+    void occluded(const RayPacket<size>* rays, unsigned* blocked, size_t packets, bool coherent) const;
 
     /// Processor and clock seconds of rtcCommitScene.
     double commitProcessorSeconds() const;

@@ -1,7 +1,8 @@
-// Packets of eight coherent rays, kernels/bvh_packet.clh, against our single rays and rtcIntersect8 or rtcOccluded8.
+// Packets of sixteen coherent rays, kernels/bvh_packet.clh, against our single rays and Embree's packets of 8 and 16.
 #include "bench/micro/traversal_parts.h"
 
 #include <fmt/format.h>
+#include <memory>
 
 namespace quasilux {
 
@@ -30,21 +31,29 @@ private:
     Buffer<Answer> answers_;
 };
 
-/// Times the three in turns.
+/// Embree's packets of 8 and of 16 rays, `run` on ranges of rays.
+struct EmbreePackets {
+    const char* name;
+    std::function<void(size_t, size_t)> run;
+};
+
+/// Times all in turns.
 template <typename Single, typename Packet>
 MicroRow contest(Device& device, unsigned threads, const RaySet& set, unsigned rounds, Packet& packet, Single& single,
-                 const std::function<void(size_t, size_t)>& embree) {
-    const char* theirs = set.occlusion ? "rtcOccluded8" : "rtcIntersect8";
+                 const EmbreePackets (&embree)[2]) {
     const unsigned hostThreads = std::max(1u, threads);
-    std::vector<Contender> contenders{{"packet", [&] { packet.launch(); }},
-                                      {"quasilux", [&] { single.launch(); }},
-                                      {theirs, [&] { onThreads(hostThreads, set.rays.size(), embree); }}};
+    std::vector<Contender> contenders{{"packet", [&] { packet.launch(); }}, {"quasilux", [&] { single.launch(); }}};
+    for (const EmbreePackets& theirs : embree)
+        contenders.push_back({theirs.name, [&] { onThreads(hostThreads, set.rays.size(), theirs.run); }});
     timeInTurns(contenders, rounds, device.info());
     MicroRow row{"traversal", "", threads, "Mrays/s and thread", {}, {}};
     const double million = 1e-6 * double(set.rays.size());
     for (const Contender& contender : contenders) row.values.emplace_back(contender.name, million / contender.seconds);
-    row.ratios.emplace_back("packet / quasilux", contenders[1].seconds / contenders[0].seconds);
-    row.ratios.emplace_back(fmt::format("packet / {}", theirs + 3), contenders[2].seconds / contenders[0].seconds);
+    const auto ratio = [&](size_t theirs, const char* name) {
+        row.ratios.emplace_back(fmt::format("packet / {}", name), contenders[theirs].seconds / contenders[0].seconds);
+    };
+    ratio(1, "quasilux");
+    for (size_t k = 0; k < std::size(embree); ++k) ratio(2 + k, embree[k].name + 3);
     return row;
 }
 
@@ -53,16 +62,32 @@ void count(MicroRow& row, bool differing) {
     row.differing += differing ? 1 : 0;
 }
 
+template <unsigned size>
+std::function<void(size_t, size_t)> closestOf(const EmbreeScene& embree, const RaySet& set) {
+    const auto packets = std::make_shared<std::vector<RayPacket<size>>>(packetsOf<size>(set.rays));
+    const auto hits = std::make_shared<std::vector<HitPacket<size>>>(packets->size());
+    return [&embree, packets, hits, coherent = set.coherent](size_t begin, size_t end) {
+        embree.closest(&(*packets)[begin / size], &(*hits)[begin / size], (end - begin) / size, coherent);
+    };
+}
+
+template <unsigned size>
+std::function<void(size_t, size_t)> occlusionOf(const EmbreeScene& embree, const RaySet& set) {
+    const auto packets = std::make_shared<std::vector<RayPacket<size>>>(packetsOf<size>(set.rays));
+    const auto blocked = std::make_shared<std::vector<unsigned>>(set.rays.size());
+    return [&embree, packets, blocked, coherent = set.coherent](size_t begin, size_t end) {
+        embree.occluded(&(*packets)[begin / size], &(*blocked)[begin], (end - begin) / size, coherent);
+    };
+}
+
 MicroRow closestRow(Device& device, unsigned threads, DeviceTree& tree, const EmbreeScene& embree, const RaySet& set,
                     unsigned rounds) {
-    const std::vector<RayPacket> packets = packetsOf(set.rays);
-    std::vector<HitPacket> theirs(packets.size());
-    Sender<RayPacket, DeviceHitPacket> packet(device, tree, "closestHits8", packets, packets.size());
+    const std::vector<RayPacket<packetSize>> packets = packetsOf<packetSize>(set.rays);
+    Sender<RayPacket<packetSize>, DeviceHitPacket> packet(device, tree, "closestHits16", packets, packets.size());
     Sender<MicroRay, MicroHit> single(device, tree, "closestHits", set.rays, set.rays.size());
-    MicroRow row = contest(device, threads, set, rounds, packet, single, [&](size_t begin, size_t end) {
-        embree.closest(&packets[begin / packetSize], &theirs[begin / packetSize], (end - begin) / packetSize,
-                       set.coherent);
-    });
+    MicroRow row =
+        contest(device, threads, set, rounds, packet, single,
+                {{"rtcIntersect8", closestOf<8>(embree, set)}, {"rtcIntersect16", closestOf<16>(embree, set)}});
     const std::vector<DeviceHitPacket> ours = packet.answers();
     const std::vector<MicroHit> expected = single.answers();
     for (size_t i = 0; i < expected.size(); ++i)
@@ -72,13 +97,12 @@ MicroRow closestRow(Device& device, unsigned threads, DeviceTree& tree, const Em
 
 MicroRow occlusionRow(Device& device, unsigned threads, DeviceTree& tree, const EmbreeScene& embree, const RaySet& set,
                       unsigned rounds) {
-    const std::vector<RayPacket> packets = packetsOf(set.rays);
-    std::vector<unsigned> theirs(set.rays.size());
-    Sender<RayPacket, unsigned> packet(device, tree, "occlusion8", packets, set.rays.size());
+    const std::vector<RayPacket<packetSize>> packets = packetsOf<packetSize>(set.rays);
+    Sender<RayPacket<packetSize>, unsigned> packet(device, tree, "occlusion16", packets, set.rays.size());
     Sender<MicroRay, unsigned> single(device, tree, "occlusion", set.rays, set.rays.size());
-    MicroRow row = contest(device, threads, set, rounds, packet, single, [&](size_t begin, size_t end) {
-        embree.occluded(&packets[begin / packetSize], &theirs[begin], (end - begin) / packetSize, set.coherent);
-    });
+    MicroRow row =
+        contest(device, threads, set, rounds, packet, single,
+                {{"rtcOccluded8", occlusionOf<8>(embree, set)}, {"rtcOccluded16", occlusionOf<16>(embree, set)}});
     const std::vector<unsigned> ours = packet.answers(), expected = single.answers();
     for (size_t i = 0; i < expected.size(); ++i) count(row, differ(ours[i], expected[i]));
     return row;

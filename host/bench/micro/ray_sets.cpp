@@ -24,7 +24,7 @@ std::vector<MicroRay> primaryRays(const MicroScene& scene, size_t count) {
         for (unsigned k = 0; k < tile * tile; ++k) {
             const unsigned packet = k / packetSize, lane = k % packetSize;
             const unsigned x = t % tiles * tile + packet % 2 * packetWidth + lane % packetWidth;
-            const unsigned y = t / tiles * tile + packet / 2 * (packetSize / packetWidth) + lane / packetWidth;
+            const unsigned y = t / tiles * tile + packet / 2 * packetWidth + lane / packetWidth;
             const float across = halfWidth * (2 * (float(x) + 0.5f) / float(side) - 1);
             const float down = halfWidth * (2 * (float(y) + 0.5f) / float(side) - 1);
             rays.push_back({scene.eye, glm::normalize(forward + across * right - down * up), 0,

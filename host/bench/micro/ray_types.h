@@ -23,27 +23,44 @@ struct MicroHit {
     unsigned index() const { return primitive & PRIMITIVE_INDEX_MASK; }
 };
 
-constexpr unsigned packetSize = 8;
+constexpr unsigned packetSize = 16; ///< of kernels/bvh_packet.clh
 
-/// Eight rays as Embree and kernels/bvh_packet_box.clh (Ray8) take them, field by field; origin and direction axis by axis.
-struct alignas(32) RayPacket {
-    float origin[3][packetSize], direction[3][packetSize], tMin[packetSize], tMax[packetSize];
+/// Rays as Embree (8 or 16) and kernels/bvh_packet_box.clh (Ray16) take them, field by field; origin and direction axis by
+/// axis.
+template <unsigned size>
+struct alignas(4 * size) RayPacket {
+    float origin[3][size], direction[3][size], tMin[size], tMax[size];
 };
 
-struct alignas(32) HitPacket {
-    float t[packetSize], u[packetSize], v[packetSize];
-    unsigned primitive[packetSize];
+template <unsigned size>
+struct alignas(4 * size) HitPacket {
+    float t[size], u[size], v[size];
+    unsigned primitive[size];
 };
 
 /// As kernels/bvh_packet.clh writes it.
-struct alignas(32) DeviceHitPacket {
+struct alignas(4 * packetSize) DeviceHitPacket {
     float t[packetSize], u[packetSize], v[packetSize];
     unsigned slot[packetSize], primitive[packetSize];
 
     MicroHit hit(size_t ray) const { return {t[ray], u[ray], v[ray], slot[ray], primitive[ray]}; }
 };
 
-/// The number of rays must be a multiple of 8.
-std::vector<RayPacket> packetsOf(const std::vector<MicroRay>& rays);
+/// The number of rays must be a multiple of `size`, 8 or 16.
+template <unsigned size>
+std::vector<RayPacket<size>> packetsOf(const std::vector<MicroRay>& rays) {
+    std::vector<RayPacket<size>> packets(rays.size() / size);
+    for (size_t i = 0; i < size * packets.size(); ++i) {
+        RayPacket<size>& packet = packets[i / size];
+        const size_t lane = i % size;
+        for (int axis = 0; axis < 3; ++axis) {
+            packet.origin[axis][lane] = rays[i].origin[axis];
+            packet.direction[axis][lane] = rays[i].direction[axis];
+        }
+        packet.tMin[lane] = rays[i].tMin;
+        packet.tMax[lane] = rays[i].tMax;
+    }
+    return packets;
+}
 
 } // namespace quasilux

@@ -16,7 +16,7 @@ public:
           rays_(device, set.rays, "rays"), answers_(device, set.rays.size(), "answers") {
         const unsigned hostThreads = std::max(1u, threads);
         theirs_.resize(set.rays.size());
-        const auto packets = std::make_shared<std::vector<RayPacket>>(packetsOf(set.rays));
+        const auto packets = std::make_shared<std::vector<RayPacket<8>>>(packetsOf<8>(set.rays));
         const auto theirPackets = std::make_shared<std::vector<Hits>>(set.rays.size());
         contenders_ = {{"quasilux", [this] { launch(tree_.fast); }},
                        {"portable", [this] { launch(tree_.portable); }},
@@ -62,9 +62,9 @@ private:
         else
             embree.occluded(&set.rays[begin], &theirs_[begin], end - begin);
     }
-    static void eight(const EmbreeScene& embree, const RaySet& set, const std::vector<RayPacket>& packets,
+    static void eight(const EmbreeScene& embree, const RaySet& set, const std::vector<RayPacket<8>>& packets,
                       std::vector<Hits>& hits, size_t begin, size_t end) {
-        const size_t first = begin / packetSize, count = (end - begin) / packetSize;
+        const size_t first = begin / 8, count = (end - begin) / 8;
         if constexpr (std::is_same_v<Hit, MicroHit>)
             embree.closest(&packets[first], &hits[first], count, set.coherent);
         else
@@ -94,10 +94,11 @@ void benchScene(const MicroRun& run, const MicroScene& scene) {
         DeviceTree tree(device, bvh);
         for (const RaySet& set : raySets) {
             if (run.interrupted) return;
-            run.report.rows.push_back(set.occlusion ? Contest<unsigned, unsigned>(device, threads, tree, embree, set)
-                                                          .measure(run.settings.rounds, threads, set, scene.name)
-                                                    : Contest<MicroHit, HitPacket>(device, threads, tree, embree, set)
-                                                          .measure(run.settings.rounds, threads, set, scene.name));
+            run.report.rows.push_back(set.occlusion
+                                          ? Contest<unsigned, unsigned>(device, threads, tree, embree, set)
+                                                .measure(run.settings.rounds, threads, set, scene.name)
+                                          : Contest<MicroHit, HitPacket<8>>(device, threads, tree, embree, set)
+                                                .measure(run.settings.rounds, threads, set, scene.name));
             if (set.coherent && !run.interrupted)
                 run.report.rows.push_back(
                     packetRow(device, threads, tree, embree, set, run.settings.rounds, scene.name));
