@@ -8,6 +8,10 @@
 namespace quasilux::shared {
 #endif
 
+/* What shares direct light between emitter sampling and its own sampling although it would not need to. */
+#define DIRECT_SHARING_LAMBERT 1u
+#define DIRECT_SHARING_MEDIA 2u
+
 /* All small scene tables lie in one buffer of 32-bit words; these are word offsets into it. */
 typedef struct {
     unsigned int primitives, shapes, cornerNormals;
@@ -15,6 +19,7 @@ typedef struct {
     unsigned int textures, texels, uvs;
     unsigned int media, mediumPlanes;
     unsigned int emitters, emitterTriangles, emitterCount;
+    unsigned int directSharing; /* DIRECT_SHARING_* */
     unsigned int segments, borderCells, borderItems;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
     Packed3 borderLower;      /* corner of the border grid */

@@ -2,6 +2,7 @@
 // Each mean has a standard error from 10 batches; they may differ by 3.5 combined standard errors (two-sided, Student t with
 // about 18 degrees of freedom: 0.3 % a case; seeds are fixed). A feature lost or counted twice shows by percents.
 #include "support/render_statistics.h"
+#include "support/test_kernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,36 @@ TEST_P(GenericKernels, GiveTheImageOfTheSceneKernels) {
 INSTANTIATE_TEST_SUITE_P(Scenes, GenericKernels,
                          testing::Values("cornell_phong.xml", "cornell_ggx.xml", "furnace_split.xml",
                                          "furnace_glass.xml"));
+
+/// Root mean square of the difference, relative to the mean.
+double distanceOf(const std::string& file, uint64_t firstSeed, uint64_t secondSeed) {
+    const auto scene = projectScene(file, {{"resolution", std::to_string(resolution)}});
+    const auto radianceOf = [&](bool generic, uint64_t seed) {
+        RenderSettings settings;
+        settings.genericKernels = generic;
+        settings.photonsPerPass = 20'000;
+        settings.seed = seed;
+        Renderer renderer(testDevice(), scene, settings);
+        for (unsigned pass = 0; pass < 4; ++pass) renderer.renderPass(pass);
+        return renderer.develop().radiance;
+    };
+    const auto a = radianceOf(false, firstSeed), b = radianceOf(true, secondSeed);
+    double squares = 0, sum = 0;
+    for (size_t k = 0; k < a.size(); ++k) {
+        squares += (a[k] - b[k]) * double(a[k] - b[k]);
+        sum += a[k];
+    }
+    return std::sqrt(squares / double(a.size())) / (sum / double(a.size()));
+}
+
+// They make the same estimate, not just one of the same mean: else comparing their speed would compare estimators. What is
+// compiled differently rounds differently, and some paths then part. Control: other random numbers.
+TEST(GenericKernelsEstimate, IsThatOfTheSceneKernels) {
+    for (const char* file : {"cornell_ggx.xml", "furnace_split.xml", "furnace_glass.xml"}) {
+        EXPECT_LT(distanceOf(file, 1, 1), 2e-3) << file;
+        EXPECT_GT(distanceOf(file, 1, 2), 2e-2) << file;
+    }
+}
 
 } // namespace
 } // namespace quasilux

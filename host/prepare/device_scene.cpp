@@ -1,6 +1,7 @@
 #include "prepare/device_scene.h"
 
 #include "prepare/border_surface.h"
+#include "prepare/direct_sharing.h"
 #include "prepare/scene_tables.h"
 
 #include <cmath>
@@ -118,6 +119,9 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.warnings = findWarnings(scene, borders);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
+    out.offsets.directSharing = directSharing(out.emitters, out.surfaceArea, out.features.irradianceMeter);
+    out.features.sharingLambert = out.offsets.directSharing & DIRECT_SHARING_LAMBERT;
+    out.features.sharingMedia = out.features.media && out.offsets.directSharing & DIRECT_SHARING_MEDIA;
     out.bvh = buildBvh(flattenPrimitives(scene));
 
     SceneTableWriter tables;

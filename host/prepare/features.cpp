@@ -35,6 +35,8 @@ constexpr std::array flags = {
     Flag{&Features::textures, "HAS_TEXTURES", "textures"},
     Flag{&Features::media, "HAS_MEDIA", "media"},
     Flag{&Features::chromaticMedia, "HAS_CHROMATIC_MEDIA", "media with coloured extinction"},
+    Flag{&Features::sharingLambert, "HAS_SHARING_LAMBERT", "diffuse paths that look for emitters"},
+    Flag{&Features::sharingMedia, "HAS_SHARING_MEDIA", "paths in media that look for emitters"},
     Flag{&Features::directInMedia, "HAS_DIRECT_IN_MEDIA", "emitters that shine into media"},
 };
 

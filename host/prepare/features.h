@@ -18,6 +18,7 @@ struct Features {
     bool radianceMeter = false, irradianceMeter = false; ///< what the sensor is, if no camera
     bool media = false, chromaticMedia = false;          ///< extinction differs between the channels of some medium
     bool directInMedia = false;                          ///< emitter sampling can reach points in some medium
+    bool sharingLambert = false, sharingMedia = false;   ///< scattering that shares direct light (direct_sharing.h)
     bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering of surfaces
     bool genuineDiffuseMedia = false, quasiSpecularMedia = false;         ///< and of media
 
