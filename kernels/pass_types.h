@@ -8,7 +8,8 @@
 namespace quasilux::shared {
 #endif
 
-/* What shares direct light between emitter sampling and its own sampling although it would not need to. */
+/* What shares direct light between emitter sampling and its own sampling, beside narrow lobes
+ * (host/prepare/direct_sharing.h). */
 #define DIRECT_SHARING_LAMBERT 1u
 #define DIRECT_SHARING_MEDIA 2u
 

@@ -10,6 +10,7 @@ EmitterTables emitterOf(unsigned type, float area) {
     shared::Emitter emitter{};
     emitter.type = type;
     emitter.area = area;
+    emitter.normalSign = 1;
     EmitterTables tables;
     tables.emitters = {emitter};
     return tables;
@@ -39,6 +40,13 @@ TEST(DirectSharing, UnboundedEstimatesAlwaysShare) {
     for (const unsigned type : {EMITTER_TRIANGLES, EMITTER_CONSTANT})
         for (const bool meter : {false, true})
             EXPECT_EQ(directSharing(emitterOf(type, 1e-3f), 100, meter), DIRECT_SHARING_LAMBERT | DIRECT_SHARING_MEDIA);
+}
+
+TEST(DirectSharing, SpheresThatShineInwardsToo) {
+    EmitterTables tables = emitterOf(EMITTER_SPHERE, 1);
+    EXPECT_EQ(directSharing(tables, 100, true), 0u);
+    tables.emitters[0].normalSign = -1;
+    EXPECT_EQ(directSharing(tables, 100, true), DIRECT_SHARING_LAMBERT | DIRECT_SHARING_MEDIA);
 }
 
 TEST(DirectSharing, NothingThatScattersNothingThatShares) { EXPECT_EQ(directSharing(EmitterTables{}, 0, false), 0u); }

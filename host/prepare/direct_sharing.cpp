@@ -10,7 +10,8 @@ namespace {
 constexpr double leastShareOfArea = 0.03;
 
 bool mustShare(const shared::Emitter& emitter) {
-    return emitter.type == EMITTER_TRIANGLES || emitter.type == EMITTER_CONSTANT;
+    const bool fromWithin = emitter.type == EMITTER_SPHERE && emitter.normalSign < 0; // sampled by area
+    return fromWithin || emitter.type == EMITTER_TRIANGLES || emitter.type == EMITTER_CONSTANT;
 }
 
 bool hasArea(const shared::Emitter& emitter) {

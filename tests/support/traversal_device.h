@@ -26,7 +26,7 @@ public:
     std::vector<TestHit> closest(const Rays& rays) { return run<TestHit>("closestHits", rays); }
     std::vector<TestHit> closestOpaque(const Rays& rays) { return run<TestHit>("closestOpaqueHits", rays); }
     std::vector<unsigned> occluded(const Rays& rays) { return run<unsigned>("occlusion", rays); }
-    /// Both again in packets of eight neighbours. The number of rays must be a multiple of 8.
+    /// Both again in packets of sixteen neighbours. The number of rays must be a multiple of 16.
     std::vector<TestHit> closestOfPackets(const Rays& rays);
     std::vector<unsigned> occludedOfPackets(const Rays& rays);
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <stdexcept>
 #include <vector>
 
 namespace quasilux {
@@ -49,6 +50,7 @@ struct alignas(4 * packetSize) DeviceHitPacket {
 /// The number of rays must be a multiple of `size`, 8 or 16.
 template <unsigned size>
 std::vector<RayPacket<size>> packetsOf(const std::vector<MicroRay>& rays) {
+    if (rays.size() % size != 0) throw std::invalid_argument("rays that do not fill packets");
     std::vector<RayPacket<size>> packets(rays.size() / size);
     for (size_t i = 0; i < size * packets.size(); ++i) {
         RayPacket<size>& packet = packets[i / size];
