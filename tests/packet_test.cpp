@@ -16,13 +16,20 @@ std::vector<BvhPrimitive> everyKind() {
     return primitives;
 }
 
-/// Packets of rays alike but for small differences, then packets of unlike rays.
+/// Packets of rays alike but for small differences, packets of unlike rays, and packets of rays along the axes, of which the
+/// first five have one axis and the next five another, up and down.
 Rays raysForPackets() {
-    Rays rays = randomRays(40000, 33, 1.2f);
-    const Rays noise = randomRays(rays.size(), 34, 0.02f);
-    for (size_t i = 0; i < rays.size() / 2; ++i) {
+    Rays rays = randomRays(60000, 33, 1.2f);
+    const Rays noise = randomRays(rays.size(), 34, 0.1f);
+    const size_t alike = rays.size() / 3, unlike = 2 * alike;
+    for (size_t i = 0; i < alike; ++i) {
         rays[i].origin = rays[i / packetSize * packetSize].origin + noise[i].origin;
         rays[i].direction = rays[i / packetSize * packetSize].direction + 0.02f * noise[i].direction;
+    }
+    for (size_t i = unlike; i < rays.size(); ++i) {
+        glm::vec3 direction(0.0f);
+        direction[int(i % packetSize / 5 % 3)] = i % 2 == 0 ? 1.0f : -1.0f;
+        rays[i].direction = direction;
     }
     return rays;
 }
@@ -60,19 +67,22 @@ TEST(Packets, AnswerAsSingleRays) {
     }
 }
 
+/// What a wrong kernel says, and in place of what.
+struct Control {
+    const char *file, *from, *to;
+};
+
 /// Control of the test above.
 TEST(PacketsControl, WrongKernelsWouldDiffer) {
     const std::vector<BvhPrimitive> primitives = everyKind();
     TraversalDevice single(primitives, everyFeature);
-    const struct {
-        const char *file, *from, *to;
-    } controls[] = {
+    const Control controls[] = {
         {"bvh_packet_box.clh", "down ? lower : upper", "down ? upper : lower"},
         {"bvh_packet_box.clh", "return anyOf16(enter <= leave)", "return !anyOf16(enter <= leave)"},
         {"bvh_packet_block.clh", "smaller16(smaller16(u, v), w) >= 0.0f", "smaller16(u, v) >= 0.0f"},
         {"bvh_packet.clh", "(kinds == kind)", "(kinds != QL_NONE)"},
     };
-    for (const auto& control : controls) {
+    for (const Control& control : controls) {
         TraversalDevice wrong(primitives, everyFeature, mutant(control.file, control.from, control.to));
         const PacketFaults faults = packetFaults(wrong, single);
         EXPECT_GT(faults.distances, 0u) << control.to;
@@ -80,11 +90,14 @@ TEST(PacketsControl, WrongKernelsWouldDiffer) {
     }
     TraversalDevice uAsV(primitives, everyFeature, mutant("bvh_packet_block.clh", "clamp(second", "clamp(first"));
     EXPECT_GT(packetFaults(uAsV, single).coordinates, 0u);
-    const char* const occlusionControls[][2] = {{"&shear, 1, &t", "&shear, 0, &t"}, // nulls met
-                                                {"ray = rayOf(rays, lane)", "ray = rayOf(rays, lane ^ 1)"}}; // few rays
-    for (const auto& control : occlusionControls) {
-        TraversalDevice wrong(primitives, everyFeature, mutant("bvh_packet.clh", control[0], control[1]));
-        EXPECT_GT(packetFaults(wrong, single).occlusion, 0u) << control[1];
+    const Control occlusionControls[] = {
+        {"bvh_packet.clh", "&shear, 1, &t", "&shear, 0, &t"},                         // nulls met
+        {"bvh_packet.clh", "ray = rayOf(rays, lane)", "ray = rayOf(rays, lane ^ 1)"}, // few rays
+        {"bvh_packet_box.clh", "downY ? upperY : lowerY", "downY ? lowerY : upperY"}, // mixed signs
+    };
+    for (const Control& control : occlusionControls) {
+        TraversalDevice wrong(primitives, everyFeature, mutant(control.file, control.from, control.to));
+        EXPECT_GT(packetFaults(wrong, single).occlusion, 0u) << control.to;
     }
 }
 
