@@ -119,7 +119,7 @@ TEST(Combination, ToldErrorIsTheScatter) {
 class CostedPilot : public RendererPilot {
 public:
     CostedPilot(Device& device, const Scene& scene, const RenderSettings& settings, double& clock)
-        : RendererPilot(std::make_unique<Renderer>(device, scene, settings), false), clock_(clock) {}
+        : RendererPilot(device, std::make_unique<Renderer>(device, scene, settings), false), clock_(clock) {}
     void renderPass() override {
         RendererPilot::renderPass();
         clock_ += 0.1;
@@ -127,6 +127,7 @@ public:
     PilotMeasure measure() const override {
         PilotMeasure pilot = RendererPilot::measure();
         pilot.secondsPerPass = 0.1;
+        pilot.photonShare = 0.5;
         return pilot;
     }
     double openingSeconds() const override { return 0; }

@@ -14,7 +14,7 @@ SearchWorld worldOf(Device& device, const Scene& scene, const std::function<void
                     const std::atomic<bool>& interrupted, RenderCounters& ofOthers) {
     SearchWorld world;
     world.open = [&device, &scene](const RenderSettings& settings) -> std::unique_ptr<Pilot> {
-        return std::make_unique<RendererPilot>(std::make_unique<Renderer>(device, scene, settings),
+        return std::make_unique<RendererPilot>(device, std::make_unique<Renderer>(device, scene, settings),
                                                !scene.media.empty());
     };
     world.clock = [start = Clock::now()] { return std::chrono::duration<double>(Clock::now() - start).count(); };
@@ -40,7 +40,7 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     AutoRender result;
     result.settings = settings;
     RenderCounters ofOthers;
-    auto first = std::make_unique<RendererPilot>(std::move(start), !scene.media.empty());
+    auto first = std::make_unique<RendererPilot>(device, std::move(start), !scene.media.empty());
     result.search.notSearched = whyNotSearched(scene, settings, stop);
     result.search.freedom = freedom;
     SearchResult found{settings, nullptr, {}, {}, result.search};

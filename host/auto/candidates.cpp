@@ -1,6 +1,8 @@
 #include "auto/candidates.h"
 
+#include "prepare/device_scene.h"
 #include "prepare/split.h"
+#include "render/method.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,7 @@ namespace quasilux {
 namespace {
 
 constexpr size_t mostSingleLobes = 4;
+constexpr unsigned fewestPhotonsAtStart = 2500;
 
 struct Split {
     std::vector<BsdfDecision> bsdfs;
@@ -110,6 +113,14 @@ bool isFree(Coordinate coordinate, const Freedom& freedom) {
 }
 
 } // namespace
+
+RenderSettings searchStart(const RenderSettings& settings, const Scene& scene, const Freedom& freedom,
+                           const StopRule& stop) {
+    RenderSettings start = settings;
+    if (freedom.photons && settings.photonsPerPass == 0 && whyNotSearched(scene, settings, stop).empty())
+        start.photonsPerPass = photonsForPixels(flattenCamera(scene.sensor), fewestPhotonsAtStart);
+    return start;
+}
 
 std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettings& from, unsigned photons,
                                        const Scene& scene, const Freedom& freedom) {

@@ -17,6 +17,11 @@ std::array<Coordinate, 5> searchOrder(const RenderSettings& start);
 /// Factors of photons per pass and radius that are tried, and how far they may go from where the search starts.
 inline constexpr double photonsStep = 2, mostPhotons = 4, radiusStep = 1.4;
 
+/// Where a search begins: `settings`, but with as many photons as the pixels ask for, even if they are few, where the search
+/// may raise them again. A small image by the default spends nearly all of its time on photons, and pilots take long.
+RenderSettings searchStart(const RenderSettings& settings, const Scene& scene, const Freedom& freedom,
+                           const StopRule& stop);
+
 /// What may be tried in this coordinate instead of `from`, nothing where it is not free; splits that come to the same
 /// as another one are left out. A split with nothing genuine diffuse comes with the alternative variant where that is
 /// free. `photons`: those that a pass of `from` emits.

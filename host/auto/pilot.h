@@ -22,8 +22,8 @@ public:
 /// Passes of a renderer of its own.
 class RendererPilot : public Pilot {
 public:
-    RendererPilot(std::unique_ptr<Renderer> renderer, bool hasMedia)
-        : renderer_(std::move(renderer)), hasMedia_(hasMedia) {}
+    RendererPilot(Device& device, std::unique_ptr<Renderer> renderer, bool hasMedia)
+        : device_(device), renderer_(std::move(renderer)), hasMedia_(hasMedia) {}
 
     void renderPass() override;
     unsigned passes() const override { return static_cast<unsigned>(renderer_->counters().passes); }
@@ -38,8 +38,10 @@ public:
 private:
     double secondsPerPass() const;
 
+    Device& device_;
     std::unique_ptr<Renderer> renderer_;
     bool hasMedia_;
+    double cameraSeconds_ = 0, kernelSeconds_ = 0;
 };
 
 } // namespace quasilux

@@ -45,7 +45,7 @@ double passesAfter(const PilotMeasure& pilot, double seconds) {
 // Below this share of its noise a bias cannot be told from 0 (docs/accuracy.md), be it one or the other.
 constexpr double resolvedBias = 1.0 / 25;
 
-double resolved(double bias, double biasNoise) { return bias > resolvedBias * biasNoise ? bias : 0; }
+double resolved(double bias, double biasNoise) { return std::max(bias, resolvedBias * biasNoise); }
 
 } // namespace
 

@@ -14,6 +14,7 @@ struct PilotMeasure {
     std::vector<double> noise, bias; ///< by tile; the bias of a tile is net of noise and may come out below 0
     double biasNoise = 0;            ///< relMSE that the estimate of the bias has as noise
     bool inVolume = false;           ///< kernels shrink in three dimensions
+    double photonShare = 0.5;        ///< of a pass's time that goes into tracing photons and building their map
 };
 
 /// `image` of passes 0, 1, ….

@@ -10,23 +10,27 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned stages[] = {2, 4, 8, 16};
+constexpr unsigned stages[] = {2, 4, 8, 16, 32, 64};
 // Passes before a candidate may win; more for one whose camera paths scatter on: few passes may miss its bright pixels.
 constexpr unsigned fewestToWin = 4, fewestToWinWithMorePaths = 8;
 // More passes than fewestToWin are for what few passes leave open, as long as they leave time for other candidates.
 constexpr double shareOfOneDuel = 1.0 / 8; // of the time for pilots
-constexpr double smallGain = 0.05;         // in the logarithm of relMSE: not worth another pass
-constexpr double surelyWorse = 1.5;        // standard errors
-constexpr double surelyBetter = 2;         // standard errors beyond smallGain
-constexpr double clockError = 0.1;         // of the logarithm of the time that one pass takes
-constexpr double leastSeconds = 1;         // renders shorter than this are not worth a search
-constexpr double longestHorizon = 86400;   // seconds, where only an error was asked for
+// Passes up to this share of that time are rendered before the first judgement: two passes alone often err.
+constexpr double shareOfFirstStage = 1.0 / 24;
+constexpr double smallGain = 0.05;       // in the logarithm of relMSE: not worth another pass
+constexpr double surelyWorse = 1.5;      // standard errors
+constexpr double surelyBetter = 2;       // standard errors beyond smallGain
+constexpr double clockError = 0.1;       // of the logarithm of the time that one pass takes
+constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
+constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
 // Kernels not in the runtime's cache take so many times longer to open than those that are; whether the first ones
 // were, is not told, so no more than coldSeconds are expected of others (docs/auto.md).
 constexpr double coldOverWarm = 10, coldSeconds = 4;
 // Radius and photons are tried where the ratio of bias to noise (both squared) says that it may pay: with noise at most
 // as 1 / radius^2 and bias as radius^4, radiusStep gains nothing between these bounds.
 constexpr double littleBias = 0.17, muchBias = 0.4, biasForPhotons = 0.2;
+// Photons are tried, too, where they take nearly all of a pass's time, or next to none.
+constexpr double fewPhotons = 0.3, manyPhotons = 0.7;
 
 RenderSettings seededFor(RenderSettings settings, uint64_t seed, size_t row) {
     // Images that are added must not share random numbers.
@@ -158,7 +162,10 @@ bool Search::isWorthTrying(Coordinate coordinate, const RenderSettings& settings
     const Prediction now = predictAfter(best_.measure, secondsLeft());
     const bool sharper =
         byRadius ? settings.radiusScale < best_.settings.radiusScale : photons > best_.pilot->photonsPerPass();
-    return sharper ? now.bias > (byRadius ? muchBias : biasForPhotons) * now.noise : now.bias < littleBias * now.noise;
+    if (byRadius) return sharper ? now.bias > muchBias * now.noise : now.bias < littleBias * now.noise;
+    const double photonShare = best_.measure.photonShare;
+    return sharper ? now.bias > biasForPhotons * now.noise || photonShare < fewPhotons
+                   : now.bias < littleBias * now.noise || photonShare > manyPhotons;
 }
 
 void Search::tryNeighbours(Coordinate coordinate) {
@@ -233,7 +240,10 @@ Search::Verdict Search::duel(Contender& challenger) {
         if (challenger.pilot->passes() < 2) return Verdict::undecided; // interrupted
         measure(challenger);
         measure(best_);
-        verdict = judge(challenger, !isWhole || passes == stages[std::size(stages) - 1]);
+        const bool isLast = !isWhole || passes == stages[std::size(stages) - 1];
+        const double next = 2 * passes * challenger.measure.secondsPerPass;
+        if (!isLast && next < shareOfFirstStage * pilotShare * horizon() && affords(next)) continue;
+        verdict = judge(challenger, isLast);
         if (!isWhole || verdict != Verdict::undecided) return verdict;
     }
     return verdict;

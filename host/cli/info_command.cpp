@@ -111,7 +111,8 @@ void infoCommand(const SceneOptions& options) {
     const Scene scene = loadScene(options.scene, options.parameters());
     if (!options.quiet)
         for (const auto& warning : scene.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
-    const RenderSettings settings = options.settings(scene);
+    const Freedom freedom = options.freedom(scene);
+    const RenderSettings settings = searchStart(options.settings(scene), scene, freedom, {});
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
     ProgressLine progress(stderr, !options.quiet);
@@ -124,7 +125,6 @@ void infoCommand(const SceneOptions& options) {
     const SceneReport& report = renderer.report();
     if (!options.quiet)
         for (const auto& warning : report.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
-    const Freedom freedom = options.freedom(scene);
     const std::string notSearched = whyNotSearched(scene, settings, {});
     const auto candidates = firstCandidates(freedom, settings, report.photonsPerPass, scene);
     const std::string file = std::filesystem::path(options.scene).filename().string();

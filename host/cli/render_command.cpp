@@ -2,6 +2,7 @@
 #include "cli/render_command.h"
 
 #include "auto/auto_render.h"
+#include "auto/candidates.h"
 #include "cli/interrupt.h"
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
@@ -181,7 +182,8 @@ int renderCommand(const RenderOptions& options) {
     const double loadSeconds = secondsSince(start);
     progress.clear();
     for (const auto& warning : scene.warnings) warn(options, warning);
-    const RenderSettings settings = options.settings(scene);
+    const Freedom freedom = options.freedom(scene);
+    const RenderSettings settings = searchStart(options.settings(scene), scene, freedom, options.stop);
 
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
@@ -200,8 +202,8 @@ int renderCommand(const RenderOptions& options) {
         if (!options.quiet && (search.notSearched.empty() ? search.freedom.any() : options.autoAll))
             fmt::print(stderr, "quasilux: {}\n", search.line());
     };
-    const AutoRender render = renderAuto(device, scene, settings, std::move(renderer), options.freedom(scene),
-                                         options.stop, onProgress, onChosen, interruptFlag());
+    const AutoRender render = renderAuto(device, scene, settings, std::move(renderer), freedom, options.stop,
+                                         onProgress, onChosen, interruptFlag());
     const FilmImage& image = render.image;
     if (image.passes == 0) {
         if (interruptFlag()) return 130;

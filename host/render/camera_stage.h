@@ -6,6 +6,9 @@
 
 namespace quasilux {
 
+/// The kernel of camera paths, by which its time is known.
+inline constexpr const char* cameraKernel = "traceCameraPaths";
+
 class CameraStage {
 public:
     /// `radii`: of the pixels, or null where they are one radius (then the options do not say ADAPTIVE_RADIUS).

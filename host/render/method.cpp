@@ -114,10 +114,14 @@ std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settin
     return options;
 }
 
+unsigned photonsForPixels(const shared::Camera& camera, unsigned fewest) {
+    const uint64_t wanted = uint64_t(photonsPerCameraPath) * camera.width * camera.height;
+    return static_cast<unsigned>(std::clamp<uint64_t>(wanted, fewest, 4'000'000));
+}
+
 unsigned photonsPerPass(const RenderSettings& settings, const shared::Camera& camera) {
     if (settings.photonsPerPass > 0) return settings.photonsPerPass;
-    const uint64_t wanted = uint64_t(photonsPerCameraPath) * camera.width * camera.height;
-    return static_cast<unsigned>(std::clamp<uint64_t>(wanted, 20'000, 4'000'000));
+    return photonsForPixels(camera, 20'000);
 }
 
 } // namespace quasilux

@@ -33,7 +33,10 @@ Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settin
 /// Compiler options shared by all stages.
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings);
 
-/// Photons emitted per pass, where the user did not say: a few for every camera path.
+/// A few for every camera path, but `fewest` at least.
+unsigned photonsForPixels(const shared::Camera& camera, unsigned fewest);
+
+/// Photons emitted per pass: what the user said, else by pixels, but enough to keep a device busy.
 unsigned photonsPerPass(const RenderSettings& settings, const shared::Camera& camera);
 
 } // namespace quasilux

@@ -2,6 +2,7 @@
 
 #include "bench/bench_run.h"
 #include "compare/measures.h"
+#include "render/camera_stage.h"
 #include "util/temporary_folder.h"
 
 #include <cmath>
@@ -101,7 +102,7 @@ BenchSection deviceSection(const std::vector<DeviceResult>& all) {
     for (const DeviceResult& one : all) {
         const PassTimes& least = one.warm.least;
         const double photons = rate(one.warm.photons, least.kernelCosts, "tracePhotons");
-        const double paths = rate(one.warm.cameraPaths, least.kernelCosts, "traceCameraPaths");
+        const double paths = rate(one.warm.cameraPaths, least.kernelCosts, cameraKernel);
         rows.push_back({one.scene, std::to_string(one.device), fmt::format("{:.1f}", 1e3 * least.clock),
                         fmt::format("{:.1f}", 1e3 * least.cpu), rateText(photons), rateText(paths),
                         fmt::format("{:.2f} s", one.cold.compiling()), fmt::format("{:.2f} s", one.warm.compiling()),
