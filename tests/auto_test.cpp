@@ -35,6 +35,16 @@ TEST(Prediction, NoiseFallsWithPassesAndBiasWithTheMeanSquaredRadius) {
     EXPECT_NEAR(predictAfter(pilot, 1).passes, 14, 1e-9);
 }
 
+// A bias that cannot be told from none may be there: the candidate that knows less about it is not the better one for that.
+TEST(Prediction, BiasIsAtLeastWhatItsNoiseMayHide) {
+    PilotMeasure pilot = evenPilot(4, 8, 0.01, 0.1);
+    EXPECT_NEAR(predictAfterPasses(pilot, 4).bias, 0.01, 1e-9); // control: known well
+    pilot.biasNoise = 5;
+    EXPECT_NEAR(predictAfterPasses(pilot, 4).bias, 5.0 / 25, 1e-9);
+    pilot.bias.assign(pilot.bias.size(), -0.01); // net of noise
+    EXPECT_NEAR(predictAfterPasses(pilot, 4).bias, 5.0 / 25, 1e-9);
+}
+
 TEST(Prediction, TimeToAnErrorIsWhereThePredictionMeetsIt) {
     const PilotMeasure pilot = evenPilot(4, 1, 0, 0.5);
     const double seconds = secondsToError(pilot, 0.1, 1000); // 100 passes, 4 of them done

@@ -18,6 +18,7 @@ struct Truth {
     double secondsPerPass = 0.1, noisePerPass = 1, bias = 0;
     double firstNoise = 0; // told before `honestFrom` passes, all of it even; 0: honest from the start
     unsigned honestFrom = 0;
+    double photonShare = 0.5; // of the time
 };
 using World = std::function<Truth(const RenderSettings&)>;
 
@@ -31,7 +32,10 @@ public:
     unsigned passes() const override { return passes_; }
     PilotMeasure measure() const override {
         const bool lies = passes_ < truth_.honestFrom;
-        return evenPilot(passes_, lies ? truth_.firstNoise : truth_.noisePerPass, truth_.bias, truth_.secondsPerPass);
+        PilotMeasure pilot =
+            evenPilot(passes_, lies ? truth_.firstNoise : truth_.noisePerPass, truth_.bias, truth_.secondsPerPass);
+        pilot.photonShare = truth_.photonShare;
+        return pilot;
     }
     FilmImage image() const override { return {}; }
     unsigned photonsPerPass() const override { return photons_; }
@@ -169,6 +173,50 @@ TEST(Search, IsNotTakenInByFewLuckyPasses) {
     EXPECT_EQ(search(world, 200).settings.bdd, 0u);
     world = [](const RenderSettings& s) { return s.bdd == 1 ? Truth{0.1, 0.2} : Truth{}; }; // control: so it would
     EXPECT_EQ(search(world, 200).settings.bdd, 1u);
+}
+
+// A candidate that is better, but not by what its first 5 passes tell. Where passes take little of the time for pilots, it is
+// not judged by so few. Control: where they take much of it, it is.
+TEST(Search, JudgesLaterWherePassesAreCheap) {
+    const World world = [](const RenderSettings& s) { return s.bdd == 1 ? Truth{0.1, 0.2, 0, 5, 6} : Truth{}; };
+    const Freedom bdd{true, false, false, false, false};
+    EXPECT_EQ(search(world, 200, bdd).settings.bdd, 1u);
+    EXPECT_EQ(search(world, 20, bdd).settings.bdd, 0u);
+}
+
+// The ratio of bias and noise speaks for neither more nor fewer photons; their share of a pass's time does.
+TEST(Search, TriesFewerPhotonsWhereTheyTakeNearlyAllTimeAndMoreWhereTheyTakeLittle) {
+    const auto photonsTried = [](double share, double bias) {
+        const World world = [&](const RenderSettings&) { return Truth{0.1, 1, bias, 0, 0, share}; };
+        std::vector<unsigned> tried;
+        for (const PilotRow& row : search(world, 20, {false, false, false, true, false}).report.rows)
+            tried.push_back(row.photonsPerPass);
+        return tried; // the first ones are what is started with
+    };
+    const double none = 0, much = 1;
+    EXPECT_THAT(photonsTried(0.5, none), testing::ElementsAre(1000, 500));
+    EXPECT_THAT(photonsTried(0.2, none), testing::ElementsAre(1000, 2000, 500));
+    EXPECT_THAT(photonsTried(0.5, much), testing::ElementsAre(1000, 2000));
+    EXPECT_THAT(photonsTried(0.8, much), testing::ElementsAre(1000, 2000, 500));
+}
+
+TEST(Search, BeginsWithPhotonsByPixelsWhereTheyAreFree) {
+    const Freedom all{true, true, true, true, true}, notPhotons{true, true, true, false, true};
+    const Scene small = projectScene("furnace_split.xml", {{"resolution", "12"}});
+    const Scene large = projectScene("cornell_phong.xml");
+    const auto photons = [](const RenderSettings& settings, const Scene& scene, const Freedom& freedom,
+                            const StopRule& stop) {
+        return searchStart(settings, scene, freedom, stop).photonsPerPass;
+    };
+    EXPECT_EQ(photons({}, small, all, {}), 2500u);
+    EXPECT_EQ(photons({}, large, all, {}), 6u * 256 * 256);
+    EXPECT_EQ(photons({}, small, notPhotons, {}), 0u); // the default
+    RenderSettings said;
+    said.photonsPerPass = 7;
+    EXPECT_EQ(photons(said, small, all, {}), 7u);
+    StopRule byPasses;
+    byPasses.passes = 3;
+    EXPECT_EQ(photons({}, small, all, byPasses), 0u);
 }
 
 TEST(Search, KeepsToItsShareOfTheTime) {

@@ -25,10 +25,12 @@ Seconds kernelSeconds(Device& device) {
 
 void RendererPilot::renderPass() {
     const Seconds before = kernelSeconds(device_);
+    const double secondsBefore = renderer_->counters().renderSeconds;
     renderer_->renderPass(passes());
     const Seconds after = kernelSeconds(device_);
     cameraSeconds_ += after.camera - before.camera;
     kernelSeconds_ += after.all - before.all;
+    if (passes() > 1) passSeconds_.push_back(renderer_->counters().renderSeconds - secondsBefore);
 }
 
 PilotMeasure RendererPilot::measure() const {
@@ -37,11 +39,14 @@ PilotMeasure RendererPilot::measure() const {
     return pilot;
 }
 
-// The first pass pays for what the runtime compiles only then.
+// The first pass pays for what the runtime compiles only then, and some of the early ones for choosing radii by pixel, so
+// what most passes take is their median.
 double RendererPilot::secondsPerPass() const {
-    const RenderCounters& counters = renderer_->counters();
-    if (counters.passes < 2) return counters.firstPassSeconds;
-    return (counters.renderSeconds - counters.firstPassSeconds) / static_cast<double>(counters.passes - 1);
+    if (passSeconds_.empty()) return renderer_->counters().firstPassSeconds;
+    std::vector<double> seconds = passSeconds_;
+    const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+    std::nth_element(seconds.begin(), middle, seconds.end());
+    return *middle;
 }
 
 double RendererPilot::openingSeconds() const {

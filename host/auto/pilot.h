@@ -42,6 +42,7 @@ private:
     std::unique_ptr<Renderer> renderer_;
     bool hasMedia_;
     double cameraSeconds_ = 0, kernelSeconds_ = 0;
+    std::vector<double> passSeconds_; ///< of all passes but the first
 };
 
 } // namespace quasilux

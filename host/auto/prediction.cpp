@@ -42,7 +42,8 @@ double passesAfter(const PilotMeasure& pilot, double seconds) {
     return pilot.passes + std::max(0.0, seconds) / std::max(pilot.secondsPerPass, 1e-9);
 }
 
-// Below this share of its noise a bias cannot be told from 0 (docs/accuracy.md), be it one or the other.
+// Below this share of its noise a bias cannot be told from 0 (docs/accuracy.md). It counts as so much: taken for 0, a
+// candidate would win for knowing less about its bias.
 constexpr double resolvedBias = 1.0 / 25;
 
 double resolved(double bias, double biasNoise) { return std::max(bias, resolvedBias * biasNoise); }

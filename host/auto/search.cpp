@@ -218,8 +218,7 @@ Search::Verdict Search::judge(const Contender& challenger, bool isLast) const {
     const bool fewerPaths = challenger.settings.bdd < best_.settings.bdd; // wins where both are alike: it hides nothing
     const bool mayWin = passes >= fewestToWinAgainst(best_, challenger);
     const auto stage = best_.stages.find(passes);
-    PilotMeasure best = stage == best_.stages.end() ? best_.measure : stage->second;
-    best.secondsPerPass = best_.measure.secondsPerPass;
+    const PilotMeasure& best = stage == best_.stages.end() ? best_.measure : stage->second;
     const ErrorRatio found = errorRatio(challenger.measure, best, secondsLeft());
     const double error = std::hypot(found.standardError, clockError * std::sqrt(2.0 / (passes - 1)));
     if (found.logRatio - surelyWorse * error > -smallGain) return Verdict::worse;

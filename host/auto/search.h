@@ -48,7 +48,7 @@ private:
         RenderSettings settings;
         std::unique_ptr<Pilot> pilot;
         PilotMeasure measure;
-        /// Of fewer passes too, by their number: radii by pixel lower noise after some, so like is held against like.
+        /// Of fewer passes too, by their number: noise and cost of a pass fall while radii do, so like is held against like.
         std::map<unsigned, PilotMeasure> stages;
         size_t row = 0;
     };

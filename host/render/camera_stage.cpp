@@ -4,8 +4,7 @@ namespace quasilux {
 
 CameraStage::CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params,
                          AdaptiveRadius* radii)
-    : geometry_(geometry), film_(film), radii_(radii), traceCameraPaths_(pass.kernel(cameraKernel)),
-      params_(params) {}
+    : geometry_(geometry), film_(film), radii_(radii), traceCameraPaths_(pass.kernel(cameraKernel)), params_(params) {}
 
 void CameraStage::compile(const PhotonStage& photons) {
     shared::CameraParams nothing = params_;

@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 
 // The film is read back for its error at most this share of the time.
 bool isErrorDue(double sinceLastCheck, double lastCheckCost) {
-    return sinceLastCheck > std::max(1.0, 20 * lastCheckCost);
+    return sinceLastCheck > std::max(1.0, 50 * lastCheckCost);
 }
 
 double secondsLeft(const StopRule& stop, const Progress& now) {
