@@ -6,7 +6,7 @@ several runs. The error of a render is the root of relMSE: what the render tells
 scenes/references/ has a reference, what `scripts/relmse.py` measures against it.
 
 The least of many noisy errors is too low an estimate of what its setting does. So settings are chosen by renders of seed 1, and the
-figures of the table come from two other seeds, mean of their relMSE, of the best fixed setting and of --auto alike.
+figures of the table come from other seeds (--seeds), mean of their relMSE, of the best fixed setting and of --auto alike.
 
 The choice apart from the time of the pilots: what --auto chose is rendered as a fixed setting too (--fixed), for the same time and by other seeds.
 """
@@ -21,8 +21,7 @@ from relmse import box_reference, plate_reference, read_channels
 
 # Split, variant, BDD of the fixed settings; levels are for media only. Photons and radius: factors on the defaults.
 SPLITS, LEVELS = ["auto", "none", "all"], ["level:0.03", "level:0.1", "level:0.3"]
-SEEDS = [2, 3]  # of the table's figures
-CHOICE_SEED = 10  # added to a seed
+FIRST_SEED, CHOICE_SEED = 2, 10  # of the table's figures; what is added to a seed where a choice is rendered apart
 REFERENCES = {"cornell_phong": (box_reference, "all"), "plate_checker": (plate_reference, "plate")}
 
 
@@ -33,6 +32,7 @@ def scenes():
 class Table:
     def __init__(self, options):
         self.options = options
+        self.seeds = range(FIRST_SEED, FIRST_SEED + options.seeds)
         self.folder = ROOT / "out" / "auto"
         self.folder.mkdir(parents=True, exist_ok=True)
 
@@ -127,12 +127,12 @@ class Table:
 
     def row(self, scene):
         best = self.best_fixed(scene)
-        of_best = self.mean(scene, [(best, seed) for seed in SEEDS])
-        auto = self.mean(scene, [(["--auto"], seed) for seed in SEEDS])
-        searched = [self.render(scene, ["--auto", "--seed", str(seed)], self.options.time)[0] for seed in SEEDS]
+        of_best = self.mean(scene, [(best, seed) for seed in self.seeds])
+        auto = self.mean(scene, [(["--auto"], seed) for seed in self.seeds])
+        searched = [self.render(scene, ["--auto", "--seed", str(seed)], self.options.time)[0] for seed in self.seeds]
         chosen = [self.chosen(statistics) for statistics in searched]
-        choice = self.mean(scene, [(settings, seed + CHOICE_SEED) for settings, seed in zip(chosen, SEEDS)])
-        pilots = sum(statistics["auto"]["pilotSeconds"] for statistics in searched) / len(SEEDS)
+        choice = self.mean(scene, [(settings, seed + CHOICE_SEED) for settings, seed in zip(chosen, self.seeds)])
+        pilots = sum(statistics["auto"]["pilotSeconds"] for statistics in searched) / len(self.seeds)
         names = "; ".join(dict.fromkeys(name(settings) for settings in chosen))
         return [scene, name(best), percent(of_best[0]), names, percent(auto[0]), ratio(auto[0], of_best[0]), ratio(choice[0], of_best[0]),
                 measured(auto, of_best), f"{pilots:.1f} s"], auto[2]
@@ -166,6 +166,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help=f"names in scenes/, without .xml (default: all: {', '.join(scenes())})")
     parser.add_argument("--time", type=float, default=20, help="seconds of each render (default 20)")
+    parser.add_argument("--seeds", type=int, default=2, help="renders that each figure is the mean of (default 2)")
     parser.add_argument("--again", action="store_true", help="render anew what out/auto/ has")
     parser.add_argument("--program", default=str(ROOT / "build" / "release" / "quasilux"), help="the built program")
     parser.add_argument("--print", action="store_true", help="leave docs/auto.md as it is (a trial)")
