@@ -95,6 +95,21 @@ double relativeError(const RenderSettings& settings, unsigned passesOfRender) {
 }
 
 // Each of the fixed radii that the choice ranges over is worse in the whole image.
+// Of a pass's cost it is known apart, since it ends after 16 passes.
+TEST(AdaptiveRadius, IsCountedApartFromThePasses) {
+    RenderSettings settings;
+    settings.photonsPerPass = 2000;
+    const Scene scene = projectScene("cornell_phong.xml", {{"resolution", "32"}});
+    Renderer renderer(testDevice(), scene, settings);
+    for (unsigned pass = 0; pass < 20; ++pass) {
+        const double before = renderer.counters().radiusSeconds;
+        renderer.renderPass(pass);
+        EXPECT_EQ(renderer.counters().radiusSeconds > before, pass < 16) << pass;
+    }
+    EXPECT_EQ(renderer.counters().radiusPaths, 16u * 32 * 32);
+    EXPECT_LT(renderer.counters().radiusSeconds, renderer.counters().renderSeconds);
+}
+
 TEST(AdaptiveRadius, HasLessErrorThanAnyFixedRadius) {
     RenderSettings settings;
     settings.photonsPerPass = 100'000;

@@ -45,6 +45,27 @@ TEST(Prediction, BiasIsAtLeastWhatItsNoiseMayHide) {
     EXPECT_NEAR(predictAfterPasses(pilot, 4).bias, 5.0 / 25, 1e-9);
 }
 
+// Of small images the tiles' scatter hides more than that: as many below 0 as above are no bias at all.
+TEST(Prediction, BiasIsAtLeastWhatItsTilesMayHide) {
+    PilotMeasure pilot = evenPilot(4, 8, 0.64, 0.1);
+    EXPECT_TRUE(tellsBias(pilot)); // control: even
+    for (size_t tile = 0; tile < pilot.bias.size(); tile += 2) pilot.bias[tile] *= -1;
+    EXPECT_FALSE(tellsBias(pilot));
+    EXPECT_NEAR(predictAfterPasses(pilot, 4).bias, 0.08, 0.001); // 0.01 times the root of 64 tiles
+}
+
+// What shrinks with the discs makes late passes cheaper. Control: what does not.
+TEST(Prediction, PassesGrowCheaperAsDiscsShrink) {
+    PilotMeasure pilot = evenPilot(16, 8, 0, 0.1);
+    EXPECT_NEAR(predictAfter(pilot, 100).passes, 1016, 1e-6);
+    pilot.secondsWithRadius = 0.06;
+    double seconds = 0;
+    for (unsigned pass = 16; pass < 1016; ++pass)
+        seconds += 0.04 + 0.06 * std::pow(radiusShrink(pass) / radiusShrink(12), 2); // the middle of passes 8 to 16
+    EXPECT_LT(seconds, 70);
+    EXPECT_NEAR(predictAfter(pilot, seconds).passes, 1016, 1);
+}
+
 TEST(Prediction, TimeToAnErrorIsWhereThePredictionMeetsIt) {
     const PilotMeasure pilot = evenPilot(4, 1, 0, 0.5);
     const double seconds = secondsToError(pilot, 0.1, 1000); // 100 passes, 4 of them done
@@ -62,6 +83,19 @@ TEST(Prediction, RatioIsUncertainWhereOneTileHoldsTheNoiseOfOne) {
     EXPECT_LT(same.standardError, 1e-6);
     b.noise[0] = 100 * b.noise[1];
     EXPECT_GT(errorRatio(a, b, 100).standardError, 0.3);
+}
+
+// Biases that noise hides say nothing for either, nor that one radius is better. Controls: biases that are told.
+TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
+    PilotMeasure a = evenPilot(4, 1, 0.2, 1), b = evenPilot(4, 1, 0.3, 1);
+    EXPECT_LT(errorRatio(a, b, 0).logRatio, -0.1);
+    for (auto* pilot : {&a, &b})
+        for (size_t tile = 0; tile < pilot->bias.size(); ++tile) pilot->bias[tile] += tile % 2 ? 0.02 : -0.02;
+    EXPECT_NEAR(errorRatio(a, b, 0).logRatio, 0, 1e-9);
+    EXPECT_LT(errorRatio(a, b, 0).standardError, 1e-6);
+    b.radius = std::sqrt(2.0); // of which 4 times the bias is expected, so it tells a's with a quarter of the noise
+    const double ofA = (0.2 + 16 * 0.3 / 4) / 17;
+    EXPECT_NEAR(errorRatio(a, b, 0).logRatio, std::log((0.25 + ofA) / (0.25 + 4 * ofA)), 1e-3);
 }
 
 // From 8 passes of a render what 64 tell: within 30 % of the square, 15 % of the error, since 8 passes know no better;
@@ -137,6 +171,7 @@ public:
     PilotMeasure measure() const override {
         PilotMeasure pilot = RendererPilot::measure();
         pilot.secondsPerPass = 0.1;
+        pilot.secondsWithRadius = 0;
         pilot.photonShare = 0.5;
         return pilot;
     }

@@ -6,6 +6,7 @@
 #include "util/error.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -176,28 +177,58 @@ TEST(Search, IsNotTakenInByFewLuckyPasses) {
 }
 
 // A candidate that is better, but not by what its first 5 passes tell. Where passes take little of the time for pilots, it is
-// not judged by so few. Control: where they take much of it, it is.
+// not judged by so few. Controls: where they take much of it, it is; and what has no hope is given up all the same.
 TEST(Search, JudgesLaterWherePassesAreCheap) {
-    const World world = [](const RenderSettings& s) { return s.bdd == 1 ? Truth{0.1, 0.2, 0, 5, 6} : Truth{}; };
+    const auto told = [](double firstNoise) {
+        return [=](const RenderSettings& s) { return s.bdd == 1 ? Truth{0.1, 0.2, 0, firstNoise, 6} : Truth{}; };
+    };
     const Freedom bdd{true, false, false, false, false};
-    EXPECT_EQ(search(world, 200, bdd).settings.bdd, 1u);
-    EXPECT_EQ(search(world, 20, bdd).settings.bdd, 0u);
+    EXPECT_EQ(search(told(1.3), 200, bdd).settings.bdd, 1u);
+    EXPECT_EQ(search(told(1.3), 20, bdd).settings.bdd, 0u);
+    const Found hopeless = search(told(5), 200, bdd);
+    EXPECT_EQ(hopeless.settings.bdd, 0u);
+    EXPECT_EQ(hopeless.report.rows.at(1).passes, 4u);
 }
 
-// The ratio of bias and noise speaks for neither more nor fewer photons; their share of a pass's time does.
+// Where the ratio of bias and noise speaks for neither more nor fewer photons, their share of a pass's time does; and what
+// promises nothing comes last.
 TEST(Search, TriesFewerPhotonsWhereTheyTakeNearlyAllTimeAndMoreWhereTheyTakeLittle) {
-    const auto photonsTried = [](double share, double bias) {
+    const auto tried = [](double share, double bias) {
         const World world = [&](const RenderSettings&) { return Truth{0.1, 1, bias, 0, 0, share}; };
-        std::vector<unsigned> tried;
-        for (const PilotRow& row : search(world, 20, {false, false, false, true, false}).report.rows)
-            tried.push_back(row.photonsPerPass);
-        return tried; // the first ones are what is started with
+        std::vector<std::string> texts; // the first ones are what is started with
+        for (const PilotRow& row : search(world, 40, {false, false, false, true, true}).report.rows)
+            texts.push_back(fmt::format("{} {:.2g}", row.photonsPerPass, row.settings.radiusScale));
+        return texts;
     };
     const double none = 0, much = 1;
-    EXPECT_THAT(photonsTried(0.5, none), testing::ElementsAre(1000, 500));
-    EXPECT_THAT(photonsTried(0.2, none), testing::ElementsAre(1000, 2000, 500));
-    EXPECT_THAT(photonsTried(0.5, much), testing::ElementsAre(1000, 2000));
-    EXPECT_THAT(photonsTried(0.8, much), testing::ElementsAre(1000, 2000, 500));
+    EXPECT_THAT(tried(0.5, none), testing::ElementsAre("1000 1", "500 1", "1000 1.4", "2000 1"));
+    EXPECT_THAT(tried(0.2, none), testing::ElementsAre("1000 1", "2000 1", "500 1", "1000 1.4"));
+    EXPECT_THAT(tried(0.5, much), testing::ElementsAre("1000 1", "2000 1", "1000 0.71", "500 1"));
+    EXPECT_THAT(tried(0.8, much), testing::ElementsAre("1000 1", "2000 1", "500 1", "1000 0.71"));
+}
+
+// Where photons take most of a pass, other candidates wait until there are fewer. Control: where they take less.
+TEST(Search, TriesPhotonsFirstWhereTheyTakeMostOfThePass) {
+    const auto firstTried = [](double share) {
+        const World world = [=](const RenderSettings& s) {
+            const double photons = s.photonsPerPass == 0 ? 1 : s.photonsPerPass / 1000.0;
+            return Truth{0.1 * (share * photons + 1 - share), 1, 0, 0, 0, share};
+        };
+        return search(world, 100).report.rows.at(1).photonsPerPass;
+    };
+    EXPECT_EQ(firstTried(0.6), 500u);
+    EXPECT_EQ(firstTried(0.4), 1000u);
+}
+
+// A step that pays is followed by the next one: to a sixteenth, not to a half by round.
+TEST(Search, GoesOnTheSameWay) {
+    const World world = [](const RenderSettings& s) {
+        const double photons = s.photonsPerPass == 0 ? 1000 : s.photonsPerPass;
+        return Truth{1e-4 * photons, 1, 0, 0, 0, 0.9};
+    };
+    const Found found = search(world, 100);
+    EXPECT_EQ(found.settings.photonsPerPass, 62u);
+    for (const unsigned row : {1u, 2u, 3u, 4u}) EXPECT_EQ(found.report.rows.at(row).photonsPerPass, 1000u >> row);
 }
 
 TEST(Search, BeginsWithPhotonsByPixelsWhereTheyAreFree) {
@@ -208,7 +239,7 @@ TEST(Search, BeginsWithPhotonsByPixelsWhereTheyAreFree) {
                             const StopRule& stop) {
         return searchStart(settings, scene, freedom, stop).photonsPerPass;
     };
-    EXPECT_EQ(photons({}, small, all, {}), 2500u);
+    EXPECT_EQ(photons({}, small, all, {}), 2560u);
     EXPECT_EQ(photons({}, large, all, {}), 6u * 256 * 256);
     EXPECT_EQ(photons({}, small, notPhotons, {}), 0u); // the default
     RenderSettings said;

@@ -14,7 +14,7 @@ namespace quasilux {
 namespace {
 
 constexpr size_t mostSingleLobes = 4;
-constexpr unsigned fewestPhotonsAtStart = 2500;
+constexpr unsigned fewestPhotonsAtStart = 2560; // halved and doubled without a remainder
 
 struct Split {
     std::vector<BsdfDecision> bsdfs;

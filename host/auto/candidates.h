@@ -15,7 +15,7 @@ enum class Coordinate { split, bdd, variant, photons, radius };
 std::array<Coordinate, 5> searchOrder(const RenderSettings& start);
 
 /// Factors of photons per pass and radius that are tried, and how far they may go from where the search starts.
-inline constexpr double photonsStep = 2, mostPhotons = 4, radiusStep = 1.4;
+inline constexpr double photonsStep = 2, mostPhotons = 16, radiusStep = 1.4;
 
 /// Where a search begins: `settings`, but with as many photons as the pixels ask for, even if they are few, where the search
 /// may raise them again. A small image by the default spends nearly all of its time on photons, and pilots take long.

@@ -3,50 +3,80 @@
 #include "render/camera_stage.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace quasilux {
 
 namespace {
 
-struct Seconds {
-    double camera = 0, all = 0;
-};
+double photonSeconds(Device& device) {
+    double seconds = 0;
+    for (const auto& [kernel, timing] : device.timings())
+        if (kernel != cameraKernel) seconds += timing.seconds;
+    return seconds;
+}
 
-Seconds kernelSeconds(Device& device) {
-    Seconds sum;
-    for (const auto& [kernel, timing] : device.timings()) {
-        sum.all += timing.seconds;
-        if (kernel == cameraKernel) sum.camera += timing.seconds;
-    }
-    return sum;
+// Of a medium's kernel where there is one, else of the widest class.
+double radiusOf(const SceneReport& report) {
+    double radius = 0;
+    for (const auto& medium : report.media) radius = std::max(radius, medium.kernelRadius);
+    for (const auto& [name, ofClass] : report.initialRadius)
+        if (report.media.empty()) radius = std::max(radius, ofClass);
+    return radius > 0 ? radius : 1;
 }
 
 } // namespace
 
 void RendererPilot::renderPass() {
-    const Seconds before = kernelSeconds(device_);
-    const double secondsBefore = renderer_->counters().renderSeconds;
+    const double photonsBefore = photonSeconds(device_);
+    const RenderCounters before = renderer_->counters();
     renderer_->renderPass(passes());
-    const Seconds after = kernelSeconds(device_);
-    cameraSeconds_ += after.camera - before.camera;
-    kernelSeconds_ += after.all - before.all;
-    if (passes() > 1) passSeconds_.push_back(renderer_->counters().renderSeconds - secondsBefore);
+    const RenderCounters& after = renderer_->counters();
+    const double radius = after.radiusSeconds - before.radiusSeconds;
+    PassSeconds seconds;
+    seconds.photons = photonSeconds(device_) - photonsBefore;
+    seconds.camera = after.renderSeconds - before.renderSeconds - radius - seconds.photons;
+    if (const uint64_t paths = after.radiusPaths - before.radiusPaths; paths > 0)
+        seconds.wideCamera = radius * double(after.cameraPaths - before.cameraPaths) / double(paths);
+    passes_.push_back(seconds);
 }
 
 PilotMeasure RendererPilot::measure() const {
-    PilotMeasure pilot = measurePilot(image(), hasMedia_, secondsPerPass());
-    if (kernelSeconds_ > 0) pilot.photonShare = 1 - cameraSeconds_ / kernelSeconds_;
+    const double photons = lateMedian(&PassSeconds::photons), camera = lateMedian(&PassSeconds::camera);
+    PilotMeasure pilot = measurePilot(image(), hasMedia_, photons + camera);
+    if (pilot.secondsPerPass > 0) pilot.photonShare = photons / pilot.secondsPerPass;
+    pilot.radius = radiusOf(renderer_->report());
+    pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());
     return pilot;
 }
 
-// The first pass pays for what the runtime compiles only then, and some of the early ones for choosing radii by pixel, so
-// what most passes take is their median.
 double RendererPilot::secondsPerPass() const {
-    if (passSeconds_.empty()) return renderer_->counters().firstPassSeconds;
-    std::vector<double> seconds = passSeconds_;
+    return lateMedian(&PassSeconds::photons) + lateMedian(&PassSeconds::camera);
+}
+
+// The first pass pays for what the runtime compiles only then, others for a busy machine; and passes grow cheaper as radii
+// shrink. So the median of the second half tells best what those to come will take.
+double RendererPilot::lateMedian(double PassSeconds::*part) const {
+    std::vector<double> seconds;
+    for (size_t pass = passes_.size() / 2; pass < passes_.size(); ++pass) seconds.push_back(passes_[pass].*part);
+    if (seconds.empty()) return 0;
     const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
     std::nth_element(seconds.begin(), middle, seconds.end());
     return *middle;
+}
+
+// Until radii are chosen, the paths that choose them differ from those of the pass by discs of largestAdaptiveRadius^2 the area.
+// What does not grow with the area will not fall with it. As long as nothing tells, all of it.
+double RendererPilot::cameraSecondsWithoutDiscs() const {
+    constexpr double area = largestAdaptiveRadius * largestAdaptiveRadius;
+    const size_t last = std::min<size_t>(passesOfEqualRadius, passes_.size());
+    double camera = 0, wide = 0, passes = 0;
+    for (size_t pass = 1; pass < last; ++pass, ++passes) {
+        camera += passes_[pass].camera;
+        wide += passes_[pass].wideCamera;
+    }
+    if (wide == 0) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, area * camera - wide) / (area - 1) / passes;
 }
 
 double RendererPilot::openingSeconds() const {

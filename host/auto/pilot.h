@@ -36,13 +36,19 @@ public:
     const Renderer& renderer() const { return *renderer_; }
 
 private:
+    struct PassSeconds {
+        double photons = 0;    ///< traced and sorted
+        double camera = 0;     ///< all else, but for choosing radii by pixel
+        double wideCamera = 0; ///< camera paths with the largest discs, as far as choosing radii told
+    };
+    double lateMedian(double PassSeconds::*part) const;
     double secondsPerPass() const;
+    double cameraSecondsWithoutDiscs() const;
 
     Device& device_;
     std::unique_ptr<Renderer> renderer_;
     bool hasMedia_;
-    double cameraSeconds_ = 0, kernelSeconds_ = 0;
-    std::vector<double> passSeconds_; ///< of all passes but the first
+    std::vector<PassSeconds> passes_;
 };
 
 } // namespace quasilux

@@ -38,15 +38,74 @@ Growth growthTo(const PilotMeasure& pilot, double passes) {
     return {pilot.passes / passes, blur * blur};
 }
 
+// Passes grow cheaper as radii shrink.
 double passesAfter(const PilotMeasure& pilot, double seconds) {
-    return pilot.passes + std::max(0.0, seconds) / std::max(pilot.secondsPerPass, 1e-9);
+    double passes = pilot.passes, left = std::max(0.0, seconds);
+    const double toldBy = radiusShrink(pilot.passes * 3 / 4), even = pilot.secondsPerPass - pilot.secondsWithRadius;
+    while (true) {
+        const double step = std::max(1.0, std::floor(passes / 64));
+        const double shrink = radiusShrink(static_cast<unsigned>(passes + (step - 1) / 2)) / toldBy;
+        const double cost = std::max(even + shrink * shrink * pilot.secondsWithRadius, 1e-9);
+        if (left <= step * cost) return passes + left / cost;
+        passes += step;
+        left -= step * cost;
+    }
 }
 
-// Below this share of its noise a bias cannot be told from 0 (docs/accuracy.md). It counts as so much: taken for 0, a
-// candidate would win for knowing less about its bias.
+// Below this share of its noise the bias of an image of many pixels cannot be told from 0 (docs/accuracy.md).
 constexpr double resolvedBias = 1.0 / 25;
 
-double resolved(double bias, double biasNoise) { return std::max(bias, resolvedBias * biasNoise); }
+// The bias that cannot be told from 0: of small images it is more, as their tiles scatter. What is less counts as so much:
+// taken for what it is told, a candidate would win for knowing less about its bias.
+double leastBias(const PilotMeasure& pilot) {
+    const double n = static_cast<double>(pilot.bias.size()), mean = sum(pilot.bias) / std::max(1.0, n);
+    double squares = 0;
+    for (const double bias : pilot.bias) squares += (bias - mean) * (bias - mean);
+    return std::max(resolvedBias * pilot.biasNoise, std::sqrt(n / std::max(1.0, n - 1) * squares));
+}
+
+struct Estimate {
+    double value = 0, standardError = 0;
+};
+
+Estimate biasOf(const PilotMeasure& pilot) { return {sum(pilot.bias), leastBias(pilot)}; }
+
+// Mean of two estimates of one thing, weights inverse to their variance.
+Estimate pooled(const Estimate& a, const Estimate& b) {
+    const double weightA = 1 / (a.standardError * a.standardError), weightB = 1 / (b.standardError * b.standardError);
+    return {(weightA * a.value + weightB * b.value) / (weightA + weightB), 1 / std::sqrt(weightA + weightB)};
+}
+
+constexpr double tellsApart = 2; // standard errors
+
+// One of two that are compared, as it will be at the end.
+struct Side {
+    const PilotMeasure& pilot;
+    Growth growth;
+    Estimate bias;
+
+    // Without the noise and bias of a tile.
+    double error(double noiseLeftOut, double biasLeftOut) const {
+        const double noise = sum(pilot.noise), least = 1e-12 * growth.noise * noise; // a tile may hold all of it
+        const double left = std::max(bias.value - biasLeftOut, bias.standardError);
+        return std::max(least, growth.noise * (noise - noiseLeftOut) + growth.bias * left) + 1e-300;
+    }
+    // Standard error of error() by that of the bias.
+    double byBias() const { return growth.bias * bias.standardError; }
+    double hiddenBias() const { return bias.value < bias.standardError ? byBias() : 0; }
+};
+
+// Bias goes as the square of the radius. Where noise does not tell the two apart but for that, they are taken for one.
+bool poolBias(Side& a, Side& b) {
+    const double byRadius = std::pow(a.pilot.radius / b.pilot.radius, 4);
+    const Estimate ofB{byRadius * b.bias.value, byRadius * b.bias.standardError};
+    if (a.bias.standardError == 0 || ofB.standardError == 0) return false;
+    const double apart = std::abs(a.bias.value - ofB.value);
+    if (apart >= tellsApart * std::hypot(a.bias.standardError, ofB.standardError)) return false;
+    a.bias = pooled(a.bias, ofB);
+    b.bias = {a.bias.value / byRadius, a.bias.standardError / byRadius};
+    return true;
+}
 
 } // namespace
 
@@ -63,11 +122,16 @@ PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsP
     return pilot;
 }
 
+bool tellsBias(const PilotMeasure& pilot) {
+    const Estimate bias = biasOf(pilot);
+    return bias.value > tellsApart * bias.standardError;
+}
+
 double Prediction::relativeError() const { return std::sqrt(relativeMse()); }
 
 Prediction predictAfterPasses(const PilotMeasure& pilot, double passes) {
     const Growth growth = growthTo(pilot, passes);
-    return {passes, growth.noise * sum(pilot.noise), growth.bias * resolved(sum(pilot.bias), pilot.biasNoise)};
+    return {passes, growth.noise * sum(pilot.noise), growth.bias * std::max(sum(pilot.bias), leastBias(pilot))};
 }
 
 Prediction predictAfter(const PilotMeasure& pilot, double seconds) {
@@ -75,25 +139,28 @@ Prediction predictAfter(const PilotMeasure& pilot, double seconds) {
 }
 
 ErrorRatio errorRatio(const PilotMeasure& a, const PilotMeasure& b, double seconds) {
-    const Growth growthA = growthTo(a, passesAfter(a, seconds)), growthB = growthTo(b, passesAfter(b, seconds));
-    const auto error = [](const PilotMeasure& pilot, const Growth& growth, double noise, double bias) {
-        const double least = 1e-12 * growth.noise * sum(pilot.noise); // a tile may hold all of it
-        return std::max(least, growth.noise * noise + growth.bias * resolved(bias, pilot.biasNoise)) + 1e-300;
-    };
-    const double noiseA = sum(a.noise), noiseB = sum(b.noise), biasA = sum(a.bias), biasB = sum(b.bias);
+    Side sideA{a, growthTo(a, passesAfter(a, seconds)), biasOf(a)};
+    Side sideB{b, growthTo(b, passesAfter(b, seconds)), biasOf(b)};
+    const bool areOne = poolBias(sideA, sideB);
+    const double errorA = sideA.error(0, 0), errorB = sideB.error(0, 0);
     ErrorRatio result;
-    result.logRatio = std::log(error(a, growthA, noiseA, biasA) / error(b, growthB, noiseB, biasB));
+    result.logRatio = std::log(errorA / errorB);
     const size_t tiles = std::min(a.noise.size(), b.noise.size());
+    const double byTile = areOne ? 0 : 1;
     double mean = 0, squares = 0;
     for (size_t t = 0; t < tiles; ++t) {
-        const double left = std::log(error(a, growthA, noiseA - a.noise[t], biasA - a.bias[t]) /
-                                     error(b, growthB, noiseB - b.noise[t], biasB - b.bias[t]));
+        const double left =
+            std::log(sideA.error(a.noise[t], byTile * a.bias[t]) / sideB.error(b.noise[t], byTile * b.bias[t]));
         mean += left;
         squares += left * left;
     }
     const double n = static_cast<double>(tiles);
     mean /= std::max(1.0, n);
     if (tiles > 1) result.standardError = std::sqrt((n - 1) / n * std::max(0.0, squares - n * mean * mean));
+    // What noise may hide of one bias moves both; of a bias that counts as the least, tiles do not tell it.
+    const double hidden = areOne ? sideA.byBias() / errorA - sideB.byBias() / errorB
+                                 : std::hypot(sideA.hiddenBias() / errorA, sideB.hiddenBias() / errorB);
+    result.standardError = std::hypot(result.standardError, hidden);
     return result;
 }
 

@@ -10,15 +10,20 @@ namespace quasilux {
 /// What a few passes tell: error by tile of the image, as shares of relMSE, so that the tiles' sum is the image's.
 struct PilotMeasure {
     unsigned passes = 0;
-    double secondsPerPass = 0;
+    double secondsPerPass = 0;       ///< of the second half of these passes
+    double secondsWithRadius = 0;    ///< the part of them that falls as radii shrink, in proportion to the discs
     std::vector<double> noise, bias; ///< by tile; the bias of a tile is net of noise and may come out below 0
     double biasNoise = 0;            ///< relMSE that the estimate of the bias has as noise
+    double radius = 1;               ///< of the first pass's density estimate, in any unit
     bool inVolume = false;           ///< kernels shrink in three dimensions
     double photonShare = 0.5;        ///< of a pass's time that goes into tracing photons and building their map
 };
 
 /// `image` of passes 0, 1, ….
 PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass);
+
+/// Does it tell a bias, or what may be none?
+bool tellsBias(const PilotMeasure& pilot);
 
 struct Prediction {
     double passes = 0;
@@ -34,7 +39,8 @@ Prediction predictAfterPasses(const PilotMeasure& pilot, double passes);
 /// After `seconds` more on the clock.
 Prediction predictAfter(const PilotMeasure& pilot, double seconds);
 
-/// log of the ratio of two predicted relMSE, and its standard error. Tiles are left out one after the other
+/// log of the ratio of two predicted relMSE, and its standard error. Biases that differ by less than what can be told, but for
+/// what their radii explain, count as one. Tiles are left out one after the other
 /// (the jackknife), so what is hard in both counts for neither, and a few bright pixels that carry the noise of one of
 /// them make its standard error large.
 struct ErrorRatio {

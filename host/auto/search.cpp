@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace quasilux {
 
@@ -16,21 +17,26 @@ constexpr unsigned fewestToWin = 4, fewestToWinWithMorePaths = 8;
 // More passes than fewestToWin are for what few passes leave open, as long as they leave time for other candidates.
 constexpr double shareOfOneDuel = 1.0 / 8; // of the time for pilots
 // Passes up to this share of that time are rendered before the first judgement: two passes alone often err.
-constexpr double shareOfFirstStage = 1.0 / 24;
-constexpr double smallGain = 0.05;       // in the logarithm of relMSE: not worth another pass
-constexpr double surelyWorse = 1.5;      // standard errors
-constexpr double surelyBetter = 2;       // standard errors beyond smallGain
-constexpr double clockError = 0.1;       // of the logarithm of the time that one pass takes
-constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
-constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
+constexpr double shareOfFirstStage = 1.0 / 12;
+constexpr double smallGain = 0.05;  // in the logarithm of relMSE: not worth another pass
+constexpr double surelyWorse = 1.5; // standard errors
+// Before the first judgement only what is that much worse, surely, is given up.
+constexpr double hopeless = 0.7, surelyHopeless = 3; // logarithm of relMSE; standard errors
+constexpr double surelyBetter = 2;                   // standard errors beyond smallGain
+constexpr double clockError = 0.1;                   // of the logarithm of the time that one pass takes
+constexpr double leastSeconds = 1;                   // renders shorter than this are not worth a search
+constexpr double longestHorizon = 86400;             // seconds, where only an error was asked for
 // Kernels not in the runtime's cache take so many times longer to open than those that are; whether the first ones
 // were, is not told, so no more than coldSeconds are expected of others (docs/auto.md).
 constexpr double coldOverWarm = 10, coldSeconds = 4;
-// Radius and photons are tried where the ratio of bias to noise (both squared) says that it may pay: with noise at most
+// Radius and photons are tried first where the ratio of bias to noise (both squared) says that it may pay: with noise at most
 // as 1 / radius^2 and bias as radius^4, radiusStep gains nothing between these bounds.
 constexpr double littleBias = 0.17, muchBias = 0.4, biasForPhotons = 0.2;
 // Photons are tried, too, where they take nearly all of a pass's time, or next to none.
 constexpr double fewPhotons = 0.3, manyPhotons = 0.7;
+constexpr double mostlyPhotons = 0.5; // of the time; then they are tried before all else
+
+bool isNumber(Coordinate coordinate) { return coordinate == Coordinate::photons || coordinate == Coordinate::radius; }
 
 RenderSettings seededFor(RenderSettings settings, uint64_t seed, size_t row) {
     // Images that are added must not share random numbers.
@@ -57,9 +63,9 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     if (begun) {
         measure(best_);
         note(best_, "start");
-        for (size_t before = 0; before != report_.rows.size();) { // until a round tries nothing new
-            before = report_.rows.size();
-            for (const Coordinate coordinate : searchOrder(settings)) tryNeighbours(coordinate);
+        // Where photons take most of a pass, fewer may make all other candidates cheaper.
+        if (best_.measure.photonShare > mostlyPhotons) tryNeighbours(Coordinate::photons);
+        while (tryRound(settings) || (!std::exchange(triesAll_, true) && tryRound(settings))) {
         }
         measure(best_);
     }
@@ -69,6 +75,12 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     for (const PilotRow& row : report_.rows) report_.passes += row.passes;
     report_.passes -= report_.rows[report_.chosen].passes;
     return {best_.settings, std::move(best_.pilot), std::move(retired_), std::move(retiredSeconds_), report_};
+}
+
+bool Search::tryRound(const RenderSettings& start) {
+    const size_t before = report_.rows.size();
+    for (const Coordinate coordinate : searchOrder(start)) tryNeighbours(coordinate);
+    return report_.rows.size() > before;
 }
 
 double Search::spent() const { return world_.clock() - began_ - ofBest_; }
@@ -154,17 +166,20 @@ double Search::openingCost(const RenderSettings& settings) const {
 }
 
 bool Search::isWorthTrying(Coordinate coordinate, const RenderSettings& settings) const {
-    if (coordinate != Coordinate::radius && coordinate != Coordinate::photons) return true;
+    if (!isNumber(coordinate)) return true;
     const double photons = settings.photonsPerPass, scale = settings.radiusScale / startRadius_;
     const bool byRadius = coordinate == Coordinate::radius;
     if (byRadius && (scale > 2.1 || scale < 0.45)) return false;
-    if (!byRadius && (photons > mostPhotons * startPhotons_ || photons < startPhotons_ / mostPhotons)) return false;
+    if (!byRadius && (photons > mostPhotons * startPhotons_ || photons < std::floor(startPhotons_ / mostPhotons)))
+        return false;
+    if (triesAll_ && !byRadius) return true;
     const Prediction now = predictAfter(best_.measure, secondsLeft());
     const bool sharper =
         byRadius ? settings.radiusScale < best_.settings.radiusScale : photons > best_.pilot->photonsPerPass();
-    if (byRadius) return sharper ? now.bias > muchBias * now.noise : now.bias < littleBias * now.noise;
+    const bool isBiased = tellsBias(best_.measure);
+    if (byRadius) return sharper ? isBiased && now.bias > muchBias * now.noise : now.bias < littleBias * now.noise;
     const double photonShare = best_.measure.photonShare;
-    return sharper ? now.bias > biasForPhotons * now.noise || photonShare < fewPhotons
+    return sharper ? (isBiased && now.bias > biasForPhotons * now.noise) || photonShare < fewPhotons
                    : now.bias < littleBias * now.noise || photonShare > manyPhotons;
 }
 
@@ -173,7 +188,8 @@ void Search::tryNeighbours(Coordinate coordinate) {
     for (const auto& next : neighbours(coordinate, best_.settings, photons, scene_, freedom_)) {
         if (interrupted()) return;
         if (!tryCandidate(coordinate, next)) continue;
-        if (coordinate != Coordinate::split) return; // a step of a number may be followed by another one
+        if (isNumber(coordinate)) return tryNeighbours(coordinate); // the next step the same way
+        if (coordinate != Coordinate::split) return;
         const unsigned bdd = best_.settings.bdd;
         if (bdd > 0) tryNeighbours(Coordinate::bdd); // with this split shorter paths may do
         if (best_.settings.bdd != bdd) return tryNeighbours(Coordinate::split);
@@ -211,16 +227,29 @@ unsigned Search::fewestToWinAgainst(const Contender& best, const Contender& chal
     return challenger.settings.bdd > best.settings.bdd ? fewestToWinWithMorePaths : fewestToWin;
 }
 
+ErrorRatio Search::against(const Contender& challenger) const {
+    const unsigned passes = challenger.measure.passes;
+    const auto stage = best_.stages.find(passes);
+    const PilotMeasure& best = stage == best_.stages.end() ? best_.measure : stage->second;
+    ErrorRatio found = errorRatio(challenger.measure, best, secondsLeft());
+    found.standardError = std::hypot(found.standardError, clockError * std::sqrt(2.0 / (passes - 1)));
+    return found;
+}
+
+bool Search::isHopeless(const Contender& challenger) const {
+    if (challenger.measure.passes < fewestToWin) return false;
+    const ErrorRatio found = against(challenger);
+    return found.logRatio - surelyHopeless * found.standardError > hopeless;
+}
+
 Search::Verdict Search::judge(const Contender& challenger, bool isLast) const {
     const Prediction predicted = predictAfter(challenger.measure, secondsLeft());
     if (!(predicted.noise > 0)) return Verdict::undecided; // it has seen nothing, or there is nothing to gain
+    const ErrorRatio found = against(challenger);
     const unsigned passes = challenger.measure.passes;
     const bool fewerPaths = challenger.settings.bdd < best_.settings.bdd; // wins where both are alike: it hides nothing
     const bool mayWin = passes >= fewestToWinAgainst(best_, challenger);
-    const auto stage = best_.stages.find(passes);
-    const PilotMeasure& best = stage == best_.stages.end() ? best_.measure : stage->second;
-    const ErrorRatio found = errorRatio(challenger.measure, best, secondsLeft());
-    const double error = std::hypot(found.standardError, clockError * std::sqrt(2.0 / (passes - 1)));
+    const double error = found.standardError;
     if (found.logRatio - surelyWorse * error > -smallGain) return Verdict::worse;
     if (passes >= fewestToWin && found.logRatio > (fewerPaths ? 0 : -smallGain)) return Verdict::worse;
     const double margin = isLast ? (fewerPaths ? 0 : error) : surelyBetter * error + smallGain;
@@ -241,7 +270,8 @@ Search::Verdict Search::duel(Contender& challenger) {
         measure(best_);
         const bool isLast = !isWhole || passes == stages[std::size(stages) - 1];
         const double next = 2 * passes * challenger.measure.secondsPerPass;
-        if (!isLast && next < shareOfFirstStage * pilotShare * horizon() && affords(next)) continue;
+        const bool isEarly = !isLast && next < shareOfFirstStage * pilotShare * horizon();
+        if (isEarly && !isHopeless(challenger) && affords(next)) continue;
         verdict = judge(challenger, isLast);
         if (!isWhole || verdict != Verdict::undecided) return verdict;
     }

@@ -54,9 +54,13 @@ private:
     };
     enum class Verdict { better, worse, undecided };
 
+    bool tryRound(const RenderSettings& start); ///< whether there was anything new to try
     void tryNeighbours(Coordinate coordinate);
     bool tryCandidate(Coordinate coordinate, const RenderSettings& settings);
     Verdict duel(Contender& challenger);
+    /// Predicted errors of it and of the best one after as many passes.
+    ErrorRatio against(const Contender& challenger) const;
+    bool isHopeless(const Contender& challenger) const;
     Verdict judge(const Contender& challenger, bool isLast) const;
     static unsigned fewestToWinAgainst(const Contender& best, const Contender& challenger);
     bool renderUpTo(Contender& contender, unsigned passes);
@@ -87,6 +91,7 @@ private:
     double began_ = 0, ofBest_ = 0; ///< clock when the first candidate is due; seconds of the best one's passes since
     unsigned startPhotons_ = 0;
     double startRadius_ = 1;
+    bool triesAll_ = false; ///< photons also where they do not promise much, once nothing else is left
 };
 
 } // namespace quasilux

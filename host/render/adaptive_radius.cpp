@@ -10,7 +10,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned pilotPasses = 16, firstChoice = 4;
+constexpr unsigned pilotPasses = 16;
 constexpr double pilotSide = 128; // of the pilot's image, about: it is to cost little, whatever the size of the image
 constexpr unsigned foreseenPasses = 1024;
 
@@ -79,7 +79,7 @@ void AdaptiveRadius::endPilotPass(unsigned pass) {
     squaredRadii_ += squaredShrink(pass) * largestAdaptiveRadius * largestAdaptiveRadius;
     inverseSquares_ += 1 / (squaredShrink(pass) * largestAdaptiveRadius * largestAdaptiveRadius);
     ++passes_;
-    if (passes_ < firstChoice || !std::has_single_bit(passes_)) return;
+    if (passes_ < passesOfEqualRadius || !std::has_single_bit(passes_)) return;
     const shared::RadiusParams params{camera_.width,
                                       camera_.height,
                                       passes_,

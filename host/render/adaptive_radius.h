@@ -12,6 +12,8 @@ namespace quasilux {
 
 /// No pixel's radius is more than this many times the fixed one. CELLS_REACHED of kernels/density.clh.
 inline constexpr float largestAdaptiveRadius = 2;
+/// First passes, in which all pixels still have the fixed one.
+inline constexpr unsigned passesOfEqualRadius = 4;
 
 class AdaptiveRadius {
 public:

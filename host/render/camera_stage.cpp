@@ -38,11 +38,17 @@ void CameraStage::run(unsigned pass, const PhotonStage& photons) {
     params_.map = photons.table().map();
     params_.radiusBlock = radii_ ? radii_->block() : 1;
     runOn(film_, radii_ ? &radii_->scales() : nullptr, photons);
-    if (radii_ && radii_->pilotIsDue()) runPilot(photons);
+}
+
+bool CameraStage::radiusIsDue() const { return radii_ && radii_->pilotIsDue(); }
+
+size_t CameraStage::radiusPaths() const {
+    const shared::Camera& camera = radii_->pilotCamera();
+    return size_t(camera.width) * camera.height;
 }
 
 // With the same photons: passes to come, whose radii this decides, have others.
-void CameraStage::runPilot(const PhotonStage& photons) {
+void CameraStage::chooseRadius(const PhotonStage& photons) {
     const shared::Camera camera = params_.camera;
     params_.camera = radii_->pilotCamera();
     params_.radiusBlock = 1;

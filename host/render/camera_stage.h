@@ -21,11 +21,16 @@ public:
     /// One path per pixel.
     void run(unsigned pass, const PhotonStage& photons);
 
+    /// Are the radii by pixel still to be chosen? Then chooseRadius() is to follow run().
+    bool radiusIsDue() const;
+    void chooseRadius(const PhotonStage& photons);
+    /// Camera paths that it traces.
+    size_t radiusPaths() const;
+
 private:
     void trace(Film& film, const shared::CameraParams& params, const Buffer<float>* radiusScales,
                const PhotonStage& photons);
     void runOn(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
-    void runPilot(const PhotonStage& photons);
 
     const GeometryBuffers& geometry_;
     Film& film_;

@@ -235,7 +235,7 @@ struct Renderer::Stages {
         if (meter)
             meter->run(pass, *photons);
         else
-            camera->run(pass, *photons);
+            runCamera(pass);
         uint64_t stored = 0;
         for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
             if (count.stored[slot] > 0) counters.photonsStored[slotName(slot)] += count.stored[slot];
@@ -243,6 +243,17 @@ struct Renderer::Stages {
         }
         noteMapSize(stored, stored * PhotonArrays::photonBytes(storesDepth()));
         counters.photonsEmitted += photons->photonsPerPass();
+    }
+
+    void runCamera(unsigned pass) {
+        camera->run(pass, *photons);
+        if (!camera->radiusIsDue()) return;
+        device.finish();
+        const auto start = Clock::now();
+        camera->chooseRadius(*photons);
+        device.finish();
+        counters.radiusSeconds += since(start);
+        counters.radiusPaths += camera->radiusPaths();
     }
 
     void runCameraMap(unsigned pass) {
@@ -298,6 +309,8 @@ RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
     compileSeconds += other.compileSeconds;
     firstPassSeconds += other.firstPassSeconds;
     renderSeconds += other.renderSeconds;
+    radiusSeconds += other.radiusSeconds;
+    radiusPaths += other.radiusPaths;
     return *this;
 }
 

@@ -68,6 +68,8 @@ struct RenderCounters {
     std::optional<EnergyBalance> energy; ///< where RenderSettings::energyBalance asks for it
     double throughputCut = 0;            ///< of camera paths, mean of R, G, B; each begins with 1
     double prepareSeconds = 0, compileSeconds = 0, firstPassSeconds = 0, renderSeconds = 0;
+    double radiusSeconds = 0; ///< of renderSeconds, for choosing radii by pixel in the first passes, and
+    uint64_t radiusPaths = 0; ///< camera paths for it, at the largest radius
 
     /// Of two renderers together.
     RenderCounters& operator+=(const RenderCounters& other);
