@@ -95,11 +95,14 @@ double Search::horizon() const {
 
 double Search::secondsLeft() const { return std::max(0.0, horizon() - world_.clock()); }
 
-bool Search::affords(double seconds) {
+bool Search::fits(double seconds) const {
     const double end = horizon();
-    const bool can = end >= leastSeconds && spent() + seconds <= pilotShare * end;
-    if (!can) report_.outOfTime = true;
-    return can;
+    return end >= leastSeconds && spent() + seconds <= pilotShare * end;
+}
+
+bool Search::affords(double seconds) {
+    if (!fits(seconds)) report_.outOfTime = true;
+    return fits(seconds);
 }
 
 bool Search::renderUpTo(Contender& contender, unsigned passes) {
@@ -271,7 +274,7 @@ Search::Verdict Search::duel(Contender& challenger) {
         const bool isLast = !isWhole || passes == stages[std::size(stages) - 1];
         const double next = 2 * passes * challenger.measure.secondsPerPass;
         const bool isEarly = !isLast && next < shareOfFirstStage * pilotShare * horizon();
-        if (isEarly && !isHopeless(challenger) && affords(next)) continue;
+        if (isEarly && !isHopeless(challenger) && fits(next)) continue;
         verdict = judge(challenger, isLast);
         if (!isWhole || verdict != Verdict::undecided) return verdict;
     }

@@ -65,7 +65,8 @@ private:
     static unsigned fewestToWinAgainst(const Contender& best, const Contender& challenger);
     bool renderUpTo(Contender& contender, unsigned passes);
     static void measure(Contender& contender);
-    bool affords(double seconds);
+    bool fits(double seconds) const; ///< into the pilots' share of the time
+    bool affords(double seconds);    ///< the same, and notes it where it does not
     bool isWorthTrying(Coordinate coordinate, const RenderSettings& settings) const;
     std::optional<double> opening(const std::string& key) const;
     double openingCost(const RenderSettings& settings) const;
