@@ -26,20 +26,21 @@ def at_time(points, seconds):
 
 
 def error_ratios(part):
-    """Standard over the scene's method at equal CPU time: at the latest common time, spread by the times before it."""
+    """Standard over other methods at equal CPU time: at the latest common time, spread by the times before it."""
     runs = {(run["device"], run["method"]): run for run in part["runs"]}
     for (device, method), run in runs.items():
         standard = runs.get((device, "standard:0"))
-        if method != "scene" or standard is None:
+        if method == "standard:0" or standard is None:
             continue
         found = []
         last = min(run["points"][-1]["cpuSeconds"], standard["points"][-1]["cpuSeconds"])
         for seconds in (last / 4, last / 2, last):
-            ours, theirs = at_time(run["points"], seconds), at_time(standard["points"], seconds)
-            if ours and theirs:
-                found.append(theirs / ours)
+            error, of_standard = at_time(run["points"], seconds), at_time(standard["points"], seconds)
+            if error and of_standard:
+                found.append(of_standard / error)
         if found:
-            yield f"relMSE standard / quasi-specular, {run['scene']}, {platform(part, device)}", ratio(
+            ours = "quasi-specular" if method == "scene" else method
+            yield f"relMSE standard / {ours}, {run['scene']}, {platform(part, device)}", ratio(
                 found[-1], (max(found) - min(found)) / 2)
 
 
