@@ -94,7 +94,6 @@ double relativeError(const RenderSettings& settings, unsigned passesOfRender) {
     return compareImages(radianceOf(renderer.develop()), reference, {wholePicture(64, 64)}, {}).regions.at(0).relMse;
 }
 
-// Each of the fixed radii that the choice ranges over is worse in the whole image.
 // Of a pass's cost it is known apart, since it ends after 16 passes.
 TEST(AdaptiveRadius, IsCountedApartFromThePasses) {
     RenderSettings settings;
@@ -110,6 +109,7 @@ TEST(AdaptiveRadius, IsCountedApartFromThePasses) {
     EXPECT_LT(renderer.counters().radiusSeconds, renderer.counters().renderSeconds);
 }
 
+// Each of the fixed radii that the choice ranges over is worse in the whole image.
 TEST(AdaptiveRadius, HasLessErrorThanAnyFixedRadius) {
     RenderSettings settings;
     settings.photonsPerPass = 100'000;

@@ -14,13 +14,17 @@ constexpr unsigned tilesPerSide = 8;
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// Mean over the first `passes` passes of (r_i / r_0)^2, in volumes too. It falls smoothly, so far on steps grow.
+// Radii fall smoothly, so far on sums over passes may take several at once: as many as this, by the radius of the middle one.
+double passesAtOnce(double done) { return std::max(1.0, std::floor(done / 64)); }
+unsigned middleOf(double done, double step) { return static_cast<unsigned>(done + (step - 1) / 2); }
+
+// Mean over the first `passes` passes of (r_i / r_0)^2, in volumes too.
 double meanSquaredRadius(double passes, bool inVolume) {
     const double last = std::max(1.0, passes);
     double total = 0, done = 0;
     while (done < last) {
-        const double step = std::min(last - done, std::max(1.0, std::floor(done / 64)));
-        const auto middle = static_cast<unsigned>(done + (step - 1) / 2);
+        const double step = std::min(last - done, passesAtOnce(done));
+        const unsigned middle = middleOf(done, step);
         const double shrink = inVolume ? volumeShrink(middle) : radiusShrink(middle);
         total += step * shrink * shrink;
         done += step;
@@ -43,8 +47,8 @@ double passesAfter(const PilotMeasure& pilot, double seconds) {
     double passes = pilot.passes, left = std::max(0.0, seconds);
     const double toldBy = radiusShrink(pilot.passes * 3 / 4), even = pilot.secondsPerPass - pilot.secondsWithRadius;
     while (true) {
-        const double step = std::max(1.0, std::floor(passes / 64));
-        const double shrink = radiusShrink(static_cast<unsigned>(passes + (step - 1) / 2)) / toldBy;
+        const double step = passesAtOnce(passes);
+        const double shrink = radiusShrink(middleOf(passes, step)) / toldBy;
         const double cost = std::max(even + shrink * shrink * pilot.secondsWithRadius, 1e-9);
         if (left <= step * cost) return passes + left / cost;
         passes += step;
@@ -66,6 +70,9 @@ double leastBias(const PilotMeasure& pilot) {
 
 struct Estimate {
     double value = 0, standardError = 0;
+
+    // What cannot be told from 0 counts as much as it may be.
+    double counted() const { return std::max(value, standardError); }
 };
 
 Estimate biasOf(const PilotMeasure& pilot) { return {sum(pilot.bias), leastBias(pilot)}; }
@@ -87,8 +94,8 @@ struct Side {
     // Without the noise and bias of a tile.
     double error(double noiseLeftOut, double biasLeftOut) const {
         const double noise = sum(pilot.noise), least = 1e-12 * growth.noise * noise; // a tile may hold all of it
-        const double left = std::max(bias.value - biasLeftOut, bias.standardError);
-        return std::max(least, growth.noise * (noise - noiseLeftOut) + growth.bias * left) + 1e-300;
+        const Estimate left{bias.value - biasLeftOut, bias.standardError};
+        return std::max(least, growth.noise * (noise - noiseLeftOut) + growth.bias * left.counted()) + 1e-300;
     }
     // Standard error of error() by that of the bias.
     double byBias() const { return growth.bias * bias.standardError; }
@@ -131,7 +138,7 @@ double Prediction::relativeError() const { return std::sqrt(relativeMse()); }
 
 Prediction predictAfterPasses(const PilotMeasure& pilot, double passes) {
     const Growth growth = growthTo(pilot, passes);
-    return {passes, growth.noise * sum(pilot.noise), growth.bias * std::max(sum(pilot.bias), leastBias(pilot))};
+    return {passes, growth.noise * sum(pilot.noise), growth.bias * biasOf(pilot).counted()};
 }
 
 Prediction predictAfter(const PilotMeasure& pilot, double seconds) {

@@ -101,8 +101,9 @@ bool Search::fits(double seconds) const {
 }
 
 bool Search::affords(double seconds) {
-    if (!fits(seconds)) report_.outOfTime = true;
-    return fits(seconds);
+    const bool can = fits(seconds);
+    if (!can) report_.outOfTime = true;
+    return can;
 }
 
 bool Search::renderUpTo(Contender& contender, unsigned passes) {

@@ -42,19 +42,16 @@ void CameraStage::run(unsigned pass, const PhotonStage& photons) {
 
 bool CameraStage::radiusIsDue() const { return radii_ && radii_->pilotIsDue(); }
 
-size_t CameraStage::radiusPaths() const {
-    const shared::Camera& camera = radii_->pilotCamera();
-    return size_t(camera.width) * camera.height;
-}
-
 // With the same photons: passes to come, whose radii this decides, have others.
-void CameraStage::chooseRadius(const PhotonStage& photons) {
+size_t CameraStage::chooseRadius(const PhotonStage& photons) {
+    const size_t paths = radii_->pilotFilm().pixels();
     const shared::Camera camera = params_.camera;
     params_.camera = radii_->pilotCamera();
     params_.radiusBlock = 1;
     runOn(radii_->pilotFilm(), &radii_->pilotScales(), photons);
     params_.camera = camera;
     radii_->endPilotPass(params_.pass);
+    return paths;
 }
 
 } // namespace quasilux

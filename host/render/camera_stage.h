@@ -23,9 +23,8 @@ public:
 
     /// Are the radii by pixel still to be chosen? Then chooseRadius() is to follow run().
     bool radiusIsDue() const;
-    void chooseRadius(const PhotonStage& photons);
-    /// Camera paths that it traces.
-    size_t radiusPaths() const;
+    /// Returns how many camera paths it traced.
+    size_t chooseRadius(const PhotonStage& photons);
 
 private:
     void trace(Film& film, const shared::CameraParams& params, const Buffer<float>* radiusScales,

@@ -250,10 +250,9 @@ struct Renderer::Stages {
         if (!camera->radiusIsDue()) return;
         device.finish();
         const auto start = Clock::now();
-        camera->chooseRadius(*photons);
+        counters.radiusPaths += camera->chooseRadius(*photons);
         device.finish();
         counters.radiusSeconds += since(start);
-        counters.radiusPaths += camera->radiusPaths();
     }
 
     void runCameraMap(unsigned pass) {
