@@ -189,17 +189,17 @@ std::string testKernel(const std::string& file) {
 
 struct GatherSettings {
     unsigned lightClass = LIGHT_DIFFUSE, patchSide = 0, depthMax = QL_NONE;
-    bool checkRows = true; ///< false: the negative control, where rows that share cells are not told apart
+    bool joinsRuns = true; ///< false: the negative control, where photons in cells that rows share are met twice
 };
 
 std::vector<Sum> gather(const PhotonIndex& index, const std::vector<Query>& queries,
                         const PhotonIndexSettings& settings, const GatherSettings& what = {}) {
     std::map<std::string, std::string> files{{"photon_gather.cl", testKernel("photon_gather.cl")}};
-    if (!what.checkRows) {
+    if (!what.joinsRuns) {
         std::string text = kernelSources().at("density.clh");
-        const std::string check = "runsOverlap(runs, count);";
+        const std::string check = "joinRuns(runs, count);";
         EXPECT_NE(text.find(check), std::string::npos) << "the negative control must follow density.clh";
-        if (const size_t place = text.find(check); place != std::string::npos) text.replace(place, check.size(), "0;");
+        if (const size_t place = text.find(check); place != std::string::npos) text.replace(place, check.size(), "count;");
         files["density.clh"] = text;
     }
     Program program(testDevice(), "photon_gather.cl", photonIndexOptions(settings), files);
@@ -277,11 +277,11 @@ TEST(PhotonSearch, SumsAreThoseOfAllPhotons) {
 
 /// Lights a few photons at a time, so that most discs hold one of them or none: a photon missed, or met twice, cannot
 /// hide in the rounding of a sum. Returns the number of wrong answers.
-unsigned faultsOfSingles(const PhotonIndexSettings& settings, unsigned& singles, bool checkRows) {
+unsigned faultsOfSingles(const PhotonIndexSettings& settings, unsigned& singles, bool joinsRuns) {
     auto photons = awkwardPhotons(4001, 0, 0.25f, {LIGHT_DIFFUSE});
     for (Photon& photon : photons) photon.patchSide = 0;
     const auto queries = queriesAbout(photons, 400, settings.radius[LIGHT_DIFFUSE]);
-    const GatherSettings what{LIGHT_DIFFUSE, 0, QL_NONE, checkRows};
+    const GatherSettings what{LIGHT_DIFFUSE, 0, QL_NONE, joinsRuns};
     unsigned faults = 0;
     for (unsigned lit = 0; lit < 12; ++lit) {
         for (size_t k = 0; k < photons.size(); ++k) {

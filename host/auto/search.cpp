@@ -11,7 +11,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned stages[] = {2, 4, 8, 16, 32, 64};
+constexpr unsigned stages[] = {2, 4, 8, 16, 32, 64, 128, 256};
 // Passes before a candidate may win; more for one whose camera paths scatter on: few passes may miss its bright pixels.
 constexpr unsigned fewestToWin = 4, fewestToWinWithMorePaths = 8;
 // More passes than fewestToWin are for what few passes leave open, as long as they leave time for other candidates.
@@ -23,6 +23,10 @@ constexpr double surelyWorse = 1.5; // standard errors
 // Before the first judgement only what is that much worse, surely, is given up.
 constexpr double hopeless = 0.7, surelyHopeless = 3; // logarithm of relMSE; standard errors
 constexpr double surelyBetter = 2;                   // standard errors beyond smallGain
+// How much cheaper passes will grow is known to some 20 % from the first ones (docs/auto.md): two candidates that come
+// out so close after so many passes, which took next to no time, go on.
+constexpr double closeCall = 0.25; // logarithm of relMSE
+constexpr unsigned fewestOfCloseCall = 16;
 constexpr double clockError = 0.1;                   // of the logarithm of the time that one pass takes
 constexpr double leastSeconds = 1;                   // renders shorter than this are not worth a search
 constexpr double longestHorizon = 86400;             // seconds, where only an error was asked for
@@ -246,6 +250,10 @@ bool Search::isHopeless(const Contender& challenger) const {
     return found.logRatio - surelyHopeless * found.standardError > hopeless;
 }
 
+bool Search::isCloseCall(const Contender& challenger) const {
+    return challenger.measure.passes >= fewestOfCloseCall && std::abs(against(challenger).logRatio) < closeCall;
+}
+
 Search::Verdict Search::judge(const Contender& challenger, bool isLast) const {
     const Prediction predicted = predictAfter(challenger.measure, secondsLeft());
     if (!(predicted.noise > 0)) return Verdict::undecided; // it has seen nothing, or there is nothing to gain
@@ -262,10 +270,11 @@ Search::Verdict Search::judge(const Contender& challenger, bool isLast) const {
 
 Search::Verdict Search::duel(Contender& challenger) {
     Verdict verdict = Verdict::undecided;
+    const double share = pilotShare * horizon();
     for (const unsigned passes : stages) {
         const double more = (passes - challenger.pilot->passes()) * challenger.measure.secondsPerPass;
-        const bool isLong =
-            passes > fewestToWinAgainst(best_, challenger) && more > shareOfOneDuel * pilotShare * horizon();
+        const bool isLong = passes > fewestToWinAgainst(best_, challenger) && more > shareOfOneDuel * share;
+        if (verdict != Verdict::undecided && (isLong || !fits(more))) return verdict;
         if (more > 0 && (!affords(more) || isLong)) return judge(challenger, true);
         // As many of the best one: it may be the one whose bright pixels are rare.
         const bool isWhole = renderUpTo(challenger, passes) && renderUpTo(best_, passes);
@@ -274,10 +283,11 @@ Search::Verdict Search::duel(Contender& challenger) {
         measure(best_);
         const bool isLast = !isWhole || passes == stages[std::size(stages) - 1];
         const double next = 2 * passes * challenger.measure.secondsPerPass;
-        const bool isEarly = !isLast && next < shareOfFirstStage * pilotShare * horizon();
+        const bool isEarly = !isLast && next < shareOfFirstStage * share;
         if (isEarly && !isHopeless(challenger) && fits(next)) continue;
         verdict = judge(challenger, isLast);
-        if (!isWhole || verdict != Verdict::undecided) return verdict;
+        const bool goesOn = verdict == Verdict::undecided || isCloseCall(challenger);
+        if (!isWhole || !goesOn) return verdict;
     }
     return verdict;
 }

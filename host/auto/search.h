@@ -61,6 +61,7 @@ private:
     /// Predicted errors of it and of the best one after as many passes.
     ErrorRatio against(const Contender& challenger) const;
     bool isHopeless(const Contender& challenger) const;
+    bool isCloseCall(const Contender& challenger) const;
     Verdict judge(const Contender& challenger, bool isLast) const;
     static unsigned fewestToWinAgainst(const Contender& best, const Contender& challenger);
     bool renderUpTo(Contender& contender, unsigned passes);

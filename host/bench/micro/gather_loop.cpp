@@ -4,6 +4,8 @@
 #include "bench/micro/native_flux.h"
 #include "bench/micro/native_grid.h"
 
+#include <algorithm>
+
 namespace quasilux {
 
 namespace {
@@ -53,22 +55,26 @@ INTO_EVERY_CLONE void gatherRun(const NativeMap& photons, const shared::GatherQu
 /// Photons of cells that follow each other in one row.
 struct Run {
     size_t begin, end;
-    CellCoordinate row;
 };
 
 struct Runs {
     Run run[18]; // nine rows, each of which may wrap around the end of the table
     unsigned count = 0;
 
-    void add(size_t begin, size_t end, const CellCoordinate& row) {
-        if (begin < end) run[count++] = {begin, end, row};
-    }
-    /// Only where rows collide in the hashed table.
-    bool overlap() const {
-        for (unsigned a = 1; a < count; ++a)
-            for (unsigned b = 0; b < a; ++b)
-                if (run[a].begin < run[b].end && run[b].begin < run[a].end) return true;
-        return false;
+    /// Rows that collide in the hashed table share photons: such runs are made one.
+    void add(size_t begin, size_t end) {
+        if (begin == end) return;
+        for (unsigned k = 0; k < count;) {
+            if (begin >= run[k].end || run[k].begin >= end) {
+                ++k;
+                continue;
+            }
+            begin = std::min(begin, run[k].begin);
+            end = std::max(end, run[k].end);
+            run[k] = run[--count];
+            k = 0; // the longer one may meet others
+        }
+        run[count++] = {begin, end};
     }
 };
 
@@ -79,24 +85,15 @@ INTO_EVERY_CLONE Runs findRuns(const NativeMap& photons, const shared::GatherQue
     Runs runs;
     for (int dz = -1; dz <= 1; ++dz)
         for (int dy = -1; dy <= 1; ++dy) {
-            const CellCoordinate row{cell.x - 1, cell.y + dy, cell.z + dz};
-            const unsigned first = nativeCell(row, mask);
+            const unsigned first = nativeCell({cell.x - 1, cell.y + dy, cell.z + dz}, mask);
             if (first + 2 <= mask) {
-                runs.add(start[first], start[first + 3], row);
+                runs.add(start[first], start[first + 3]);
             } else {
-                runs.add(start[first], start[mask + 1], row);
-                runs.add(start[0], start[first + 3 - (mask + 1)], row);
+                runs.add(start[first], start[mask + 1]);
+                runs.add(start[0], start[first + 3 - (mask + 1)]);
             }
         }
     return runs;
-}
-
-INTO_EVERY_CLONE bool isOfRow(const NativeMap& photons, size_t i, const CellCoordinate& row) {
-    const size_t stride = photons.map.photonStride;
-    const float* field = reinterpret_cast<const float*>(photons.sorted);
-    const shared::Packed3 position{field[i], field[stride + i], field[2 * stride + i]};
-    const CellCoordinate own = nativeCoordinate(position, photons.map.radius[LIGHT_DIFFUSE]);
-    return own.y == row.y && own.z == row.z;
 }
 
 INTO_EVERY_CLONE void gatherAll(const NativeMap& photons, const shared::GatherQuery* queries, shared::GatherSum* sums,
@@ -104,16 +101,8 @@ INTO_EVERY_CLONE void gatherAll(const NativeMap& photons, const shared::GatherQu
     for (size_t k = 0; k < count; ++k) {
         Sums sum;
         const Runs runs = findRuns(photons, queries[k]);
-        const bool checkRow = runs.overlap();
-        for (unsigned n = 0; n < runs.count; ++n) {
-            const Run& run = runs.run[n];
-            if (!checkRow) {
-                gatherRun(photons, queries[k], run.begin, run.end, bias, sum);
-                continue;
-            }
-            for (size_t i = run.begin; i < run.end; ++i)
-                if (isOfRow(photons, i, run.row)) gatherRun(photons, queries[k], i, i + 1, bias, sum);
-        }
+        for (unsigned n = 0; n < runs.count; ++n)
+            gatherRun(photons, queries[k], runs.run[n].begin, runs.run[n].end, bias, sum);
         sums[k] = {{sum.r, sum.g, sum.b}, {sum.biasR, sum.biasG, sum.biasB}};
     }
 }
