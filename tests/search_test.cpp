@@ -190,6 +190,22 @@ TEST(Search, JudgesLaterWherePassesAreCheap) {
     EXPECT_EQ(hopeless.report.rows.at(1).passes, 4u);
 }
 
+// As where passes grow cheaper than the first ones let expect: alike for 70 passes, better after. Controls: what is not as close,
+// or takes longer, is given up before.
+TEST(Search, CloseCallsGoOnWherePassesAreCheap) {
+    const auto found = [](double secondsPerPass, double firstNoise) {
+        return search(
+                   [=](const RenderSettings& s) {
+                       return s.bdd == 1 ? Truth{secondsPerPass, 0.7, 0, firstNoise, 70} : Truth{secondsPerPass};
+                   },
+                   60, {true, false, false, false, false})
+            .settings.bdd;
+    };
+    EXPECT_EQ(found(0.02, 1.1), 1u);
+    EXPECT_EQ(found(0.02, 1.4), 0u);
+    EXPECT_EQ(found(0.1, 1.1), 0u);
+}
+
 // Where the ratio of bias and noise speaks for neither more nor fewer photons, their share of a pass's time does; and what
 // promises nothing comes last.
 TEST(Search, TriesFewerPhotonsWhereTheyTakeNearlyAllTimeAndMoreWhereTheyTakeLittle) {

@@ -12,8 +12,8 @@ constexpr unsigned scanBlocksMax = 64;
 // A few cells per disc's worth of records: collisions of rows only cost tests, and memory, on a GPU for each of many chunks,
 // more than on a CPU.
 unsigned cellsPerSlot(uint64_t records, const DeviceInfo& device) {
-    const uint64_t recordsPerCell = device.isCpu ? 4 : 8;
-    return static_cast<unsigned>(std::clamp<uint64_t>(std::bit_ceil(records / recordsPerCell), 4096, 1u << 28));
+    const uint64_t recordsPerCell = device.isCpu ? 4 : 8, least = device.isCpu ? 16384 : 4096;
+    return static_cast<unsigned>(std::clamp<uint64_t>(std::bit_ceil(records / recordsPerCell), least, 1u << 28));
 }
 
 // On a CPU a long chunk for each core, since each has counts of its own for all cells; on a GPU enough of them to occupy it.
