@@ -27,9 +27,9 @@ constexpr double surelyBetter = 2;                   // standard errors beyond s
 // out so close after so many passes, which took next to no time, go on.
 constexpr double closeCall = 0.25; // logarithm of relMSE
 constexpr unsigned fewestOfCloseCall = 16;
-constexpr double clockError = 0.1;                   // of the logarithm of the time that one pass takes
-constexpr double leastSeconds = 1;                   // renders shorter than this are not worth a search
-constexpr double longestHorizon = 86400;             // seconds, where only an error was asked for
+constexpr double clockError = 0.1;       // of the logarithm of the time that one pass takes
+constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
+constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
 // Kernels not in the runtime's cache take so many times longer to open than those that are; whether the first ones
 // were, is not told, so no more than coldSeconds are expected of others (docs/auto.md).
 constexpr double coldOverWarm = 10, coldSeconds = 4;
