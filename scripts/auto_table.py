@@ -2,7 +2,8 @@
 """`--auto` against fixed settings at equal time, for every scene of scenes/: the table at the end of docs/auto.md.
 
 Renders go to out/auto/ and are kept: a later run makes only what is missing (--again makes all anew), so that scenes can be done in
-several runs. The error of a render is the root of relMSE: what the render tells of itself (noiseRms^2 + biasRms^2) and, where
+several runs. After a change of the kernels take --again: renders by fixed settings come first and leave kernels compiled for those by
+--auto. The error of a render is the root of relMSE: what the render tells of itself (noiseRms^2 + biasRms^2) and, where
 the truth is known, what the image has: what `scripts/relmse.py` measures against a reference of scenes/references/, or the
 distance from a radiance that is the same everywhere.
 
