@@ -29,12 +29,13 @@ REFERENCES = {"cornell_phong": (box_reference, "all"), "plate_checker": (plate_r
 EVEN = {"furnace_glass": 2.5, "furnace_medium": 1, "furnace_sky": 1, "furnace_split": 2.5, "furnace_textured": 2.5, "slab": 0.52645242}
 
 
-def true_error(scene, pixels):
+def true_error(scene, image):
     """Square of it, net of the reference's noise; None where the truth is not known."""
+    if scene not in EVEN and scene not in REFERENCES:
+        return None
+    pixels = read_channels(image, ["R", "G", "B"])
     if scene in EVEN:
         return float(((pixels - EVEN[scene]) ** 2).mean()) / (1.01 * EVEN[scene] ** 2)
-    if scene not in REFERENCES:
-        return None
     reference, region = REFERENCES[scene]
     return reference().errors(pixels)[region].net
 
@@ -67,7 +68,7 @@ class Table:
         """Told error, true one or None, statistics."""
         statistics, image = self.render(scene, settings, seconds or self.options.time)
         told = statistics["error"]["relativeMse"]
-        net = true_error(scene, read_channels(image, ["R", "G", "B"]))
+        net = true_error(scene, image)
         return (math.sqrt(told) if told is not None else math.inf), (math.sqrt(net) if net and net > 0 else None), statistics
 
     def has_media(self, scene):
