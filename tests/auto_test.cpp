@@ -19,6 +19,7 @@ namespace {
 
 // --- prediction ---
 
+// Bias as the radius to the power of 1.4, so its square as the squared radius to that power.
 TEST(Prediction, NoiseFallsWithPassesAndBiasWithTheMeanSquaredRadius) {
     const PilotMeasure pilot = evenPilot(4, 8, 0.5, 0.1);
     const auto meanSquare = [](unsigned passes) {
@@ -30,7 +31,8 @@ TEST(Prediction, NoiseFallsWithPassesAndBiasWithTheMeanSquaredRadius) {
         const Prediction predicted = predictAfterPasses(pilot, passes);
         EXPECT_NEAR(predicted.noise, 8.0 / passes, 1e-9);
         const double blur = meanSquare(passes) / meanSquare(4);
-        EXPECT_NEAR(predicted.bias / (0.5 * blur * blur), 1, 0.005) << passes; // radii far on are taken in steps
+        EXPECT_NEAR(predicted.bias / (0.5 * std::pow(blur, 1.4)), 1, 0.005)
+            << passes; // radii far on are taken in steps
     }
     EXPECT_NEAR(predictAfter(pilot, 1).passes, 14, 1e-9);
 }
@@ -85,17 +87,39 @@ TEST(Prediction, RatioIsUncertainWhereOneTileHoldsTheNoiseOfOne) {
     EXPECT_GT(errorRatio(a, b, 100).standardError, 0.3);
 }
 
+void addScatter(PilotMeasure& pilot) {
+    for (size_t tile = 0; tile < pilot.bias.size(); ++tile) pilot.bias[tile] += tile % 2 ? 0.02 : -0.02;
+}
+constexpr double scatterOfSum = 0.16; // of 64 tiles
+
 // Biases that noise hides say nothing for either, nor that one radius is better. Controls: biases that are told.
 TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
     PilotMeasure a = evenPilot(4, 1, 0.2, 1), b = evenPilot(4, 1, 0.3, 1);
     EXPECT_LT(errorRatio(a, b, 0).logRatio, -0.1);
-    for (auto* pilot : {&a, &b})
-        for (size_t tile = 0; tile < pilot->bias.size(); ++tile) pilot->bias[tile] += tile % 2 ? 0.02 : -0.02;
+    for (auto* pilot : {&a, &b}) addScatter(*pilot);
     EXPECT_NEAR(errorRatio(a, b, 0).logRatio, 0, 1e-9);
     EXPECT_LT(errorRatio(a, b, 0).standardError, 1e-6);
-    b.radius = std::sqrt(2.0); // of which 4 times the bias is expected, so it tells a's with a quarter of the noise
-    const double ofA = (0.2 + 16 * 0.3 / 4) / 17;
-    EXPECT_NEAR(errorRatio(a, b, 0).logRatio, std::log((0.25 + ofA) / (0.25 + 4 * ofA)), 1e-3);
+    b.radius = std::sqrt(2.0);
+    const double more =
+        std::pow(2.0, 1.4); // times the bias is expected of it, so it tells a's with that much less noise
+    const double ofA = (0.2 + more * 0.3) / (1 + more * more);
+    EXPECT_NEAR(errorRatio(a, b, 0).logRatio, std::log((0.25 + ofA) / (0.25 + more * ofA)), 1e-3);
+}
+
+// Of a difference of two standard errors three quarters count. Controls: all of what is told surely; nothing below one.
+TEST(Prediction, BiasesCountApartAsFarAsNoiseDoesNotExplainIt) {
+    const auto logRatio = [](double standardErrors, bool isSure) {
+        const double apart = standardErrors * std::sqrt(2.0) * scatterOfSum;
+        PilotMeasure a = evenPilot(4, 1, 0.3, 1), b = evenPilot(4, 1, 0.3 + apart, 1);
+        if (!isSure)
+            for (auto* pilot : {&a, &b}) addScatter(*pilot);
+        return errorRatio(a, b, 0).logRatio;
+    };
+    const double mean = 0.3 + std::sqrt(2.0) * scatterOfSum, kept = 0.75 * (mean - 0.3);
+    // Standard errors are those of a sample of 64, n / (n - 1) in their square.
+    EXPECT_NEAR(logRatio(2, false), std::log((0.25 + mean - kept) / (0.25 + mean + kept)), 0.01);
+    EXPECT_NEAR(logRatio(2, true), std::log(0.55 / (0.25 + 2 * mean - 0.3)), 1e-9);
+    EXPECT_NEAR(logRatio(0.9, false), 0, 1e-9);
 }
 
 // From 8 passes of a render what 64 tell: within 30 % of the square, 15 % of the error, since 8 passes know no better;

@@ -32,6 +32,10 @@ double meanSquaredRadius(double passes, bool inVolume) {
     return total / last;
 }
 
+// Bias goes as this power of the radius. Of smooth light it is 2, of a slope's break 1.5 (root of the mean square), of an edge 0.5;
+// true bias of renders falls as its power 1.1 to 1.5 (docs/auto.md).
+constexpr double biasByRadius = 1.4;
+
 // Factors on noise and bias of a pilot after `passes` passes.
 struct Growth {
     double noise, bias;
@@ -39,7 +43,7 @@ struct Growth {
 
 Growth growthTo(const PilotMeasure& pilot, double passes) {
     const double blur = meanSquaredRadius(passes, pilot.inVolume) / meanSquaredRadius(pilot.passes, pilot.inVolume);
-    return {pilot.passes / passes, blur * blur};
+    return {pilot.passes / passes, std::pow(blur, biasByRadius)}; // blur: radius squared, bias: of relMSE, squared
 }
 
 // Passes grow cheaper as radii shrink.
@@ -83,7 +87,12 @@ Estimate pooled(const Estimate& a, const Estimate& b) {
     return {(weightA * a.value + weightB * b.value) / (weightA + weightB), 1 / std::sqrt(weightA + weightB)};
 }
 
-constexpr double tellsApart = 2; // standard errors
+Estimate between(const Estimate& a, const Estimate& b, double shareOfB) {
+    return {(1 - shareOfB) * a.value + shareOfB * b.value,
+            (1 - shareOfB) * a.standardError + shareOfB * b.standardError};
+}
+
+constexpr double tellsBiased = 2; // standard errors
 
 // One of two that are compared, as it will be at the end.
 struct Side {
@@ -102,16 +111,18 @@ struct Side {
     double hiddenBias() const { return bias.value < bias.standardError ? byBias() : 0; }
 };
 
-// Bias goes as the square of the radius. Where noise does not tell the two apart but for that, they are taken for one.
-bool poolBias(Side& a, Side& b) {
-    const double byRadius = std::pow(a.pilot.radius / b.pilot.radius, 4);
+// Biases of two are taken to be one, but for what their radii explain, as far as noise explains their difference d of
+// standard error s: each keeps the share 1 - s^2 / d^2 of its distance from the mean of both (James & Stein 1961), which is returned.
+double shrinkBias(Side& a, Side& b) {
+    const double byRadius = std::pow(a.pilot.radius / b.pilot.radius, 2 * biasByRadius);
     const Estimate ofB{byRadius * b.bias.value, byRadius * b.bias.standardError};
-    if (a.bias.standardError == 0 || ofB.standardError == 0) return false;
-    const double apart = std::abs(a.bias.value - ofB.value);
-    if (apart >= tellsApart * std::hypot(a.bias.standardError, ofB.standardError)) return false;
-    a.bias = pooled(a.bias, ofB);
-    b.bias = {a.bias.value / byRadius, a.bias.standardError / byRadius};
-    return true;
+    if (a.bias.standardError == 0 || ofB.standardError == 0) return 1;
+    const double apart = (a.bias.value - ofB.value) / std::hypot(a.bias.standardError, ofB.standardError);
+    const double own = std::max(0.0, 1 - 1 / (apart * apart));
+    const Estimate mean = pooled(a.bias, ofB);
+    a.bias = between(mean, a.bias, own);
+    b.bias = between({mean.value / byRadius, mean.standardError / byRadius}, b.bias, own);
+    return own;
 }
 
 } // namespace
@@ -131,7 +142,7 @@ PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsP
 
 bool tellsBias(const PilotMeasure& pilot) {
     const Estimate bias = biasOf(pilot);
-    return bias.value > tellsApart * bias.standardError;
+    return bias.value > tellsBiased * bias.standardError;
 }
 
 double Prediction::relativeError() const { return std::sqrt(relativeMse()); }
@@ -148,25 +159,25 @@ Prediction predictAfter(const PilotMeasure& pilot, double seconds) {
 ErrorRatio errorRatio(const PilotMeasure& a, const PilotMeasure& b, double seconds) {
     Side sideA{a, growthTo(a, passesAfter(a, seconds)), biasOf(a)};
     Side sideB{b, growthTo(b, passesAfter(b, seconds)), biasOf(b)};
-    const bool areOne = poolBias(sideA, sideB);
+    const double own = shrinkBias(sideA, sideB);
     const double errorA = sideA.error(0, 0), errorB = sideB.error(0, 0);
     ErrorRatio result;
     result.logRatio = std::log(errorA / errorB);
     const size_t tiles = std::min(a.noise.size(), b.noise.size());
-    const double byTile = areOne ? 0 : 1;
     double mean = 0, squares = 0;
     for (size_t t = 0; t < tiles; ++t) {
         const double left =
-            std::log(sideA.error(a.noise[t], byTile * a.bias[t]) / sideB.error(b.noise[t], byTile * b.bias[t]));
+            std::log(sideA.error(a.noise[t], own * a.bias[t]) / sideB.error(b.noise[t], own * b.bias[t]));
         mean += left;
         squares += left * left;
     }
     const double n = static_cast<double>(tiles);
     mean /= std::max(1.0, n);
     if (tiles > 1) result.standardError = std::sqrt((n - 1) / n * std::max(0.0, squares - n * mean * mean));
-    // What noise may hide of one bias moves both; of a bias that counts as the least, tiles do not tell it.
-    const double hidden = areOne ? sideA.byBias() / errorA - sideB.byBias() / errorB
-                                 : std::hypot(sideA.hiddenBias() / errorA, sideB.hiddenBias() / errorB);
+    // What noise may hide of the common bias moves both; of a bias that counts as the least, tiles do not tell it.
+    const double ofCommon = sideA.byBias() / errorA - sideB.byBias() / errorB;
+    const double ofOwn = std::hypot(sideA.hiddenBias() / errorA, sideB.hiddenBias() / errorB);
+    const double hidden = (1 - own) * std::abs(ofCommon) + own * ofOwn;
     result.standardError = std::hypot(result.standardError, hidden);
     return result;
 }

@@ -39,6 +39,23 @@ float standardError(double sum, double squares, double open, const Counts& n) {
     return static_cast<float>(std::sqrt(std::max(0.0, all - sum * sum / n.passes) / (n.passes * (n.batches - 1))));
 }
 
+// The same of the bias, in the terms of its own passes.
+struct BiasCounts {
+    double passes, squares; // sums over batches of their passes and of the squares of their passes
+};
+
+// Standard error of the mean bias from the sum over passes and the squares of batches S_b of m_b passes. Its noise grows as discs
+// shrink, and early passes make up more batches than late ones: divided by m_b, as those of the image are, squares
+// told 0.77 of its variance after 64 passes. For independent batches with one mean and any variances,
+//     E [sum S_b^2 - q S^2] = (1 - q) Var S,    q = sum m_b^2 / n^2.
+// That is sure as long as a pass's noise is not much less than its mean, which holds for the bias, but not for the image.
+float biasStandardError(double sum, double squares, double open, const BiasCounts& n) {
+    const double share = n.squares / (n.passes * n.passes);
+    if (share >= 1) return 0;
+    const double variance = std::max(0.0, squares + open * open - share * sum * sum) / (1 - share);
+    return static_cast<float>(std::sqrt(variance) / n.passes);
+}
+
 void developPixel(const float* pixel, size_t first, const Counts& n, FilmImage& image) {
     for (size_t channel = 0; channel < 3; ++channel) {
         const size_t at = first + channel;
@@ -57,7 +74,7 @@ void developPixel(const float* pixel, size_t first, const Counts& n, FilmImage& 
     }
 }
 
-void developBias(const float* bias, size_t first, const Counts& n, FilmImage& image) {
+void developBias(const float* bias, size_t first, const BiasCounts& n, FilmImage& image) {
     const float* ofTotal = bias + size_t(9) * LIGHT_CLASSES;
     for (size_t channel = 0; channel < 3; ++channel) {
         const size_t at = first + channel;
@@ -65,11 +82,11 @@ void developBias(const float* bias, size_t first, const Counts& n, FilmImage& im
         for (size_t c = 0; c < LIGHT_CLASSES; ++c) {
             const float* sums = bias + 9 * c + channel;
             image.componentBias[c][at] = static_cast<float>(sums[0] / n.passes);
-            image.componentBiasError[c][at] = standardError(sums[0], sums[3], sums[6], n);
+            image.componentBiasError[c][at] = biasStandardError(sums[0], sums[3], sums[6], n);
             total += sums[0];
         }
         image.bias[at] = static_cast<float>(total / n.passes);
-        image.biasError[at] = standardError(total, ofTotal[channel], ofTotal[3 + channel], n);
+        image.biasError[at] = biasStandardError(total, ofTotal[channel], ofTotal[3 + channel], n);
     }
 }
 
@@ -92,14 +109,16 @@ Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias, 
 Film::Pass Film::beginPass(unsigned pass) {
     Pass now{0, 1};
     const bool single = pass < singlePasses;
+    if (!single) now.biasWeight = pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f;
+    biasPasses_ += now.biasWeight;
+    openBiasPasses_ += now.biasWeight;
     openPasses_ += 1;
     if (single || pass % batchPasses == batchPasses - 1) {
         now.batchWeight = static_cast<float>(1 / openPasses_);
         batches_ += 1;
-        openPasses_ = 0;
+        biasSquares_ += openBiasPasses_ * openBiasPasses_;
+        openPasses_ = openBiasPasses_ = 0;
     }
-    if (!single) now.biasWeight = pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f;
-    biasPasses_ += now.biasWeight;
     return now;
 }
 
@@ -122,8 +141,7 @@ FilmImage Film::develop(unsigned passes) const {
     const auto film = sums_.read();
     const double openBatch = openPasses_ > 0 ? 1 : 0;
     const Counts counts{double(std::max(1u, passes)), batches_ + openBatch, openBatch / std::max(openPasses_, 1.0)};
-    Counts biasCounts = counts;
-    biasCounts.passes = std::max(1.0, biasPasses_);
+    const BiasCounts biasCounts{std::max(1.0, biasPasses_), biasSquares_ + openBiasPasses_ * openBiasPasses_};
     for (size_t pixel = 0; pixel < values / 3; ++pixel) {
         const float* sums = film.data() + pixel * pixelFloats_;
         developPixel(sums, pixel * 3, counts, image);

@@ -37,6 +37,8 @@ private:
     size_t pixelFloats_;
     double batches_ = 0, openPasses_ = 0; ///< batches that are complete; passes of the one that is not
     double biasPasses_ = 0;               ///< sum of the weights of passes in the estimate of bias
+    double openBiasPasses_ = 0;           ///< in the batch that is open
+    double biasSquares_ = 0;              ///< sum over complete batches of the squares of theirs
     Buffer<float> sums_;
     Buffer<shared::CameraCounters> counters_;
 };

@@ -15,6 +15,19 @@ __kernel void addSamples(__global const float4* samples, __global float* film, c
     }
 }
 
+#if ESTIMATE_BIAS
+/* One pass of diffuse light's bias alone, a value for each pixel. */
+__kernel void addBiasOfPass(__global const float4* bias, __global float* film, const uint pixels,
+                            const float batchWeight) {
+    const uint pixel = get_global_id(0);
+    if (pixel >= pixels) return;
+    float3 components[FILM_SAMPLES];
+    for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
+    components[FILM_BIAS(LIGHT_DIFFUSE)] = bias[pixel].xyz;
+    addSample(film, pixel, components, batchWeight);
+}
+#endif
+
 /* mode 0: point i of the plane lattice, shifted by `shift`; mode 1: dimensions first, first + 1 of point i of pass 0;
  * mode 2: of point 12345 of pass i. */
 __kernel void latticePoints(__global float2* points, const uint count, const uint mode, const uint first,
