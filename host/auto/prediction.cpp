@@ -33,7 +33,7 @@ double meanSquaredRadius(double passes, bool inVolume) {
 }
 
 // Bias goes as this power of the radius. Of smooth light it is 2, of a slope's break 1.5 (root of the mean square), of an edge 0.5;
-// true bias of renders falls as its power 1.1 to 1.5 (docs/auto.md).
+// true bias of renders falls as its power 0.9 to 1.6 (docs/auto.md).
 constexpr double biasByRadius = 1.4;
 
 // Factors on noise and bias of a pilot after `passes` passes.
