@@ -32,8 +32,8 @@ double meanSquaredRadius(double passes, bool inVolume) {
     return total / last;
 }
 
-// Bias goes as this power of the radius. Of smooth light it is 2, of a slope's break 1.5 (root of the mean square), of an edge 0.5;
-// true bias of renders falls as its power 0.9 to 1.6 (docs/auto.md).
+// Bias goes as this power of the radius. Of smooth light it is 2, of a slope's break 1.5 (root of the mean square), of an
+// edge 0.5; true bias of renders falls as its power 0.9 to 1.6 (docs/auto.md).
 constexpr double biasByRadius = 1.4;
 
 // Factors on noise and bias of a pilot after `passes` passes.
@@ -112,7 +112,8 @@ struct Side {
 };
 
 // Biases of two are taken to be one, but for what their radii explain, as far as noise explains their difference d of
-// standard error s: each keeps the share 1 - s^2 / d^2 of its distance from the mean of both (James & Stein 1961), which is returned.
+// standard error s: each keeps the share 1 - s^2 / d^2 of its distance from the mean of both (James & Stein 1961), which
+// is returned.
 double shrinkBias(Side& a, Side& b) {
     const double byRadius = std::pow(a.pilot.radius / b.pilot.radius, 2 * biasByRadius);
     const Estimate ofB{byRadius * b.bias.value, byRadius * b.bias.standardError};

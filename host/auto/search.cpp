@@ -34,7 +34,8 @@ constexpr double longestHorizon = 86400; // seconds, where only an error was ask
 // were, is not told, so no more than coldSeconds are expected of others (docs/auto.md).
 constexpr double coldOverWarm = 10, coldSeconds = 4;
 // Radius and photons are tried first where the ratio of bias to noise (both squared) says that it may pay: with noise at most
-// as 1 / radius^2 and bias as radius^2.8, radiusStep gains nothing between these bounds where photons make a third of the noise or more.
+// as 1 / radius^2 and bias as radius^2.8, radiusStep gains nothing between these bounds where photons make a third of the
+// noise or more.
 constexpr double littleBias = 0.3, muchBias = 0.5, biasForPhotons = 0.2;
 // Photons are tried, too, where they take nearly all of a pass's time, or next to none.
 constexpr double fewPhotons = 0.3, manyPhotons = 0.7;
