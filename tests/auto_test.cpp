@@ -31,8 +31,8 @@ TEST(Prediction, NoiseFallsWithPassesAndBiasWithTheMeanSquaredRadius) {
         const Prediction predicted = predictAfterPasses(pilot, passes);
         EXPECT_NEAR(predicted.noise, 8.0 / passes, 1e-9);
         const double blur = meanSquare(passes) / meanSquare(4);
-        EXPECT_NEAR(predicted.bias / (0.5 * std::pow(blur, 1.4)), 1, 0.005)
-            << passes; // radii far on are taken in steps
+        // Radii far on are taken in steps.
+        EXPECT_NEAR(predicted.bias / (0.5 * std::pow(blur, 1.4)), 1, 0.005) << passes;
     }
     EXPECT_NEAR(predictAfter(pilot, 1).passes, 14, 1e-9);
 }
@@ -100,8 +100,8 @@ TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
     EXPECT_NEAR(errorRatio(a, b, 0).logRatio, 0, 1e-9);
     EXPECT_LT(errorRatio(a, b, 0).standardError, 1e-6);
     b.radius = std::sqrt(2.0);
-    const double more =
-        std::pow(2.0, 1.4); // times the bias is expected of it, so it tells a's with that much less noise
+    // So many times the bias is expected of it, so it tells a's with that much less noise.
+    const double more = std::pow(2.0, 1.4);
     const double ofA = (0.2 + more * 0.3) / (1 + more * more);
     EXPECT_NEAR(errorRatio(a, b, 0).logRatio, std::log((0.25 + ofA) / (0.25 + more * ofA)), 1e-3);
 }

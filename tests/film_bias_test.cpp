@@ -5,6 +5,7 @@
 #include "render/film.h"
 #include "support/test_kernels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -53,11 +54,12 @@ Told toldAfter(unsigned passes) {
         for (size_t k = 0; k < sum.size(); ++k) {
             sum[k] += (&bias[k / 3].x)[k % 3];
             open[k] += (&bias[k / 3].x)[k % 3];
-            if (ends) squares[k] += open[k] * open[k] / inBatch;
-            if (ends) open[k] = 0;
         }
-        if (ends) batches += 1;
-        if (ends) inBatch = 0;
+        if (!ends) continue;
+        for (size_t k = 0; k < open.size(); ++k) squares[k] += open[k] * open[k] / inBatch;
+        std::fill(open.begin(), open.end(), 0);
+        batches += 1;
+        inBatch = 0;
     }
     told.truth /= weights * weights;
     const FilmImage image = film.develop(passes);

@@ -92,8 +92,6 @@ Estimate between(const Estimate& a, const Estimate& b, double shareOfB) {
             (1 - shareOfB) * a.standardError + shareOfB * b.standardError};
 }
 
-constexpr double tellsBiased = 2; // standard errors
-
 // One of two that are compared, as it will be at the end.
 struct Side {
     const PilotMeasure& pilot;
@@ -142,8 +140,9 @@ PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsP
 }
 
 bool tellsBias(const PilotMeasure& pilot) {
+    constexpr double surely = 2; // standard errors
     const Estimate bias = biasOf(pilot);
-    return bias.value > tellsBiased * bias.standardError;
+    return bias.value > surely * bias.standardError;
 }
 
 double Prediction::relativeError() const { return std::sqrt(relativeMse()); }

@@ -44,9 +44,9 @@ struct BiasCounts {
     double passes, squares; // sums over batches of their passes and of the squares of their passes
 };
 
-// Standard error of the mean bias from the sum over passes and the squares of batches S_b of m_b passes. Its noise grows as discs
-// shrink, and early passes make up more batches than late ones: divided by m_b, as those of the image are, squares
-// told 0.77 of its variance after 64 passes. For independent batches with one mean and any variances,
+// Standard error of the mean bias from the sum over passes and the squares of batches S_b of m_b passes. Its noise grows
+// as discs shrink, and early passes make up more batches than late ones: divided by m_b, as those of the image are,
+// squares told 0.77 of its variance after 64 passes. For independent batches with one mean and any variances,
 //     E [sum S_b^2 - q S^2] = (1 - q) Var S,    q = sum m_b^2 / n^2.
 // That is sure as long as a pass's noise is not much less than its mean, which holds for the bias, but not for the image.
 float biasStandardError(double sum, double squares, double open, const BiasCounts& n) {
