@@ -2,7 +2,7 @@
 #ifndef QUASILUX_PASS_TYPES_H
 #define QUASILUX_PASS_TYPES_H
 
-#include "shared_types.h"
+#include "learned_types.h"
 
 #ifdef __cplusplus
 namespace quasilux::shared {
@@ -27,6 +27,7 @@ typedef struct {
     float borderCellSize;
     unsigned int borderCellsX, borderCellsY, borderCellsZ;
     Meter meter;
+    Learned learned;
 } SceneTables;
 
 /* Segments of a path are counted up to this many. */
@@ -54,6 +55,8 @@ typedef struct {
     unsigned int cutPaths;              /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
     float fluxCut;                  /* W, mean of R, G, B, of those paths */
+    float useful;                   /* while learning: what the path at hand brings to the image */
+    float density[LIGHT_CLASSES];   /* while learning: photons by area about what the camera sees, times a constant */
     unsigned int overflows;         /* sums of splats that left the range of their fixed point (camera map) */
     unsigned int clipped;           /* photons with more flux than packed_flux.clh holds */
     unsigned int meterCaustics;     /* caustic and quasi-caustic photons that were counted at a meter */
@@ -69,6 +72,7 @@ typedef struct {
     unsigned int photonBlocks, photonStride; /* room for photons; stride as in MapParams */
     float perFluxUnit;                       /* 1 / MapParams::fluxUnit */
     unsigned int maxDepth;                   /* segments of the whole path, QL_NONE = no limit */
+    unsigned int learns;                     /* 1: no photon is stored; an EmissionRecord of each path is */
     float keepProbability[LIGHT_CLASSES];    /* of photons in media, by class: they are thinned where there are many */
     SceneTables scene;
 } PhotonParams;

@@ -3,6 +3,8 @@
  * With MAP_CAMERA it is stage 3 and stores nothing: photons are splatted to camera points. To: sums of splats. */
 #include "emitter.clh"
 #include "energy_balance.clh"
+#include "guide.clh"
+#include "importance.clh"
 #include "lattice.clh"
 #include "law.clh"
 #include "photon_medium.clh"
@@ -87,18 +89,33 @@ inline void crossMeter(const PhotonPath* path, float length, const PhotonSink* s
 #endif
 }
 
-inline PhotonPath emitPhoton(const PhotonWorld* world, const Lattice* lattice, uint index, RegionCount* count) {
+/* What is to be known of a photon's beginning while learning. */
+inline EmissionRecord recordOf(const EmittedPhoton* photon, __global const uint* tables, const SceneTables* scene) {
+    EmissionRecord record = {photon->emitter, 0, {photon->position.x, photon->position.y, photon->position.z},
+                             {photon->direction.x, photon->direction.y, photon->direction.z}, 0, QL_NONE};
+#ifdef HAS_EMITTER_TRIANGLES
+    __global const Emitter* emitter = SCENE_TABLE(tables, scene, Emitter, emitters) + photon->emitter;
+    if (EMITTER_IS(emitter, EMITTER_TRIANGLES))
+        record.element =
+            trianglesSelect(emitter, SCENE_TABLE(tables, scene, EmitterTriangle, emitterTriangles), photon->part) -
+            emitter->firstTriangle;
+#endif
+    return record;
+}
+
+/* `record`: null but while learning. */
+inline PhotonPath emitPhoton(const PhotonWorld* world, const Lattice* lattice, uint index, RegionCount* count,
+                             EmissionRecord* record) {
     const PhotonParams* params = world->params;
     const SceneTables* scene = &params->scene;
     PhotonPath path;
     path.rng = rngMake((ulong)params->seedHigh << 32 | params->seedLow, params->pass, STREAM_PHOTON, index);
-    /* Emitters are chosen by stratified numbers, so each gets its share of every pass. */
+    /* Leaves of the guide are chosen by stratified numbers, so each gets its share of every pass. */
     const float2 u = rngNext2(&path.rng);
     const float uSelect = min((index + u.x) / params->paths, 0x1.fffffep-1f);
-    const EmittedPhoton emitted =
-        emitterSampleEmission(SCENE_TABLE(world->tables, scene, Emitter, emitters),
-                              SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles), scene->emitterCount,
-                              uSelect, latticePoint2(lattice, index, 0), latticePoint2(lattice, index, 2));
+    const EmittedPhoton emitted = guidedEmission(world->tables, scene, uSelect, latticePoint2(lattice, index, 0),
+                                                 latticePoint2(lattice, index, 2));
+    if (record) *record = recordOf(&emitted, world->tables, scene);
     path.origin = offsetRayOrigin(emitted.position, emitted.normal, emitted.positionError);
     path.direction = emitted.direction;
     path.flux = emitted.flux / params->paths;
@@ -150,7 +167,9 @@ inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, cons
     const uint lightClass = lawPhotonClass(path->events);
     if (storableClasses(lobes, s.lobeCount) & (1u << lightClass)) {
         const float3 arriving = path->flux * shadingNormalArrival(&s);
-        if (all(isfinite(arriving)))
+        if (all(isfinite(arriving)) && world->params->learns)
+            learnArrival(count, world, s.position, importanceFace(s.geometricNormal), arriving, lightClass);
+        else if (all(isfinite(arriving)))
             deliverPhoton(sink, count, path, s.position, arriving, s.patch << 1 | s.front, lightClass);
         else
             ++count->nonFinite;
@@ -186,7 +205,7 @@ inline int photonEvent(PhotonPath* path, const PhotonWorld* world, const PhotonS
         countChance(count, before, meanFlux(path->flux));
         if (segment.flight.collided) {
             ++path->depth;
-            return collidePhoton(path, segment.flight.distance, medium, sink, count, world->params);
+            return collidePhoton(path, segment.flight.distance, medium, sink, count, world);
         }
         hit = segment.hit;
     } else
@@ -230,7 +249,7 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
             onTheirOwn &= ~bit;
             int joins = !isNew && joinWalk(&w.paths[k], &w, walking, world, sink, count);
             while (!joins && first < last) {
-                w.paths[k] = emitPhoton(world, lattice, first++, count);
+                w.paths[k] = emitPhoton(world, lattice, first++, count, 0);
                 joins = joinWalk(&w.paths[k], &w, walking, world, sink, count);
             }
             if (!joins) continue;
@@ -245,8 +264,24 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
 inline void tracePaths(uint first, uint last, const Lattice* lattice, const PhotonWorld* world, const PhotonSink* sink,
                        RegionCount* count) {
     for (uint index = first; index < last; ++index) {
-        PhotonPath path = emitPhoton(world, lattice, index, count);
+        PhotonPath path = emitPhoton(world, lattice, index, count, 0);
         while (photonEvent(&path, world, sink, count)) continue;
+    }
+}
+#endif
+
+#ifndef MAP_CAMERA
+/* The same, but only what they would bring to the image is noted, by path. */
+inline void learnFromPaths(uint first, uint last, const Lattice* lattice, const PhotonWorld* world,
+                           const PhotonSink* sink, RegionCount* count) {
+    __global EmissionRecord* records = (__global EmissionRecord*)sink->store.arrays;
+    for (uint index = first; index < last; ++index) {
+        EmissionRecord record;
+        count->useful = 0;
+        PhotonPath path = emitPhoton(world, lattice, index, count, &record);
+        while (photonEvent(&path, world, sink, count)) continue;
+        record.weight = count->useful;
+        records[index] = record;
     }
 }
 #endif
@@ -254,10 +289,15 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
 /* The paths of one region. */
 inline void traceRegion(uint region, const PhotonWorld* world, const PhotonSink* sink, __global RegionCount* counts) {
     const PhotonParams* params = world->params;
-    RegionCount count = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {0}, {0}};
+    RegionCount count = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {0}, {0}, {0}};
     const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
-    const uint first = region * params->pathsPerRegion;
-    tracePaths(first, min(first + params->pathsPerRegion, params->paths), &lattice, world, sink, &count);
+    const uint first = region * params->pathsPerRegion, last = min(first + params->pathsPerRegion, params->paths);
+#ifndef MAP_CAMERA
+    if (params->learns)
+        learnFromPaths(first, last, &lattice, world, sink, &count);
+    else
+#endif
+        tracePaths(first, last, &lattice, world, sink, &count);
     counts[region] = count;
 }
 

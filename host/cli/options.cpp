@@ -51,6 +51,13 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->check(oneOf({"photons", "camera"}))
         ->group(group);
     command
+        .add_option("--emission", options.emission,
+                    "Where photons begin: guided (where pilots found that they serve the image) or plain (in "
+                    "proportion to the emitters' power) (default: guided)")
+        ->type_name("NAME")
+        ->check(oneOf({"guided", "plain"}))
+        ->group(group);
+    command
         .add_option("--photons", options.photons,
                     "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)")
         ->type_name("N")
@@ -199,6 +206,7 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (variant) result.variant = parseVariant(*variant);
     if (direct) result.direct = parseDirect(*direct);
     if (map) result.map = parseMapOrder(*map);
+    if (emission) result.emission = parseEmission(*emission);
     if (photons) result.photonsPerPass = *photons;
     if (seed) result.seed = *seed;
     if (quasiSpecular) {

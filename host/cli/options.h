@@ -20,7 +20,7 @@ struct SceneOptions {
     std::vector<std::string> definitions; ///< "name=value"
     std::optional<unsigned> bdd, photons;
     std::optional<uint64_t> seed;
-    std::optional<std::string> variant, direct, map, quasiSpecular, radius;
+    std::optional<std::string> variant, direct, map, emission, quasiSpecular, radius;
     std::optional<double> radiusScale;
     bool energyBalance = false;
     bool autoAll = false, fixed = false;

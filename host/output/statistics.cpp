@@ -125,6 +125,7 @@ json settingsJson(const RenderSettings& settings) {
             {"variant", name(settings.variant)},
             {"direct", name(settings.direct)},
             {"map", name(settings.map)},
+            {"emission", name(settings.emission)},
             {"quasiSpecular", settings.quasiSpecular},
             {"quasiSpecularFromCommandLine", settings.quasiSpecularFromCommandLine},
             {"photonsPerPass", settings.photonsPerPass},

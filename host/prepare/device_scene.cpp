@@ -105,6 +105,20 @@ std::vector<std::string> findWarnings(const Scene& scene, const SurfaceBorders& 
 
 } // namespace
 
+void setLearned(DeviceScene& scene, const LearnedTables& learned) {
+    scene.tables.resize(scene.sceneWords);
+    SceneTableWriter tables(std::move(scene.tables));
+    scene.offsets.learned.leaves = tables.append(learned.guide.leaves);
+    scene.offsets.learned.leafCount = static_cast<unsigned>(learned.guide.leaves.size());
+    scene.offsets.learned.sources = tables.append(learned.guide.sources);
+    scene.offsets.learned.importance = learned.importance;
+    const bool isKnown = !learned.importanceCells.empty();
+    scene.offsets.learned.importance.cells = isKnown ? tables.append(learned.importanceCells) : QL_NONE;
+    scene.tables = tables.words();
+    scene.isGuided = learned.guide.isGuided;
+    scene.typicalFlux = learned.guide.typicalFlux;
+}
+
 DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     DeviceScene out;
     out.split = decideSplit(scene, settings.quasiSpecular, settings.overridesScene);
@@ -145,6 +159,8 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.meter.primitives = tables.append(meter.primitives);
     appendBorders(borders, static_cast<float>(settings.largestRadius(out.surfaceArea)), tables, out.offsets);
     out.tables = tables.words();
+    out.sceneWords = out.tables.size();
+    setLearned(out, {plainGuide(out.emitters), {}, {}});
     out.camera = flattenCamera(scene.sensor, placement.camera);
 
     for (const auto& shape : scene.shapes) {

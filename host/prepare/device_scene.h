@@ -5,6 +5,7 @@
 #include "prepare/borders.h"
 #include "prepare/bvh.h"
 #include "prepare/features.h"
+#include "prepare/guide_tables.h"
 #include "prepare/media.h"
 #include "prepare/split.h"
 
@@ -30,6 +31,9 @@ struct DeviceScene {
     size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
     double surfaceArea = 0; ///< of everything that scatters, scene units squared
     double emittedFlux = 0; ///< W, mean of R, G, B
+    size_t sceneWords = 0;  ///< of the tables, before what was learned
+    bool isGuided = false;  ///< GuideTables::isGuided
+    double typicalFlux = 0; ///< GuideTables::typicalFlux
     EmitterTables emitters;
     std::vector<BsdfDecision> split;
     std::vector<MediumDecision> mediumSplit;
@@ -45,6 +49,14 @@ struct FlattenSettings {
         largestRadius; ///< of the density estimate, from the surface area: indexes the borders
 };
 DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings);
+
+/// Takes what was learned of the scene into its tables, instead of what they had.
+struct LearnedTables {
+    GuideTables guide;
+    shared::ImportanceGrid importance{}; ///< without `cells`
+    std::vector<uint32_t> importanceCells;  ///< none: nothing is known
+};
+void setLearned(DeviceScene& scene, const LearnedTables& learned);
 
 /// Pieces of it, each a table.
 std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene);

@@ -19,15 +19,15 @@ void addTriangles(const Mesh& mesh, shared::Emitter& emitter, std::vector<shared
     for (const auto& t : mesh.triangles) {
         const glm::vec3 p0 = mesh.positions[t.x], e1 = mesh.positions[t.y] - p0, e2 = mesh.positions[t.z] - p0;
         const double here = 0.5 * glm::length(glm::cross(glm::dvec3(e1), glm::dvec3(e2)));
-        if (here == 0) continue;
         area += here;
         sums.push_back(area);
         triangles.push_back({pack(p0), pack(e1), pack(e2), 0});
     }
     emitter.triangleCount = static_cast<unsigned>(sums.size());
     emitter.area = static_cast<float>(area);
+    // One without area has the cdf of the one before, or of all, so that it is never chosen; the numbers stay those of the mesh.
     for (size_t k = 0; k < sums.size(); ++k)
-        triangles[emitter.firstTriangle + k].areaCdf = k + 1 == sums.size() ? 1.f : static_cast<float>(sums[k] / area);
+        triangles[emitter.firstTriangle + k].areaCdf = sums[k] == area ? 1.f : static_cast<float>(sums[k] / area);
 }
 
 shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,

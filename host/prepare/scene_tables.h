@@ -11,6 +11,10 @@ namespace quasilux {
 
 class SceneTableWriter {
 public:
+    SceneTableWriter() = default;
+    /// Goes on behind these.
+    explicit SceneTableWriter(std::vector<uint32_t> words) : words_(std::move(words)) {}
+
     /// Appends `records` and returns the word offset where they begin.
     template <typename T>
     unsigned append(const std::vector<T>& records) {

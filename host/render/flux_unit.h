@@ -8,4 +8,8 @@ namespace quasilux {
 /// brighter lamps, has its photons rounded as before, and makes the same image.
 float fluxUnit(double emittedFlux, unsigned paths);
 
+struct DeviceScene;
+/// The same where photons are guided: few of them carry the flux of plain ones, most far less.
+float fluxUnit(const DeviceScene& scene, unsigned paths);
+
 } // namespace quasilux

@@ -12,6 +12,9 @@ inline constexpr double radiusAlpha = 2.0 / 3.0;
 /// evenly over `area`. No constant in scene units: it scales with the scene.
 double initialRadius(double area, unsigned photons);
 
+/// Radius of pass 0 where so many photons lie on a unit of area.
+double radiusOfPhotons(double perArea);
+
 /// Radius of pass `pass` as a fraction of that of pass 0: from the pass number alone, so passes are independent.
 double radiusShrink(unsigned pass);
 

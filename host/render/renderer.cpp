@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include "learn/learning.h"
 #include "render/camera_map_stage.h"
 #include "render/camera_stage.h"
 #include "render/flux_unit.h"
@@ -17,6 +18,9 @@
 namespace quasilux {
 
 namespace {
+
+static const unsigned photonsOfRound = getenv("ROUND") ? atoi(getenv("ROUND")) : 65536;
+constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -42,7 +46,7 @@ shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, c
     params.seedLow = static_cast<unsigned>(settings.seed);
     params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
     params.paths = photonsPerPass(settings, flat.camera);
-    params.perFluxUnit = 1 / fluxUnit(flat.emittedFlux, params.paths);
+    params.perFluxUnit = 1 / fluxUnit(flat, params.paths);
     params.maxDepth = scene.maxDepth < 0 ? QL_NONE : static_cast<unsigned>(scene.maxDepth);
     params.scene = flat.offsets;
     return params;
@@ -131,6 +135,10 @@ struct Renderer::Stages {
           film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
           report(describe(scene, flat, settings)) {
         auto timingsBefore = device.timings();
+        learn(scene);
+        for (auto& [name, radius] : report.initialRadius)
+            for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+                if (name == slotName(c)) radius = firstRadiusOf(c);
         const auto photon = photonParams(scene, flat, settings);
         const auto path = cameraParams(flat, settings, photon.maxDepth);
         const unsigned classes = photonClasses(flat.features, settings);
@@ -141,6 +149,37 @@ struct Renderer::Stages {
         device.resetTimings(std::move(timingsBefore)); // those of passes alone tell
         flat.bvh = {};                                 // on the device now
         flat.tables = {};
+    }
+
+    // Where photons are to begin and where they matter, from pilots with random numbers of their own.
+    void learn(const Scene& scene) {
+        if (settings.emission == Emission::plain || photonClasses(flat.features, settings) == 0) return;
+        Learning learning(device, kernelOptions(flat, settings), flat,
+                          {geometry.nodes, geometry.blocks, geometry.tables}, cameraParams(flat, settings, QL_NONE));
+        learning.followPilots();
+        if (settings.map != MapOrder::photons || flat.offsets.meter.kind != METER_NONE) return;
+        learning.traceRounds([&](unsigned round) { return photonRound(scene, round); });
+        density = learning.density();
+    }
+
+    RoundResult photonRound(const Scene& scene, unsigned round) {
+        shared::PhotonParams params = photonParams(scene, flat, settings);
+        params.paths = photonsOfRound;
+        params.pathsPerRegion = PhotonStage::pathsPerRegion;
+        params.regions = PhotonStage::regionCount(params.paths);
+        params.pass = firstRoundPass + round;
+        params.learns = 1;
+        std::fill(std::begin(params.keepProbability), std::end(params.keepProbability), 1.f);
+        const Buffer<shared::EmissionRecord> records(device, params.paths, "learned photons");
+        const Buffer<uint32_t> blocks(device, 1, "photon blocks");
+        const Buffer<shared::RegionCount> regions(device, params.regions, "photon regions");
+        program.kernel("tracePhotons")
+            .launchLong(params.regions, geometry.nodes, geometry.blocks, geometry.tables, records, blocks, regions,
+                        params);
+        RoundResult result{records.read(), {}};
+        for (const auto& region : regions.read())
+            for (unsigned c = 0; c < LIGHT_CLASSES; ++c) result.density[c] += double(region.density[c]) / params.paths;
+        return result;
     }
 
     void preparePhotonMap(const shared::CameraParams& path, const shared::PhotonParams& photon, unsigned classes) {
@@ -203,11 +242,20 @@ struct Renderer::Stages {
 
     float volumeScale(unsigned pass) const { return static_cast<float>(settings.radiusScale * volumeShrink(pass)); }
 
+    // As photons lie about what the camera sees, where that is known.
+    double firstRadiusOf(unsigned lightClass) const {
+        const double byArea =
+            firstRadius(flat.surfaceArea, settings, report.photonsPerPass) * classRadiusFactor(lightClass);
+        if (!(density[lightClass] > 0)) return byArea;
+        const double byDensity =
+            settings.radiusScale * radiusOfPhotons(density[lightClass] * report.photonsPerPass);
+        return std::min(byArea, byDensity);
+    }
+
     std::array<float, LIGHT_CLASSES> radii(unsigned pass) const {
         std::array<float, LIGHT_CLASSES> radius{};
-        const double first = firstRadius(flat.surfaceArea, settings, report.photonsPerPass);
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
-            radius[c] = static_cast<float>(first * classRadiusFactor(c) * radiusShrink(pass));
+            radius[c] = static_cast<float>(firstRadiusOf(c) * radiusShrink(pass));
         return radius;
     }
 
@@ -281,6 +329,7 @@ struct Renderer::Stages {
     std::optional<CameraMapStage> cameraMap; // this
     SceneReport report;
     RenderCounters counters;
+    std::array<double, LIGHT_CLASSES> density{}; // Learning::density
     shared::CameraCounters dropped{}; // by the film, so far
 };
 

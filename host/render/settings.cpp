@@ -31,6 +31,8 @@ const char* name(DirectLight direct) { return direct == DirectLight::emitters ? 
 
 const char* name(MapOrder map) { return map == MapOrder::photons ? "photons" : "camera"; }
 
+const char* name(Emission emission) { return emission == Emission::guided ? "guided" : "plain"; }
+
 const char* name(RadiusChoice radius) { return radius == RadiusChoice::adaptive ? "adaptive" : "fixed"; }
 
 Variant parseVariant(const std::string& text) {
@@ -50,6 +52,12 @@ MapOrder parseMapOrder(const std::string& text) {
     if (text == "photons") return MapOrder::photons;
     if (text == "camera") return MapOrder::camera;
     throw InputError("unknown map '" + text + "', " + expectedNames(text, {"photons", "camera"}));
+}
+
+Emission parseEmission(const std::string& text) {
+    if (text == "guided") return Emission::guided;
+    if (text == "plain") return Emission::plain;
+    throw InputError("unknown emission '" + text + "', " + expectedNames(text, {"guided", "plain"}));
 }
 
 RadiusChoice parseRadiusChoice(const std::string& text) {

@@ -12,6 +12,7 @@ namespace quasilux {
 enum class Variant { main, alternative };     ///< of the law, kernels/law.clh
 enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
 enum class RadiusChoice { adaptive, fixed };  ///< density radius by pixel, or one for all
+enum class Emission { guided, plain };        ///< photons begin by what was learned of the scene, or by power alone
 enum class MapOrder { photons, camera };      ///< what is stored and indexed, for the other to find
 
 /// The law, or one of its known wrong readings, which tests switch on as negative controls (kernels/law.clh).
@@ -32,6 +33,7 @@ struct RenderSettings {
     Variant variant = Variant::main;
     DirectLight direct = DirectLight::emitters;
     MapOrder map = MapOrder::photons;
+    Emission emission = Emission::guided;
     std::string quasiSpecular = "auto";        ///< auto | none | all | ID,ID,…
     bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
     unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
@@ -63,11 +65,13 @@ RenderSettings settingsFromScene(const Scene& scene);
 const char* name(Variant variant);
 const char* name(DirectLight direct);
 const char* name(MapOrder map);
+const char* name(Emission emission);
 const char* name(RadiusChoice radius);
 /// Throw InputError that lists the known names.
 Variant parseVariant(const std::string& text);
 DirectLight parseDirect(const std::string& text);
 MapOrder parseMapOrder(const std::string& text);
+Emission parseEmission(const std::string& text);
 RadiusChoice parseRadiusChoice(const std::string& text);
 
 } // namespace quasilux

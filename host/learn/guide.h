@@ -1,0 +1,31 @@
+// Guided emission: from useful emission that pilots found to the tables of kernels/guide.clh (docs/learning.md).
+#pragma once
+
+#include "learn/guide_tree.h"
+#include "prepare/device_scene.h"
+#include "prepare/guide_tables.h"
+
+#include <functional>
+#include <vector>
+
+namespace quasilux {
+
+/// Learns from records; `invert` runs invertEmission of kernels/pilot_paths.cl.
+class GuideLearner {
+public:
+    using Invert = std::function<std::vector<shared::EmissionPoint>(const std::vector<shared::EmissionRecord>&,
+                                                                    const GuideTables& roots)>;
+    GuideLearner(const EmitterTables& emitters, Invert invert) : emitters_(emitters), invert_(std::move(invert)) {}
+
+    /// Records whose weights estimate one measure: all those of one round of pilots.
+    void add(const std::vector<shared::EmissionRecord>& records);
+    /// The guide that all rounds so far tell.
+    GuideTables guide() const;
+
+private:
+    const EmitterTables& emitters_;
+    Invert invert_;
+    std::vector<std::vector<shared::EmissionRecord>> rounds_;
+};
+
+} // namespace quasilux

@@ -1,0 +1,61 @@
+// What is learned of a scene before pass 0, by paths from the camera and rounds of photons with random numbers of their own
+// (docs/learning.md): a function of scene, settings and seed.
+#pragma once
+
+#include "device/program.h"
+#include "learn/guide.h"
+#include "prepare/device_scene.h"
+
+#include <functional>
+#include <string>
+
+namespace quasilux {
+
+struct SceneBuffers {
+    const Buffer<shared::BvhNode>& nodes;
+    const Buffer<shared::PrimitiveBlock>& blocks;
+    Buffer<uint32_t>& tables;
+};
+
+/// What a round of photons told.
+struct RoundResult {
+    std::vector<shared::EmissionRecord> records;  ///< what each would bring to the image
+    std::array<double, LIGHT_CLASSES> density{}; ///< sum of RegionCount::density over photons / their number
+};
+/// Traces photons, numbered as a round, guided by what `scene` has learned so far.
+using PhotonRound = std::function<RoundResult(unsigned round)>;
+
+class Learning {
+public:
+    /// `options` to the compiler and `params` as camera paths have them.
+    Learning(Device& device, const std::string& options, DeviceScene& scene, SceneBuffers buffers,
+             const shared::CameraParams& params);
+
+    /// Follows paths from the camera; `scene` then has the guide and the importance that they tell.
+    void followPilots();
+    /// Rounds of photons, each guided by all before.
+    void traceRounds(const PhotonRound& round);
+
+    /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
+    /// known.
+    const std::array<double, LIGHT_CLASSES>& density() const { return density_; }
+
+private:
+    std::vector<shared::EmissionPoint> invert(const std::vector<shared::EmissionRecord>& records,
+                                              const GuideTables& roots);
+    void makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
+                        const std::vector<double>& weights);
+    void update();
+
+    Device& device_;
+    Program program_;
+    DeviceScene& scene_;
+    SceneBuffers buffers_;
+    shared::CameraParams params_;
+    GuideLearner guide_;
+    LearnedTables learned_;
+    double gathered_ = 0; ///< sum of what makes up ImportanceGrid's first values, times the cells' areas
+    std::array<double, LIGHT_CLASSES> density_{};
+};
+
+} // namespace quasilux

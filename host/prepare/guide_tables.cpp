@@ -1,0 +1,74 @@
+#include "prepare/guide_tables.h"
+
+#include "prepare/device_scene.h"
+#include "scene/color.h"
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace quasilux {
+
+namespace {
+
+// d place / d u of planeCoordinate (kernels/guide.clh).
+double planeSlope(double u, double scale) {
+    const double t = 2 * u - 1, rest = 1 - t * t;
+    return 2 * scale * (1 + t * t) / (rest * rest);
+}
+
+// Of a photon in the middle of the box by even numbers, times the number of photons.
+double fluxInMiddle(const EmitterTables& emitters, const shared::GuideSource& source, const GuideBox& box) {
+    const double power = emitters.power[source.emitter];
+    if (!(source.scaleU > 0)) return power;
+    const auto& emitter = emitters.emitters[source.emitter];
+    const double solidAngle = emitter.type == EMITTER_DIRECTIONAL ? 1 : 4 * std::numbers::pi;
+    return mean(emitter.radiance) * solidAngle * planeSlope(box.lower[1] + box.size[1] / 2, source.scaleU) *
+           planeSlope(box.lower[2] + box.size[2] / 2, source.scaleV);
+}
+
+} // namespace
+
+double GuideBox::volume() const {
+    return std::accumulate(size.begin(), size.end(), 1.0, [](double product, double s) { return product * s; });
+}
+
+GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::GuideSource> sources,
+                            const std::vector<SourceBox>& boxes) {
+    GuideTables tables;
+    double all = 0, cdf = 0, logFlux = 0;
+    for (const auto& [source, box] : boxes) all += box.probability;
+    for (const auto& [source, box] : boxes) {
+        const double probability = box.probability / all, weight = box.volume() / probability;
+        cdf += probability;
+        shared::GuideLeaf leaf{};
+        leaf.cdf = static_cast<float>(cdf);
+        leaf.source = source;
+        leaf.weight = static_cast<float>(weight);
+        for (size_t d = 0; d < emissionDimensions; ++d) {
+            leaf.lower[d] = static_cast<float>(box.lower[d]);
+            leaf.size[d] = static_cast<float>(box.size[d]);
+        }
+        tables.leaves.push_back(leaf);
+        logFlux += probability * std::log(weight * fluxInMiddle(emitters, sources[source], box));
+    }
+    if (!tables.leaves.empty()) tables.leaves.back().cdf = 1;
+    tables.typicalFlux = std::exp(logFlux);
+    tables.sources = std::move(sources);
+    return tables;
+}
+
+GuideTables plainGuide(const EmitterTables& emitters) {
+    std::vector<shared::GuideSource> sources;
+    std::vector<SourceBox> boxes;
+    for (unsigned k = 0; k < emitters.emitters.size(); ++k) {
+        SourceBox whole{static_cast<unsigned>(sources.size()), {}};
+        whole.box.probability = emitters.emitters[k].selectionProbability;
+        if (!(whole.box.probability > 0)) continue;
+        boxes.push_back(whole);
+        sources.emplace_back().emitter = k;
+    }
+    return makeGuideTables(emitters, std::move(sources), boxes);
+}
+
+} // namespace quasilux

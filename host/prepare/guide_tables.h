@@ -1,0 +1,42 @@
+// The tables of guided emission (kernels/guide.clh), and the plain ones of a scene about which nothing was learned.
+#pragma once
+
+#include "learned_types.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace quasilux {
+
+struct EmitterTables;
+
+inline constexpr std::size_t emissionDimensions = EMISSION_DIMENSIONS;
+
+/// A box of the cube of emission numbers and the probability that a photon begins in it.
+struct GuideBox {
+    std::array<double, emissionDimensions> lower{}, size{1, 1, 1, 1, 1};
+    double probability = 1;
+
+    double volume() const;
+};
+
+struct GuideTables {
+    std::vector<shared::GuideSource> sources;
+    std::vector<shared::GuideLeaf> leaves;
+    bool isGuided = false;   ///< or else photons begin in proportion to power alone
+    double typicalFlux = 0;  ///< of a photon, times the number of photons, W: the geometric mean over photons
+};
+
+/// Boxes with their sources, which together fill every emitter's cube; only the ratios of their probabilities count.
+struct SourceBox {
+    unsigned source = 0;
+    GuideBox box;
+};
+GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::GuideSource> sources,
+                            const std::vector<SourceBox>& boxes);
+
+/// One box for each emitter that shines, in proportion to its power.
+GuideTables plainGuide(const EmitterTables& emitters);
+
+} // namespace quasilux

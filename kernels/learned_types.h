@@ -1,0 +1,88 @@
+/* What is learned about a scene before pass 0 (docs/learning.md), shared by host and device like shared_types.h. All tables lie
+ * behind the scene's own in one buffer; offsets are in words. */
+#ifndef QUASILUX_LEARNED_TYPES_H
+#define QUASILUX_LEARNED_TYPES_H
+
+#include "shared_types.h"
+
+#ifdef __cplusplus
+namespace quasilux::shared {
+#endif
+
+/* ---- guided emission (kernels/guide.clh) ---- */
+
+/* Numbers that make a photon: which part of the emitter, two for the place, two for the direction. */
+#define EMISSION_DIMENSIONS 5
+
+/* Coordinates of an emitter's rays. An emitter that shines from outside may have a plane of its own, through which its photons
+ * are aimed: place = centre + a axisU + b axisV, with a = scaleU t / (1 - t^2), t in (-1,1), and likewise b: all of the plane,
+ * its middle most finely. scaleU = 0: the emitter's own coordinates. */
+typedef struct {
+    unsigned int emitter;
+    Packed3 centre, axisU, axisV; /* axes orthonormal */
+    float scaleU, scaleV;
+} GuideSource;
+
+/* A box of emission numbers in which photons are uniform. The leaves of all sources together hold each ray exactly once. */
+typedef struct {
+    float cdf; /* probability of the leaves up to and including this one; last = 1 */
+    unsigned int source;
+    float weight; /* factor on the emitter's flux: share of the cube / probability of the leaf */
+    float lower[5], size[5];
+} GuideLeaf;
+
+/* Emission that would serve the camera, as a pilot path found it. */
+typedef struct {
+    unsigned int emitter; /* QL_NONE: nothing found */
+    unsigned int element; /* triangle of a mesh */
+    Packed3 position, direction; /* of the ray, away from the emitter */
+    float weight;                /* estimate of what it brings to the image, over all photons */
+    unsigned int pixel;
+} EmissionRecord;
+
+/* The numbers of such a ray. */
+typedef struct {
+    unsigned int source; /* QL_NONE: none has it */
+    float numbers[5];
+} EmissionPoint;
+
+/* ---- where photons matter (kernels/importance.clh) ---- */
+
+/* Of a cell: its key (0: empty), what a unit of flux that arrives there brings to the image by being gathered there, and what it
+ * brings in all. */
+#define IMPORTANCE_WORDS 3
+
+/* Hashed cells whose size is a power of two in proportion to the distance from the camera. */
+typedef struct {
+    unsigned int cells; /* offset of IMPORTANCE_WORDS for each; QL_NONE: nothing is known */
+    unsigned int mask;  /* cells - 1, a power of two - 1; at least half of them are empty */
+    Packed3 eye;
+    float sizePerDistance, smallestSize;
+} ImportanceGrid;
+
+/* Vertex of a pilot path. */
+#define PILOT_VERTICES 4
+typedef struct {
+    Packed3 position;
+    unsigned int face; /* importanceFace() */
+    float weight;      /* throughput, mean of R, G, B; 0: none */
+} PilotVertex;
+
+typedef struct {
+    EmissionRecord indirect, direct; /* one of all that the path found, in proportion to their weights, with their sum */
+    PilotVertex vertices[PILOT_VERTICES]; /* the first one is where photons are gathered */
+    float radiance;                       /* of the whole path, mean of R, G, B */
+    unsigned int pixel;
+} PilotPath;
+
+/* ---- all of it ---- */
+
+typedef struct {
+    unsigned int leaves, leafCount, sources;
+    ImportanceGrid importance;
+} Learned;
+
+#ifdef __cplusplus
+} // namespace quasilux::shared
+#endif
+#endif

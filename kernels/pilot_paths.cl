@@ -1,0 +1,349 @@
+/* Learning, step 1: paths from the camera to the emitters, which tell where photons should begin and where they matter.
+ * From: the camera. To: one PilotPath each.
+ *
+ * A pilot path scatters with all lobes and is never cut short by the map. From the vertex on where the camera would gather diffuse
+ * photons, it is a photon's path backwards: what it finds at an emitter is emission that serves the image. */
+#include "camera.clh"
+#include "camera_surface.clh"
+#include "guide.clh"
+#include "importance.clh"
+#include "law.clh"
+#include "medium_flight.clh"
+#include "visibility.clh"
+#ifdef HAS_METER
+#include "meter.clh"
+#endif
+
+#define PILOT_EVENTS_MAX 64u
+/* Pilot paths go on at most with this probability once they are past their first vertices. */
+#define PILOT_SURVIVAL_MAX 0.9f
+
+typedef struct {
+    Ray ray;
+    float3 throughput;
+    Rng rng;
+    uint d;         /* genuine diffuse scatterings */
+    int gathers;    /* the vertex where photons are gathered is behind */
+    uint events;    /* SCATTER_* since then */
+    uint vertices;  /* stored */
+    float lobePdf;  /* of the last direction, 0: delta */
+    float3 from;    /* where the segment began */
+    float passed;   /* of the segment, before null surfaces */
+    uint medium;
+} PilotState;
+
+inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
+
+/* Keeps one of the records that a path finds, in proportion to their weights, with the sum of all. */
+inline void keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float3 position, float3 direction,
+                       Rng* rng) {
+    if (!(weight > 0) || !isfinite(weight)) return;
+    kept->weight += weight;
+    if (rngNext(rng) * kept->weight >= weight) return;
+    kept->emitter = emitter;
+    kept->element = element;
+    kept->position.x = position.x;
+    kept->position.y = position.y;
+    kept->position.z = position.z;
+    kept->direction.x = direction.x;
+    kept->direction.y = direction.y;
+    kept->direction.z = direction.z;
+}
+
+/* Light from an emitter at the end of a segment along `direction`, where `weight` of it comes to the image. */
+inline void foundEmission(PilotPath* path, const PilotState* state, int isDirect, float weight, uint emitter,
+                          uint element, float3 position, float3 direction, Rng* rng) {
+    path->radiance += weight;
+    if (!state->gathers && !isDirect) return;
+    keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element, position, -direction, rng);
+}
+
+inline void storeVertex(PilotPath* path, PilotState* state, float3 position, uint face) {
+    if (state->vertices == PILOT_VERTICES) return;
+    PilotVertex* vertex = path->vertices + state->vertices++;
+    vertex->position.x = position.x;
+    vertex->position.y = position.y;
+    vertex->position.z = position.z;
+    vertex->face = face;
+    vertex->weight = meanOf(state->throughput);
+}
+
+/* One emitter is sampled; lobes of `mask`. */
+inline float3 pilotDirectLight(const World* world, const PilotState* state, const Surface* s, const Frame* frame,
+                               float3 wo, __global const Lobe* lobes, const LobeChoice* choice,
+                               const EmitterSample* light, uint mask) {
+    const SceneTables* scene = &world->params->scene;
+    const float3 wi = toLocal(frame, light->direction);
+    if (!sameSides(s, light->direction, wi.z)) return 0;
+    float3 sum = 0;
+    for (uint k = 0; k < s->lobeCount; ++k) {
+        if (!(mask >> k & 1)) continue;
+        float weight = 1;
+        if (light->pdfSolidAngle > 0)
+            weight = shareOf(light->pdfSolidAngle, choice->probability[k] * lobePdfSolidAngle(lobes + k, wo, wi));
+        sum += weight * tintedEval(s, lobes, k, wo, wi);
+    }
+    return sum * fabs(wi.z) * light->radianceOverPdf;
+}
+
+inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* state, const Surface* s,
+                             const Frame* frame, float3 wo, __global const Lobe* lobes, const LobeChoice* choice) {
+    const SceneTables* scene = &world->params->scene;
+    __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
+    float uSelect = rngNext(&state->rng);
+    const uint index = emitterSelect(emitters, scene->emitterCount, &uSelect);
+    EmitterSample light =
+        emitterSampleDirectionOf(emitters + index, SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles),
+                                 s->position, uSelect, rngNext2(&state->rng));
+    if (!light.valid) return;
+    light.radianceOverPdf /= emitters[index].selectionProbability;
+    light.pdfSolidAngle *= emitters[index].selectionProbability;
+    uint diffuse = 0, scattering = 0;
+    for (uint k = 0; k < s->lobeCount; ++k) {
+        scattering |= (lobes[k].scattering != SCATTER_SPECULAR) << k;
+        diffuse |= (lobes[k].scattering == SCATTER_GENUINE_DIFFUSE) << k;
+    }
+    const int atGathering = !state->gathers && state->d == world->params->bdd;
+    const uint mask = state->gathers ? scattering : atGathering ? diffuse : 0;
+    const float3 wanted =
+        mask ? pilotDirectLight(world, state, s, frame, wo, lobes, choice, &light, mask) : (float3)(0);
+    const float3 other = scattering & ~mask ? pilotDirectLight(world, state, s, frame, wo, lobes, choice, &light,
+                                                               scattering & ~mask)
+                                            : (float3)(0);
+    if (!any(wanted + other > 0)) return;
+    Ray shadow = leavingRay(s, light.direction);
+    shadow.tMax = shadowReach(&light, s->positionError);
+    const float3 visible = visibility(shadow, state->medium, world->nodes, world->blocks, world->tables, scene);
+    if (!any(visible > 0)) return;
+    /* Of a mesh the triangle is what the ray meets there. */
+    uint element = 0;
+    if (emitters[index].type == EMITTER_TRIANGLES) {
+        Ray to = shadow;
+        to.tMin = light.distance * (1 - 1e-3f);
+        to.tMax = light.distance * (1 + 1e-3f);
+        const Hit hit = intersectClosest(world->nodes, world->blocks, to);
+        if (hit.primitive == QL_NONE) return;
+        const uint primitive = hit.primitive & PRIMITIVE_INDEX_MASK;
+        const PrimitiveInfo info = SCENE_TABLE(world->tables, scene, PrimitiveInfo, primitives)[primitive];
+        __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + info.shape;
+        if (shape->emitter != index) return;
+        element = primitive - shape->firstPrimitive;
+    }
+    const float3 end = isinf(light.distance) ? s->position : s->position + light.distance * light.direction;
+    path->radiance += meanOf(state->throughput * other * visible);
+    foundEmission(path, state, !state->gathers, meanOf(state->throughput * wanted * visible), index, element, end,
+                  light.direction, &state->rng);
+}
+
+/* Emission that the path runs into. */
+inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, uint index, uint element, float distance,
+                        float3 normal, float3 end) {
+    const SceneTables* scene = &world->params->scene;
+    __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
+    float share = 1;
+    if (state->lobePdf > 0)
+        share = shareOf(state->lobePdf, emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
+                                                             state->passed + distance, normal));
+    const int isDirect = state->gathers && state->events == 0;
+    foundEmission(path, state, isDirect, share * meanOf(state->throughput * loadRgb(emitter->radiance)), index, element,
+                  end, state->ray.direction, &state->rng);
+}
+
+inline void noteScattering(PilotState* state, uint scattering, uint bdd) {
+    if (state->gathers)
+        state->events |= scattering;
+    else if (scattering == SCATTER_GENUINE_DIFFUSE && state->d++ == bdd)
+        state->gathers = 1;
+}
+
+/* Goes on with one lobe; 0 where the path ends. */
+inline int scatterPilot(const World* world, PilotState* state, const Surface* s, const Frame* frame, float3 wo,
+                        __global const Lobe* lobes, const LobeChoice* choice) {
+    float rest;
+    const uint k = chooseLobe(choice, s->lobeCount, rngNext(&state->rng), &rest);
+    if (k == s->lobeCount) return 0;
+    const LobeSample sample = tintedSample(s, lobes, k, wo, rest, rngNext2(&state->rng), TRANSPORT_RADIANCE);
+    if (!sample.valid) return 0;
+    const float3 wi = toWorld(frame, sample.wi);
+    if (!sameSides(s, wi, sample.wi.z)) return 0;
+    state->throughput *= sample.weight / choice->probability[k];
+    state->lobePdf =
+        lobes[k].scattering == SCATTER_SPECULAR ? 0.f : choice->probability[k] * sample.pdfSolidAngle;
+    noteScattering(state, lobes[k].scattering, world->params->bdd);
+    state->ray = leavingRay(s, wi);
+    state->from = s->position;
+    state->passed = 0;
+#ifdef HAS_MEDIA
+    if (sample.wi.z < 0)
+        state->medium = mediumBeyond(SCENE_TABLE(world->tables, &world->params->scene, Shape, shapes) + s->shape,
+                                     !s->front, state->medium);
+#endif
+    return 1;
+}
+
+/* A surface that the path has come to; 0 where it ends. */
+inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* state, Hit hit) {
+    const SceneTables* scene = &world->params->scene;
+    const Surface s =
+        surfaceAt(hit, state->ray.origin, state->ray.direction, world->blocks, world->tables, scene);
+    __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
+    if (s.emitter != QL_NONE && s.front)
+        meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
+                    hit.t, s.geometricNormal, s.position);
+    if (s.isNull) {
+        state->ray = leavingRay(&s, state->ray.direction);
+        state->passed += max(hit.t, FLT_MIN);
+#ifdef HAS_MEDIA
+        state->medium = mediumBeyond(shape, !s.front, state->medium);
+#endif
+        return 1;
+    }
+    if (s.lobeCount == 0) return 0;
+    __global const Lobe* lobes = SCENE_TABLE(world->tables, scene, Lobe, lobes) + s.firstLobe;
+    const Frame frame = frameFromNormal(s.shadingNormal);
+    const float3 wo = toLocal(&frame, -state->ray.direction);
+    LobeChoice choice;
+    const float brightest = maxComponent(state->throughput);
+    uint kinds = 0;
+    for (uint k = 0; k < s.lobeCount; ++k) {
+        choice.probability[k] = maxComponent(state->throughput * tintedAlbedo(&s, lobes, k, wo)) / brightest;
+        kinds |= lobes[k].scattering;
+    }
+    choiceFromStrengths(&choice, s.lobeCount, state->gathers ? 1 / PILOT_SURVIVAL_MAX : CAMERA_ROULETTE_THRESHOLD);
+    if (state->gathers || (kinds & SCATTER_GENUINE_DIFFUSE && state->d == world->params->bdd))
+        storeVertex(path, state, s.position, importanceFace(s.geometricNormal));
+    if (kinds != SCATTER_SPECULAR) sampleEmitterFor(world, path, state, &s, &frame, wo, lobes, &choice);
+    return scatterPilot(world, state, &s, &frame, wo, lobes, &choice);
+}
+
+#ifdef HAS_MEDIA
+/* A collision; 0 where the path ends. */
+inline int collidePilot(const World* world, PilotPath* path, PilotState* state, const FreeFlight* flight,
+                        __global const Medium* medium) {
+    const float before = maxComponent(state->throughput);
+    state->throughput *= flight->weight * loadRgb(medium->albedo);
+    const float3 position = state->ray.origin + flight->distance * state->ray.direction;
+    if (state->gathers || (medium->level > 0 && state->d == world->params->bdd))
+        storeVertex(path, state, position, IMPORTANCE_FACE_MEDIUM);
+    const float survival = min(PILOT_SURVIVAL_MAX, maxComponent(state->throughput) / before);
+    if (rngNext(&state->rng) >= survival) return 0;
+    state->throughput /= survival;
+    const PhaseSample sample = phaseSample(medium, state->ray.direction, 0, &state->rng);
+    if (!sample.valid) return 0;
+    state->throughput *= sample.weight;
+    noteScattering(state, sample.scattering, world->params->bdd);
+    state->lobePdf = 0; /* no emitter is sampled at collisions */
+    state->ray.origin = state->from = position;
+    state->ray.direction = sample.direction;
+    state->ray.tMin = 0;
+    state->ray.tMax = INFINITY;
+    state->passed = 0;
+    return 1;
+}
+#endif
+
+/* One segment and what happens at its end; 0 where the path ends. */
+inline int followPilot(const World* world, PilotPath* path, PilotState* state) {
+    const SceneTables* scene = &world->params->scene;
+    Hit hit;
+#ifdef HAS_MEDIA
+    if (inMedium(state->medium)) {
+        __global const Medium* medium = SCENE_TABLE(world->tables, scene, Medium, media) + state->medium;
+        const MediumSegment segment = followMedium(medium, state->throughput, &state->ray, 0, rngNext2(&state->rng),
+                                                   world->nodes, world->blocks, world->tables, scene);
+        if (segment.flight.collided) return collidePilot(world, path, state, &segment.flight, medium);
+        state->throughput *= segment.flight.weight;
+        hit = segment.hit;
+    } else
+#endif
+        hit = intersectClosest(world->nodes, world->blocks, state->ray);
+    if (hit.primitive != QL_NONE) return meetPilotSurface(world, path, state, hit);
+    __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
+    const uint surroundings = emitterOfSurroundings(emitters, scene->emitterCount);
+    if (surroundings != QL_NONE)
+        meetEmitter(world, path, state, surroundings, 0, INFINITY, -state->ray.direction, state->ray.origin);
+    return 0;
+}
+
+__kernel void tracePilotPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                              __global const uint* tables, __global PilotPath* paths, const CameraParams params,
+                              const uint count) {
+    const uint index = get_global_id(0);
+    if (index >= count) return;
+    const World world = {.nodes = nodes, .blocks = blocks, .tables = tables, .params = &params};
+    const uint pixels = params.camera.width * params.camera.height;
+    const uint pixel = pixels > count ? (uint)((ulong)index * pixels / count) : index % pixels;
+    PilotPath path;
+    path.indirect.emitter = path.direct.emitter = QL_NONE;
+    path.indirect.weight = path.direct.weight = 0;
+    path.radiance = 0;
+    path.pixel = path.indirect.pixel = path.direct.pixel = pixel;
+    for (uint k = 0; k < PILOT_VERTICES; ++k) path.vertices[k].weight = 0;
+    PilotState state;
+    state.rng = rngMake((ulong)params.seedHigh << 32 | params.seedLow, 0, STREAM_PILOT, index);
+    state.throughput = 1;
+    state.d = state.events = state.vertices = 0;
+    state.gathers = 0;
+    state.lobePdf = state.passed = 0;
+    state.medium = params.camera.medium;
+#ifdef HAS_IRRADIANCE_METER
+    const MeterPlace place = meterPlace(&params.scene.meter, tables, pixel, rngNext2(&state.rng));
+    const Surface s = meterSurfaceOf(&params.scene, tables, &place);
+    const Frame frame = frameFromNormal(s.geometricNormal);
+    state.medium = params.scene.meter.medium;
+    state.ray = leavingRay(&s, toWorld(&frame, sampleCosineHemisphere(rngNext2(&state.rng))));
+    state.gathers = 1;
+    state.events = SCATTER_GENUINE_DIFFUSE; /* direct light at the meter is sampled */
+#else
+    state.ray = cameraRay(&params.camera, pixel, rngNext2(&state.rng));
+#endif
+    state.from = state.ray.origin;
+    uint event = 0;
+    while (event < PILOT_EVENTS_MAX && followPilot(&world, &path, &state)) ++event;
+    paths[index] = path;
+}
+
+/* Learning, step 2: the numbers of the rays that pilots found, in the coordinates of the source which is to emit them: of an
+ * emitter's sources (one after the other from firstSource[emitter] on) the one in whose leaf directions they lie. */
+__kernel void invertEmission(__global const uint* tables, __global const EmissionRecord* records,
+                             __global const GuideSource* sources, __global const GuideLeaf* roots,
+                             const uint sourceCount, __global EmissionPoint* points, const SceneTables scene,
+                             const uint count) {
+    const uint index = get_global_id(0);
+    if (index >= count) return;
+    const EmissionRecord record = records[index];
+    EmissionPoint point;
+    point.source = QL_NONE;
+    Rng rng = rngMake(0, 0, STREAM_SPARE, index);
+    const float2 spare = rngNext2(&rng);
+    __global const Emitter* emitters = SCENE_TABLE(tables, &scene, Emitter, emitters);
+    __global const EmitterTriangle* triangles = SCENE_TABLE(tables, &scene, EmitterTriangle, emitterTriangles);
+    for (uint k = 0; k < sourceCount && point.source == QL_NONE; ++k) {
+        if (sources[k].emitter != record.emitter) continue;
+        const EmissionNumbers u = invertSource(emitters + record.emitter, triangles, sources + k, record.element,
+                                               load3(record.position), load3(record.direction),
+                                               (float3)(rngNext(&rng), spare));
+        const float2 inRoot = u.direction - (float2)(roots[k].lower[3], roots[k].lower[4]);
+        if (any(inRoot < 0.f) || inRoot.x >= roots[k].size[3] || inRoot.y >= roots[k].size[4]) continue;
+        point.source = k;
+        point.numbers[0] = u.part;
+        point.numbers[1] = u.position.x;
+        point.numbers[2] = u.position.y;
+        point.numbers[3] = u.direction.x;
+        point.numbers[4] = u.direction.y;
+    }
+    points[index] = point;
+}
+
+/* Learning, step 3: the key of the importance grid's cell that each vertex lies in, and the cell's size. */
+__kernel void findImportanceCells(__global const PilotPath* paths, __global uint* keys, __global float* sizes,
+                                  const ImportanceGrid grid, const uint count) {
+    const uint index = get_global_id(0);
+    if (index >= count) return;
+    for (uint k = 0; k < PILOT_VERTICES; ++k) {
+        const PilotVertex vertex = paths[index].vertices[k];
+        const float3 position = load3(vertex.position);
+        keys[index * PILOT_VERTICES + k] = vertex.weight > 0 ? importanceKey(&grid, position, vertex.face) : 0;
+        sizes[index * PILOT_VERTICES + k] = vertex.weight > 0 ? importanceCellSize(&grid, position) : 1;
+    }
+}
