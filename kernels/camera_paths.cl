@@ -94,6 +94,11 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
 #ifdef ADAPTIVE_RADIUS
     path.radiusBlock = radiusBlock(params, pixel);
 #endif
+    path.lightBlock = lightBlock(&params->scene, params->camera.width, pixel);
+    path.directSamples = 1;
+#ifdef MIXED_DIRECT
+    path.lastDiffuse = 0;
+#endif
     path.throughput = 1;
     path.radianceScale = 1;
     path.d = path.q = path.depth = 0;

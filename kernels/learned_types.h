@@ -75,10 +75,21 @@ typedef struct {
     unsigned int pixel;
 } PilotPath;
 
+/* ---- which emitters direct light is sampled from (kernels/light_choice.clh) ---- */
+
+/* Of a block of pixels, LIGHT_CHOICES of them; the one with emitter QL_NONE is the last: all emitters, by power. */
+#define LIGHT_CHOICES 16
+typedef struct {
+    unsigned int emitter;
+    float probability;
+} LightChoice;
+
 /* ---- all of it ---- */
 
 typedef struct {
     unsigned int leaves, leafCount, sources;
+    unsigned int lights; /* QL_NONE: by power alone */
+    unsigned int lightBlockSize, lightBlockColumns; /* pixels of a row and column, blocks of a row */
     ImportanceGrid importance;
 } Learned;
 

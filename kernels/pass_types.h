@@ -13,6 +13,11 @@ namespace quasilux::shared {
 #define DIRECT_SHARING_LAMBERT 1u
 #define DIRECT_SHARING_MEDIA 2u
 
+/* Some emitters' direct light is taken from photons, that of others by sampling them. */
+#if defined(HAS_DIRECT_BY_PHOTONS) && defined(DIRECT_BY_EMITTERS)
+#define MIXED_DIRECT
+#endif
+
 /* All small scene tables lie in one buffer of 32-bit words; these are word offsets into it. */
 typedef struct {
     unsigned int primitives, shapes, cornerNormals;
@@ -21,6 +26,7 @@ typedef struct {
     unsigned int media, mediumPlanes;
     unsigned int emitters, emitterTriangles, emitterCount;
     unsigned int directSharing; /* DIRECT_SHARING_* */
+    unsigned int emittersSampled; /* by genuine diffuse lobes, for direct light: all but those with directByPhotons */
     unsigned int segments, borderCells, borderItems;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
     Packed3 borderLower;      /* corner of the border grid */
@@ -104,6 +110,7 @@ typedef struct {
     unsigned int pass;
     unsigned int bdd;
     unsigned int maxDepth;
+    unsigned int directSamples; /* of emitters, where a path takes direct light first */
     unsigned int radiusBlock; /* pixels of a row and column that share a density radius */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
     Camera camera;

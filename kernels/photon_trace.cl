@@ -121,6 +121,9 @@ inline PhotonPath emitPhoton(const PhotonWorld* world, const Lattice* lattice, u
     path.flux = emitted.flux / params->paths;
     path.referenceFlux = maxComponent(path.flux);
     path.events = 0;
+#ifdef MIXED_DIRECT
+    path.direct = SCENE_TABLE(world->tables, scene, Emitter, emitters)[emitted.emitter].directByPhotons;
+#endif
     path.depth = 0;
     path.steps = 0;
 #ifdef HAS_MEDIA
@@ -149,6 +152,15 @@ inline int photonMayGoOn(const PhotonPath* path, const PhotonParams* params, Reg
     return 1;
 }
 
+/* Is this class taken from photons of the path's emitter? */
+inline int arrivalCounts(const PhotonPath* path, uint lightClass) {
+#ifdef MIXED_DIRECT
+    return lightClass != LIGHT_DIRECT || path->direct;
+#else
+    return 1;
+#endif
+}
+
 /* A surface that the path has come to; 0 where it ends. */
 inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, const PhotonSink* sink,
                        RegionCount* count) {
@@ -165,7 +177,7 @@ inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, cons
     ++path->depth;
     __global const Lobe* lobes = SCENE_TABLE(world->tables, scene, Lobe, lobes) + s.firstLobe;
     const uint lightClass = lawPhotonClass(path->events);
-    if (storableClasses(lobes, s.lobeCount) & (1u << lightClass)) {
+    if (storableClasses(lobes, s.lobeCount) & (1u << lightClass) && arrivalCounts(path, lightClass)) {
         const float3 arriving = path->flux * shadingNormalArrival(&s);
         if (all(isfinite(arriving)) && world->params->learns)
             learnArrival(count, world, s.position, importanceFace(s.geometricNormal), arriving, lightClass);

@@ -93,7 +93,7 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
     float uSelect = rngNext(&state->rng);
     const uint index = emitterSelect(emitters, scene->emitterCount, &uSelect);
     EmitterSample light =
-        emitterSampleDirectionOf(emitters + index, SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles),
+        emitterSampleDirection(emitters + index, SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles),
                                  s->position, uSelect, rngNext2(&state->rng));
     if (!light.valid) return;
     light.radianceOverPdf /= emitters[index].selectionProbability;
@@ -142,8 +142,9 @@ inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, 
     __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
     float share = 1;
     if (state->lobePdf > 0)
-        share = shareOf(state->lobePdf, emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
-                                                             state->passed + distance, normal));
+        share = shareOf(state->lobePdf, emitter->selectionProbability *
+                                            emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
+                                                                 state->passed + distance, normal));
     const int isDirect = state->gathers && state->events == 0;
     foundEmission(path, state, isDirect, share * meanOf(state->throughput * loadRgb(emitter->radiance)), index, element,
                   end, state->ray.direction, &state->rng);

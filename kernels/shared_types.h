@@ -181,6 +181,7 @@ typedef struct {
     float selectionCdf;                        /* sum of the probabilities up to and including this emitter; last = 1 */
     unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
     unsigned int medium;                       /* into which it emits: index or MEDIUM_NONE */
+    unsigned int directByPhotons; /* 1: genuine diffuse lobes take its direct light from photons, not by sampling it */
 } Emitter;
 
 typedef struct {

@@ -1,5 +1,6 @@
 #include "learn/learning.h"
 
+#include "learn/direct_choice.h"
 #include "learn/importance.h"
 
 #include <algorithm>
@@ -81,7 +82,7 @@ void Learning::update() {
     buffers_.tables = Buffer<uint32_t>(device_, scene_.tables, "scene tables");
 }
 
-void Learning::followPilots() {
+void Learning::followPilots(bool directMayUsePhotons) {
     const Buffer<shared::PilotPath> buffer(device_, pilotPathCount, "pilot paths");
     program_.kernel("tracePilotPaths")
         .launch(pilotPathCount, buffers_.nodes, buffers_.blocks, buffers_.tables, buffer, params_, pilotPathCount);
@@ -98,6 +99,17 @@ void Learning::followPilots() {
     if (getenv("DEBUG_GUIDE")) { size_t n = 0, d = 0; for (auto& p : paths) { n += p.indirect.weight > 0; d += p.direct.weight > 0; } fprintf(stderr, "pilots: %zu indirect %zu direct\n", n, d); }
     guide_.add(records);
     makeImportance(buffer, paths, weights);
+    std::vector<DirectFind> finds;
+    for (size_t k = 0; k < paths.size(); ++k) {
+        const auto& direct = paths[k].direct;
+        finds.push_back({direct.emitter, paths[k].pixel, weights[k] * static_cast<double>(paths.size()) * direct.weight});
+    }
+    auto choice = chooseDirect(finds, scene_.emitters, params_.camera, directMayUsePhotons);
+    learned_.directByPhotons = choice.byPhotons;
+    learned_.lights = std::move(choice.lights);
+    learned_.lightBlockSize = choice.lightBlockSize;
+    directVariance_ = choice.variance;
+    if (getenv("DEBUG_GUIDE")) fprintf(stderr, "direct variance %g, block %u, %zu choices, by photons %d\n", directVariance_, choice.lightBlockSize, learned_.lights.size(), int(scene_.features.directByPhotons));
     update();
 }
 

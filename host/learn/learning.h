@@ -31,11 +31,14 @@ public:
     Learning(Device& device, const std::string& options, DeviceScene& scene, SceneBuffers buffers,
              const shared::CameraParams& params);
 
-    /// Follows paths from the camera; `scene` then has the guide and the importance that they tell.
-    void followPilots();
+    /// Follows paths from the camera; `scene` then has what they tell: the guide, the importance, how direct light is to be taken,
+    /// of some emitters from photons if it may.
+    void followPilots(bool directMayUsePhotons);
     /// Rounds of photons, each guided by all before.
     void traceRounds(const PhotonRound& round);
 
+    /// DirectChoice::variance.
+    double directVariance() const { return directVariance_; }
     /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
     /// known.
     const std::array<double, LIGHT_CLASSES>& density() const { return density_; }
@@ -54,6 +57,7 @@ private:
     shared::CameraParams params_;
     GuideLearner guide_;
     LearnedTables learned_;
+    double directVariance_ = 0;
     double gathered_ = 0; ///< sum of what makes up ImportanceGrid's first values, times the cells' areas
     std::array<double, LIGHT_CLASSES> density_{};
 };

@@ -5,6 +5,7 @@
 #include "prepare/scene_tables.h"
 
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -105,6 +106,23 @@ std::vector<std::string> findWarnings(const Scene& scene, const SurfaceBorders& 
 
 } // namespace
 
+namespace {
+
+void setDirectByPhotons(DeviceScene& scene, const std::vector<bool>& byPhotons) {
+    auto& emitters = scene.emitters.emitters;
+    std::vector<shared::Emitter> sampled;
+    for (size_t k = 0; k < emitters.size(); ++k) {
+        emitters[k].directByPhotons = k < byPhotons.size() && byPhotons[k];
+        if (!emitters[k].directByPhotons) sampled.push_back(emitters[k]);
+    }
+    std::memcpy(scene.tables.data() + scene.offsets.emitters, emitters.data(), emitters.size() * sizeof(shared::Emitter));
+    scene.features.directByPhotons = sampled.size() < emitters.size();
+    scene.offsets.emittersSampled = static_cast<unsigned>(sampled.size());
+    scene.offsets.directSharing = directSharing(sampled, scene.surfaceArea, scene.features.irradianceMeter);
+}
+
+} // namespace
+
 void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     scene.tables.resize(scene.sceneWords);
     SceneTableWriter tables(std::move(scene.tables));
@@ -114,7 +132,12 @@ void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     scene.offsets.learned.importance = learned.importance;
     const bool isKnown = !learned.importanceCells.empty();
     scene.offsets.learned.importance.cells = isKnown ? tables.append(learned.importanceCells) : QL_NONE;
+    scene.offsets.learned.lights = learned.lights.empty() ? QL_NONE : tables.append(learned.lights);
+    scene.offsets.learned.lightBlockSize = learned.lightBlockSize;
+    scene.offsets.learned.lightBlockColumns =
+        (scene.camera.width + learned.lightBlockSize - 1) / learned.lightBlockSize;
     scene.tables = tables.words();
+    setDirectByPhotons(scene, learned.directByPhotons);
     scene.isGuided = learned.guide.isGuided;
     scene.typicalFlux = learned.guide.typicalFlux;
 }
@@ -133,7 +156,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.warnings = findWarnings(scene, borders);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
-    out.offsets.directSharing = directSharing(out.emitters, out.surfaceArea, out.features.irradianceMeter);
+    out.offsets.directSharing = directSharing(out.emitters.emitters, out.surfaceArea, out.features.irradianceMeter);
     out.features.sharingLambert = out.offsets.directSharing & DIRECT_SHARING_LAMBERT;
     out.features.sharingMedia = out.features.media && out.offsets.directSharing & DIRECT_SHARING_MEDIA;
     out.bvh = buildBvh(flattenPrimitives(scene));
@@ -160,8 +183,10 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     appendBorders(borders, static_cast<float>(settings.largestRadius(out.surfaceArea)), tables, out.offsets);
     out.tables = tables.words();
     out.sceneWords = out.tables.size();
-    setLearned(out, {plainGuide(out.emitters), {}, {}});
     out.camera = flattenCamera(scene.sensor, placement.camera);
+    LearnedTables nothing;
+    nothing.guide = plainGuide(out.emitters);
+    setLearned(out, nothing);
 
     for (const auto& shape : scene.shapes) {
         out.triangles += shape.mesh.triangles.size();

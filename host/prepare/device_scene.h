@@ -53,6 +53,9 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings);
 /// Takes what was learned of the scene into its tables, instead of what they had.
 struct LearnedTables {
     GuideTables guide;
+    std::vector<bool> directByPhotons; ///< by emitter, or empty: none
+    std::vector<shared::LightChoice> lights; ///< LIGHT_CHOICES for each block of pixels, or empty: nothing is known
+    unsigned lightBlockSize = 1;
     shared::ImportanceGrid importance{}; ///< without `cells`
     std::vector<uint32_t> importanceCells;  ///< none: nothing is known
 };

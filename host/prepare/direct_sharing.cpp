@@ -20,8 +20,7 @@ bool hasArea(const shared::Emitter& emitter) {
 
 } // namespace
 
-unsigned directSharing(const EmitterTables& emitters, double scatteringArea, bool meter) {
-    const auto& all = emitters.emitters;
+unsigned directSharing(const std::vector<shared::Emitter>& all, double scatteringArea, bool meter) {
     if (std::any_of(all.begin(), all.end(), mustShare)) return DIRECT_SHARING_LAMBERT | DIRECT_SHARING_MEDIA;
     if (meter) return 0;
     double area = 0;

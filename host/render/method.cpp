@@ -28,7 +28,7 @@ bool meterIsGenuineDiffuse(const Features& features, const RenderSettings& setti
 unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& settings) {
     const Features features = settings.genericKernels ? Features::generic() : sceneFeatures;
     unsigned exist = 0; // classes that photons of this scene can have
-    if (settings.direct == DirectLight::photons) exist |= bit(LIGHT_DIRECT);
+    if (settings.direct == DirectLight::photons || sceneFeatures.directByPhotons) exist |= bit(LIGHT_DIRECT);
     if (features.specular) exist |= bit(LIGHT_CAUSTIC);
     if (features.quasiSpecular || features.quasiSpecularMedia) exist |= bit(LIGHT_QUASI_CAUSTIC);
     if (features.genuineDiffuse || features.genuineDiffuseMedia) exist |= bit(LIGHT_DIFFUSE);
@@ -82,6 +82,11 @@ bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings) {
 
 bool adaptsRadius(const Features& features, const RenderSettings& settings) {
     return mayAdaptRadius(isMeter(features), features.media, settings) && photonClasses(features, settings) != 0;
+}
+
+bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings) {
+    return settings.direct == DirectLight::emitters && settings.map == MapOrder::photons && !isMeter(features) &&
+           !features.media && features.genuineDiffuse && !settings.genericKernels;
 }
 
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {

@@ -19,6 +19,9 @@ bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);
 /// Is it chosen by pixel? Only where mayAdaptRadius(), and some photons are stored.
 bool adaptsRadius(const Features& features, const RenderSettings& settings);
 
+/// Whether direct light of some emitters may be taken from photons, that of others by sampling them.
+bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings);
+
 /// An irradiance meter scatters by its variant: genuine diffuse in the main one, else quasi-specular (METER_SCATTERING).
 bool meterIsGenuineDiffuse(const Features& features, const RenderSettings& settings);
 

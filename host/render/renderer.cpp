@@ -59,6 +59,7 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     // The meter's own scattering does not count (kernels/meter.clh).
     params.bdd = settings.bdd + (meterIsGenuineDiffuse(flat.features, settings) ? 1 : 0);
     params.maxDepth = maxDepth;
+    params.directSamples = getenv("DS") ? atoi(getenv("DS")) : 1;
     params.camera = flat.camera;
     params.scene = flat.offsets;
     return params;
@@ -129,13 +130,13 @@ SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSe
 struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_)
         : device(device_), settings(settings_), flat(std::move(flat_)),
+          geometry(device, flat), learning(followPilots()),
           program(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                   kernelOptions(flat, settings)),
-          geometry(device, flat),
           film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
           report(describe(scene, flat, settings)) {
         auto timingsBefore = device.timings();
-        learn(scene);
+        if (learning) learnFromPhotons(scene);
         for (auto& [name, radius] : report.initialRadius)
             for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
                 if (name == slotName(c)) radius = firstRadiusOf(c);
@@ -151,15 +152,20 @@ struct Renderer::Stages {
         flat.tables = {};
     }
 
-    // Where photons are to begin and where they matter, from pilots with random numbers of their own.
-    void learn(const Scene& scene) {
-        if (settings.emission == Emission::plain || photonClasses(flat.features, settings) == 0) return;
-        Learning learning(device, kernelOptions(flat, settings), flat,
-                          {geometry.nodes, geometry.blocks, geometry.tables}, cameraParams(flat, settings, QL_NONE));
-        learning.followPilots();
+    // Where photons are to begin, where they matter, how direct light is to be taken: from pilots with random numbers of their own.
+    std::unique_ptr<Learning> followPilots() {
+        if (settings.emission == Emission::plain || photonClasses(flat.features, settings) == 0) return nullptr;
+        auto pilots = std::make_unique<Learning>(device, kernelOptions(flat, settings), flat,
+                                                 SceneBuffers{geometry.nodes, geometry.blocks, geometry.tables},
+                                                 cameraParams(flat, settings, QL_NONE));
+        pilots->followPilots(mayTakeDirectFromPhotons(flat.features, settings));
+        return pilots;
+    }
+
+    void learnFromPhotons(const Scene& scene) {
         if (settings.map != MapOrder::photons || flat.offsets.meter.kind != METER_NONE) return;
-        learning.traceRounds([&](unsigned round) { return photonRound(scene, round); });
-        density = learning.density();
+        learning->traceRounds([&](unsigned round) { return photonRound(scene, round); });
+        density = learning->density();
     }
 
     RoundResult photonRound(const Scene& scene, unsigned round) {
@@ -319,8 +325,9 @@ struct Renderer::Stages {
     Device& device;
     RenderSettings settings;
     DeviceScene flat;
-    Program program;
     GeometryBuffers geometry;
+    std::unique_ptr<Learning> learning; // null: nothing is learned
+    Program program;
     Film film;
     std::optional<PhotonStage> photons;     // this and one of the next two, or
     std::optional<AdaptiveRadius> adaptive; // where the camera stage has it

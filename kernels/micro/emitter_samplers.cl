@@ -11,7 +11,7 @@ __kernel void sampleEmission(__global const Emitter* emitter, __global const Emi
     for (uint k = 0; k < SAMPLES_PER_ITEM; ++k) {
         const float select = nextNumber(&state);
         const float a = nextNumber(&state), b = nextNumber(&state), c = nextNumber(&state), d = nextNumber(&state);
-        const EmittedPhoton p = emitterSampleEmission(emitter, triangles, 1, select, (float2)(a, b), (float2)(c, d));
+        const EmittedPhoton p = emitterSampleEmission(emitter, triangles, select, (float2)(a, b), (float2)(c, d));
         sum += p.position + p.direction + p.flux;
     }
     sums[item] = sum.x + sum.y + sum.z;
@@ -26,7 +26,7 @@ __kernel void sampleDirection(__global const Emitter* emitter, __global const Em
     for (uint k = 0; k < SAMPLES_PER_ITEM; ++k) {
         const float select = nextNumber(&state), u = nextNumber(&state), v = nextNumber(&state);
         const float3 from = (float3)(u, v, -1 - select);
-        const EmitterSample s = emitterSampleDirection(emitter, triangles, 1, from, select, (float2)(u, v));
+        const EmitterSample s = emitterSampleDirection(emitter, triangles, from, select, (float2)(u, v));
         if (s.valid) sum += s.direction + s.radianceOverPdf;
     }
     sums[item] = sum.x + sum.y + sum.z;

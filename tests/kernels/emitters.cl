@@ -8,7 +8,11 @@ __kernel void sampleDirections(__global const Emitter* emitters, __global const 
     const uint i = get_global_id(0);
     if (i >= count) return;
     const float3 u = vload3(i, numbers);
-    const EmitterSample s = emitterSampleDirection(emitters, triangles, emitterCount, (float3)(x, y, z), u.x, u.yz);
+    float rest = u.x;
+    const uint chosen = emitterSelect(emitters, emitterCount, &rest);
+    EmitterSample s = emitterSampleDirection(emitters + chosen, triangles, (float3)(x, y, z), rest, u.yz);
+    s.radianceOverPdf /= emitters[chosen].selectionProbability;
+    s.pdfSolidAngle *= emitters[chosen].selectionProbability;
     vstore3(s.direction, 0, result + 8 * i);
     result[8 * i + 3] = s.valid ? s.distance : -1.0f;
     vstore3(s.radianceOverPdf, 0, result + 8 * i + 4);
@@ -24,7 +28,8 @@ __kernel void directionPdfs(__global const Emitter* emitters, uint index, float 
     const float3 from = (float3)(x, y, z);
     const float3 offset = vload3(i, points) - from;
     const float distance = length(offset);
-    result[i] = emitterPdfSolidAngle(emitters + index, from, offset / distance, distance, vload3(i, normals));
+    result[i] = emitters[index].selectionProbability *
+                emitterPdfSolidAngle(emitters + index, from, offset / distance, distance, vload3(i, normals));
 }
 
 /* Result: position (3), direction (3), normal (3), flux (3). Numbers: uSelect, uPosition, uDirection. */
@@ -34,8 +39,12 @@ __kernel void samplePhotons(__global const Emitter* emitters, __global const Emi
     const uint i = get_global_id(0);
     if (i >= count) return;
     __global const float* u = numbers + 5 * i;
-    const EmittedPhoton p =
-        emitterSampleEmission(emitters, triangles, emitterCount, u[0], (float2)(u[1], u[2]), (float2)(u[3], u[4]));
+    float part = u[0];
+    const uint index = emitterSelect(emitters, emitterCount, &part);
+    EmittedPhoton p =
+        emitterSampleEmission(emitters + index, triangles, part, (float2)(u[1], u[2]), (float2)(u[3], u[4]));
+    p.flux /= emitters[index].selectionProbability;
+    p.emitter = index;
     vstore3(p.position, 0, result + 12 * i);
     vstore3(p.direction, 0, result + 12 * i + 3);
     vstore3(p.normal, 0, result + 12 * i + 6);

@@ -1,0 +1,30 @@
+// How direct light is to be taken, from what pilot paths saw of the emitters (docs/learning.md).
+#pragma once
+
+#include "prepare/device_scene.h"
+
+#include <vector>
+
+namespace quasilux {
+
+/// Direct light that one pilot path found where the camera takes it.
+struct DirectFind {
+    unsigned emitter = QL_NONE; ///< QL_NONE: none
+    unsigned pixel = 0;
+    double value = 0; ///< relative to the brightness of its part of the image
+};
+
+struct DirectChoice {
+    /// By emitter: its light is taken from photons where it is genuinely diffusely reflected. True where samples of it mostly find it
+    /// hidden.
+    std::vector<bool> byPhotons;
+    std::vector<shared::LightChoice> lights; ///< as LearnedTables; empty where there is but one emitter to sample
+    unsigned lightBlockSize = 1;
+    double variance = 0; ///< of direct light by one sample of an emitter so chosen, relative to brightness squared
+};
+
+/// `finds`: one for each pilot path. `mayUsePhotons`: or else none is taken from photons.
+DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTables& emitters,
+                          const shared::Camera& camera, bool mayUsePhotons);
+
+} // namespace quasilux
