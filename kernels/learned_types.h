@@ -14,13 +14,14 @@ namespace quasilux::shared {
 /* Numbers that make a photon: which part of the emitter, two for the place, two for the direction. */
 #define EMISSION_DIMENSIONS 5
 
-/* Coordinates of an emitter's rays. An emitter that shines from outside may have a plane of its own, through which its photons
- * are aimed: place = centre + a axisU + b axisV, with a = scaleU t / (1 - t^2), t in (-1,1), and likewise b: all of the plane,
- * its middle most finely. scaleU = 0: the emitter's own coordinates. */
+/* Coordinates of an emitter's rays. Those of an emitter that shines from outside which come through an opening (a rectangle, in any
+ * direction) may have coordinates of their own: place = centre + a axisU + b axisV, |a| < halfU, |b| < halfV. halfU = 0: the
+ * emitter's own coordinates. A ray belongs to the first of its emitter's sources that holds it. */
 typedef struct {
     unsigned int emitter;
+    unsigned int first; /* source of the emitter */
     Packed3 centre, axisU, axisV; /* axes orthonormal */
-    float scaleU, scaleV;
+    float halfU, halfV;
 } GuideSource;
 
 /* A box of emission numbers in which photons are uniform. The leaves of all sources together hold each ray exactly once. */
@@ -37,6 +38,7 @@ typedef struct {
     unsigned int element; /* triangle of a mesh */
     Packed3 position, direction; /* of the ray, away from the emitter */
     float weight;                /* estimate of what it brings to the image, over all photons */
+    float inverseDensity; /* of a photon: 1 / density of the numbers that it was made from */
     unsigned int pixel;
 } EmissionRecord;
 

@@ -92,7 +92,7 @@ inline void crossMeter(const PhotonPath* path, float length, const PhotonSink* s
 /* What is to be known of a photon's beginning while learning. */
 inline EmissionRecord recordOf(const EmittedPhoton* photon, __global const uint* tables, const SceneTables* scene) {
     EmissionRecord record = {photon->emitter, 0, {photon->position.x, photon->position.y, photon->position.z},
-                             {photon->direction.x, photon->direction.y, photon->direction.z}, 0, QL_NONE};
+                             {photon->direction.x, photon->direction.y, photon->direction.z}, 0, photon->inverseDensity, QL_NONE};
 #ifdef HAS_EMITTER_TRIANGLES
     __global const Emitter* emitter = SCENE_TABLE(tables, scene, Emitter, emitters) + photon->emitter;
     if (EMITTER_IS(emitter, EMITTER_TRIANGLES))
@@ -136,6 +136,7 @@ inline PhotonPath emitPhoton(const PhotonWorld* world, const Lattice* lattice, u
 
 /* May the path go on? Counts why not. */
 inline int photonMayGoOn(const PhotonPath* path, const PhotonParams* params, RegionCount* count) {
+    if (path->referenceFlux == 0) return 0; /* a ray of another source of the guide */
     if (!all(isfinite(path->flux)) || !all(isfinite(path->direction))) {
         ++count->nonFinite;
         return 0;

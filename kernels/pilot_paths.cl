@@ -277,6 +277,7 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     PilotPath path;
     path.indirect.emitter = path.direct.emitter = QL_NONE;
     path.indirect.weight = path.direct.weight = 0;
+    path.indirect.inverseDensity = path.direct.inverseDensity = 0;
     path.radiance = 0;
     path.pixel = path.indirect.pixel = path.direct.pixel = pixel;
     for (uint k = 0; k < PILOT_VERTICES; ++k) path.vertices[k].weight = 0;
@@ -304,11 +305,9 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     paths[index] = path;
 }
 
-/* Learning, step 2: the numbers of the rays that pilots found, in the coordinates of the source which is to emit them: of an
- * emitter's sources (one after the other from firstSource[emitter] on) the one in whose leaf directions they lie. */
+/* Learning, step 2: the numbers of the rays that pilots found, in the coordinates of the source that is to emit them. */
 __kernel void invertEmission(__global const uint* tables, __global const EmissionRecord* records,
-                             __global const GuideSource* sources, __global const GuideLeaf* roots,
-                             const uint sourceCount, __global EmissionPoint* points, const SceneTables scene,
+                             __global const GuideSource* sources, const uint sourceCount, __global EmissionPoint* points, const SceneTables scene,
                              const uint count) {
     const uint index = get_global_id(0);
     if (index >= count) return;
@@ -321,11 +320,10 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
     __global const EmitterTriangle* triangles = SCENE_TABLE(tables, &scene, EmitterTriangle, emitterTriangles);
     for (uint k = 0; k < sourceCount && point.source == QL_NONE; ++k) {
         if (sources[k].emitter != record.emitter) continue;
+        const float3 position = load3(record.position), direction = load3(record.direction);
+        if (!holdsRay(sources + k, position, direction)) continue;
         const EmissionNumbers u = invertSource(emitters + record.emitter, triangles, sources + k, record.element,
-                                               load3(record.position), load3(record.direction),
-                                               (float3)(rngNext(&rng), spare));
-        const float2 inRoot = u.direction - (float2)(roots[k].lower[3], roots[k].lower[4]);
-        if (any(inRoot < 0.f) || inRoot.x >= roots[k].size[3] || inRoot.y >= roots[k].size[4]) continue;
+                                               position, direction, (float3)(rngNext(&rng), spare));
         point.source = k;
         point.numbers[0] = u.part;
         point.numbers[1] = u.position.x;

@@ -14,7 +14,7 @@ namespace quasilux {
 class GuideLearner {
 public:
     using Invert = std::function<std::vector<shared::EmissionPoint>(const std::vector<shared::EmissionRecord>&,
-                                                                    const GuideTables& roots)>;
+                                                                    const std::vector<shared::GuideSource>& sources)>;
     GuideLearner(const EmitterTables& emitters, Invert invert) : emitters_(emitters), invert_(std::move(invert)) {}
 
     /// Records whose weights estimate one measure: all those of one round of pilots.
@@ -23,6 +23,11 @@ public:
     GuideTables guide() const;
 
 private:
+    std::vector<SourceBox> boxesOf(const std::vector<shared::GuideSource>& sources,
+                                   const std::vector<std::vector<GuideSample>>& samples,
+                                   const std::vector<double>& weights) const;
+
+    size_t photonsOfRound_ = 0; ///< the last one's
     const EmitterTables& emitters_;
     Invert invert_;
     std::vector<std::vector<shared::EmissionRecord>> rounds_;

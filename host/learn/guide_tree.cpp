@@ -39,15 +39,15 @@ public:
         std::iota(order_.begin(), order_.end(), size_t(0));
     }
 
-    std::vector<GuideBox> build(const GuideBox& root) {
+    std::vector<GuideLeafBox> build(const GuideBox& root) {
         std::priority_queue<Node> open;
-        std::vector<GuideBox> leaves;
+        std::vector<GuideLeafBox> leaves;
         open.push(evaluated({root, 0, samples_.size(), {}, 0}));
         while (!open.empty()) {
             const Node node = open.top();
             open.pop();
             if (!(node.priority > 0) || open.size() + leaves.size() + 2 > settings_.leaves) {
-                leaves.push_back(node.box);
+                leaves.push_back({node.box, squaresOf(node)});
                 continue;
             }
             for (const Node& child : split(node)) open.push(evaluated(child));
@@ -56,6 +56,12 @@ public:
     }
 
 private:
+    double squaresOf(const Node& node) const {
+        double sum = 0;
+        for (size_t k = node.first; k < node.last; ++k) sum += samples_[order_[k]].square;
+        return sum;
+    }
+
     Node evaluated(Node node) const {
         double sum = 0, squares = 0;
         for (size_t k = node.first; k < node.last; ++k) {
@@ -116,16 +122,16 @@ private:
 
 } // namespace
 
-std::vector<GuideBox> buildGuideTree(const std::vector<GuideSample>& samples, const GuideBox& root,
+std::vector<GuideLeafBox> buildGuideTree(const std::vector<GuideSample>& samples, const GuideBox& root,
                                      const GuideTreeSettings& settings) {
     return TreeBuilder(samples, settings).build(root);
 }
 
-double guideGain(const std::vector<GuideBox>& leaves, const GuideBox& root) {
+double guideGain(const std::vector<GuideLeafBox>& leaves, const GuideBox& root) {
     double second = 0;
-    for (const GuideBox& leaf : leaves) {
-        const double share = leaf.probability / root.probability;
-        second += share * share / (leaf.volume() / root.volume());
+    for (const auto& leaf : leaves) {
+        const double share = leaf.box.probability / root.probability;
+        second += share * share / (leaf.box.volume() / root.volume());
     }
     return second;
 }

@@ -12,6 +12,15 @@ namespace quasilux {
 struct GuideSample {
     std::array<float, emissionDimensions> u{};
     double weight = 0;
+    /// Of a photon: its weight squared times the density that it was drawn from times the number of photons, so that these sum to
+    /// the second moment of what photons bring to the image.
+    double square = 0;
+};
+
+/// A leaf and the sum of its samples' squares.
+struct GuideLeafBox {
+    GuideBox box;
+    double squares = 0;
 };
 
 struct GuideTreeSettings {
@@ -23,11 +32,11 @@ struct GuideTreeSettings {
 
 /// Cuts `root` where the samples' density differs most. Leaves do not overlap and fill `root`; their probabilities are above 0
 /// and sum to its probability. Without samples it is `root` alone.
-std::vector<GuideBox> buildGuideTree(const std::vector<GuideSample>& samples, const GuideBox& root,
+std::vector<GuideLeafBox> buildGuideTree(const std::vector<GuideSample>& samples, const GuideBox& root,
                                      const GuideTreeSettings& settings = {});
 
 /// By how much the second moment of weights by `root` evenly exceeds that of weights by the samples' density, as the leaves know
 /// it: 1 where nothing is gained.
-double guideGain(const std::vector<GuideBox>& leaves, const GuideBox& root);
+double guideGain(const std::vector<GuideLeafBox>& leaves, const GuideBox& root);
 
 } // namespace quasilux

@@ -45,17 +45,15 @@ std::vector<double> pathWeights(const std::vector<shared::PilotPath>& paths, con
 Learning::Learning(Device& device, const std::string& options, DeviceScene& scene, SceneBuffers buffers,
                    const shared::CameraParams& params)
     : device_(device), program_(device, "pilot_paths.cl", options), scene_(scene), buffers_(buffers), params_(params),
-      guide_(scene.emitters, [this](const auto& records, const auto& roots) { return invert(records, roots); }) {}
+      guide_(scene.emitters, [this](const auto& records, const auto& sources) { return invert(records, sources); }) {}
 
 std::vector<shared::EmissionPoint> Learning::invert(const std::vector<shared::EmissionRecord>& records,
-                                                    const GuideTables& roots) {
+                                                    const std::vector<shared::GuideSource>& sources) {
     const Buffer<shared::EmissionRecord> from(device_, records, "pilot records");
-    const Buffer<shared::GuideSource> sources(device_, roots.sources, "pilot sources");
-    const Buffer<shared::GuideLeaf> leaves(device_, roots.leaves, "pilot roots");
+    const Buffer<shared::GuideSource> table(device_, sources, "pilot sources");
     const Buffer<shared::EmissionPoint> points(device_, records.size(), "pilot points");
     program_.kernel("invertEmission")
-        .launch(records.size(), buffers_.tables, from, sources, leaves, static_cast<unsigned>(roots.sources.size()),
-                points, scene_.offsets, static_cast<unsigned>(records.size()));
+        .launch(records.size(), buffers_.tables, from, table, static_cast<unsigned>(sources.size()), points, scene_.offsets, static_cast<unsigned>(records.size()));
     return points.read();
 }
 
@@ -75,7 +73,7 @@ void Learning::update() {
     if (getenv("DEBUG_GUIDE")) {
         fprintf(stderr, "guide: %zu sources %zu leaves typical %g\n", learned_.guide.sources.size(), learned_.guide.leaves.size(), learned_.guide.typicalFlux);
         for (auto& s : learned_.guide.sources)
-            if (s.scaleU > 0) fprintf(stderr, "  e%u centre %.2f %.2f %.2f U %.2f %.2f %.2f V %.2f %.2f %.2f scale %.2f %.2f\n", s.emitter, s.centre.x, s.centre.y, s.centre.z, s.axisU.x, s.axisU.y, s.axisU.z, s.axisV.x,s.axisV.y,s.axisV.z,s.scaleU,s.scaleV);
+            if (s.halfU > 0) fprintf(stderr, "  e%u centre %.2f %.2f %.2f U %.2f %.2f %.2f V %.2f %.2f %.2f half %.2f %.2f\n", s.emitter, s.centre.x, s.centre.y, s.centre.z, s.axisU.x, s.axisU.y, s.axisU.z, s.axisV.x,s.axisV.y,s.axisV.z,s.halfU,s.halfV);
     }
     setLearned(scene_, learned_);
     buffers_.tables = {};

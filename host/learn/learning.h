@@ -45,7 +45,7 @@ public:
 
 private:
     std::vector<shared::EmissionPoint> invert(const std::vector<shared::EmissionRecord>& records,
-                                              const GuideTables& roots);
+                                              const std::vector<shared::GuideSource>& sources);
     void makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
                         const std::vector<double>& weights);
     void update();

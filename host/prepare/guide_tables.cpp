@@ -11,20 +11,13 @@ namespace quasilux {
 
 namespace {
 
-// d place / d u of planeCoordinate (kernels/guide.clh).
-double planeSlope(double u, double scale) {
-    const double t = 2 * u - 1, rest = 1 - t * t;
-    return 2 * scale * (1 + t * t) / (rest * rest);
-}
-
-// Of a photon in the middle of the box by even numbers, times the number of photons.
-double fluxInMiddle(const EmitterTables& emitters, const shared::GuideSource& source, const GuideBox& box) {
+// Of a photon by even numbers, times the number of photons.
+double fluxOf(const EmitterTables& emitters, const shared::GuideSource& source) {
     const double power = emitters.power[source.emitter];
-    if (!(source.scaleU > 0)) return power;
+    if (!(source.halfU > 0)) return power;
     const auto& emitter = emitters.emitters[source.emitter];
     const double solidAngle = emitter.type == EMITTER_DIRECTIONAL ? 1 : 4 * std::numbers::pi;
-    return mean(emitter.radiance) * solidAngle * planeSlope(box.lower[1] + box.size[1] / 2, source.scaleU) *
-           planeSlope(box.lower[2] + box.size[2] / 2, source.scaleV);
+    return mean(emitter.radiance) * solidAngle * 4 * source.halfU * source.halfV;
 }
 
 } // namespace
@@ -50,12 +43,19 @@ GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::G
             leaf.size[d] = static_cast<float>(box.size[d]);
         }
         tables.leaves.push_back(leaf);
-        logFlux += probability * std::log(weight * fluxInMiddle(emitters, sources[source], box));
+        logFlux += probability * std::log(weight * fluxOf(emitters, sources[source]));
     }
     if (!tables.leaves.empty()) tables.leaves.back().cdf = 1;
     tables.typicalFlux = std::exp(logFlux);
     tables.sources = std::move(sources);
     return tables;
+}
+
+shared::GuideSource plainSource(unsigned emitter, unsigned first) {
+    shared::GuideSource source{};
+    source.emitter = emitter;
+    source.first = first;
+    return source;
 }
 
 GuideTables plainGuide(const EmitterTables& emitters) {
@@ -66,7 +66,7 @@ GuideTables plainGuide(const EmitterTables& emitters) {
         whole.box.probability = emitters.emitters[k].selectionProbability;
         if (!(whole.box.probability > 0)) continue;
         boxes.push_back(whole);
-        sources.emplace_back().emitter = k;
+        sources.push_back(plainSource(k, static_cast<unsigned>(sources.size())));
     }
     return makeGuideTables(emitters, std::move(sources), boxes);
 }

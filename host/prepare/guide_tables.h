@@ -36,6 +36,9 @@ struct SourceBox {
 GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::GuideSource> sources,
                             const std::vector<SourceBox>& boxes);
 
+/// An emitter in its own coordinates; `first`: its first source.
+shared::GuideSource plainSource(unsigned emitter, unsigned first);
+
 /// One box for each emitter that shines, in proportion to its power.
 GuideTables plainGuide(const EmitterTables& emitters);
 

@@ -19,6 +19,9 @@ namespace quasilux {
 
 namespace {
 
+// Photons of a class that is rare are gathered from so many times as far as all together would be: where such light is weak, a
+// wider disc costs more than its noise.
+constexpr double rareClassRadius = 2;
 static const unsigned photonsOfRound = getenv("ROUND") ? atoi(getenv("ROUND")) : 65536;
 constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
 
@@ -252,10 +255,14 @@ struct Renderer::Stages {
     double firstRadiusOf(unsigned lightClass) const {
         const double byArea =
             firstRadius(flat.surfaceArea, settings, report.photonsPerPass) * classRadiusFactor(lightClass);
-        if (!(density[lightClass] > 0)) return byArea;
-        const double byDensity =
-            settings.radiusScale * radiusOfPhotons(density[lightClass] * report.photonsPerPass);
-        return std::min(byArea, byDensity);
+        double all = 0;
+        for (const double ofClass : density) all += ofClass;
+        if (!(all > 0)) return byArea;
+        const auto radiusOf = [&](double perPhoton) {
+            return perPhoton > 0 ? radiusOfPhotons(perPhoton * report.photonsPerPass) : byArea;
+        };
+        const double byDensity = std::min(radiusOf(density[lightClass]), rareClassRadius * radiusOf(all));
+        return std::min(byArea, settings.radiusScale * byDensity);
     }
 
     std::array<float, LIGHT_CLASSES> radii(unsigned pass) const {

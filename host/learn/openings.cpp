@@ -1,0 +1,201 @@
+#include "learn/openings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <utility>
+
+namespace quasilux {
+
+namespace {
+
+constexpr size_t raysLookedAt = 600;
+constexpr size_t candidates = 150;   // places that are tried for an opening's centre
+constexpr size_t fewestRays = 32;    // about a place that may be one
+constexpr double leastOpeningGain = 0.05;   // of all rays' log likelihood, that an opening must bring
+constexpr double margin = 1.25;      // of an opening's region to what its rays come through
+constexpr double outliers = 0.01;    // share of the weight on either side that bounds leave out
+constexpr int turns = 16;            // of axes in a quarter
+constexpr int normals = 48;          // tried on a hemisphere, beside the world's axes
+
+glm::dvec3 across(const UsefulRay& ray, const glm::dvec3& v) { return v - glm::dot(ray.direction, v) * ray.direction; }
+double distance(const UsefulRay& ray, const glm::dvec3& place) { return glm::length(across(ray, place - ray.position)); }
+
+double weightOf(const std::vector<UsefulRay>& rays) {
+    double sum = 0;
+    for (const auto& ray : rays) sum += ray.weight;
+    return sum;
+}
+
+// At most raysLookedAt of them, evenly chosen.
+std::vector<UsefulRay> thinned(const std::vector<UsefulRay>& rays) {
+    const size_t step = (rays.size() + raysLookedAt - 1) / raysLookedAt;
+    std::vector<UsefulRay> some;
+    for (size_t k = 0; k < rays.size(); k += std::max<size_t>(step, 1)) some.push_back(rays[k]);
+    return some;
+}
+
+// Where two rays come closest; of parallel ones a place of the first.
+glm::dvec3 meetingPlace(const UsefulRay& a, const UsefulRay& b) {
+    const double cosine = glm::dot(a.direction, b.direction), sine2 = 1 - cosine * cosine;
+    if (sine2 < 1e-6) return a.position;
+    const glm::dvec3 offset = b.position - a.position;
+    const double onA = (glm::dot(offset, a.direction) - cosine * glm::dot(offset, b.direction)) / sine2;
+    const double onB = (cosine * glm::dot(offset, a.direction) - glm::dot(offset, b.direction)) / sine2;
+    return 0.5 * (a.position + onA * a.direction + b.position + onB * b.direction);
+}
+
+// A ball that many rays pass.
+struct Ball {
+    glm::dvec3 centre{};
+    double radius = 0, gain = 0;
+};
+
+// The best radius about a place: where w log(w / (r^2 / R^2)) is largest, w being the share of weight that passes within r, of all
+// rays that evenly spread ones would have r^2 / R^2 of.
+Ball ballAbout(const std::vector<UsefulRay>& rays, double all, const glm::dvec3& centre, double radius) {
+    std::vector<std::pair<double, double>> passing;
+    for (const auto& ray : rays) passing.emplace_back(distance(ray, centre), ray.weight);
+    std::sort(passing.begin(), passing.end());
+    Ball best{centre, 0, 0};
+    double below = 0;
+    for (size_t k = 0; k < passing.size(); ++k) {
+        below += passing[k].second;
+        if (k + 1 < fewestRays) continue;
+        const double share = below / all, even = std::pow(std::max(passing[k].first / radius, 1e-6), 2);
+        const double gain = share * std::log(share / even);
+        if (gain > best.gain) best = {centre, passing[k].first, gain};
+    }
+    return best;
+}
+
+Ball bestBall(const std::vector<UsefulRay>& rays, double all, double radius) {
+    std::mt19937 random(1); // a function of the rays alone
+    Ball best;
+    for (size_t k = 0; k < candidates; ++k) {
+        const auto& a = rays[random() % rays.size()];
+        const auto& b = rays[random() % rays.size()];
+        const glm::dvec3 place = meetingPlace(a, b);
+        const Ball ball = ballAbout(rays, all, place, radius);
+        if (ball.gain > best.gain) best = ball;
+    }
+    return best;
+}
+
+glm::dvec3 anyAcross(const glm::dvec3& n) {
+    return glm::normalize(glm::cross(n, std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+}
+
+// Place of the ray on the plane across `normal`, as an offset from `centre`.
+std::optional<glm::dvec3> placeOnPlane(const UsefulRay& ray, const glm::dvec3& centre, const glm::dvec3& normal) {
+    const double slope = glm::dot(ray.direction, normal);
+    if (std::abs(slope) < 1e-3) return std::nullopt;
+    const glm::dvec3 offset = ray.position - centre;
+    return offset - glm::dot(offset, normal) / slope * ray.direction;
+}
+
+// Lower and upper quantile of the weight.
+std::pair<double, double> bounds(std::vector<std::pair<double, double>>& placesAndWeights) {
+    std::sort(placesAndWeights.begin(), placesAndWeights.end());
+    double all = 0, below = 0;
+    for (const auto& [place, weight] : placesAndWeights) all += weight;
+    std::pair<double, double> found{placesAndWeights.front().first, placesAndWeights.back().first};
+    for (const auto& [place, weight] : placesAndWeights) {
+        if (below <= outliers * all) found.first = place;
+        found.second = place;
+        below += weight;
+        if (below >= (1 - outliers) * all) break;
+    }
+    return found;
+}
+
+// What the rays come through on the plane through `centre`, with these axes.
+Opening bounded(const std::vector<UsefulRay>& rays, const glm::dvec3& centre, const glm::dvec3& axisU,
+                const glm::dvec3& axisV) {
+    Opening opening{centre, axisU, axisV, std::numeric_limits<double>::infinity(),
+                    std::numeric_limits<double>::infinity()};
+    std::vector<std::pair<double, double>> u, v;
+    for (const auto& ray : rays) {
+        const auto place = placeOnPlane(ray, centre, glm::cross(axisU, axisV));
+        if (!place) continue;
+        u.emplace_back(glm::dot(*place, axisU), ray.weight);
+        v.emplace_back(glm::dot(*place, axisV), ray.weight);
+    }
+    if (u.empty()) return opening;
+    const auto [lowerU, upperU] = bounds(u);
+    const auto [lowerV, upperV] = bounds(v);
+    opening.centre += 0.5 * (lowerU + upperU) * axisU + 0.5 * (lowerV + upperV) * axisV;
+    opening.halfU = 0.5 * (upperU - lowerU);
+    opening.halfV = 0.5 * (upperV - lowerV);
+    return opening;
+}
+
+double meanCosine(const std::vector<UsefulRay>& rays, const glm::dvec3& normal) {
+    double sum = 0;
+    for (const auto& ray : rays) sum += ray.weight * std::abs(glm::dot(ray.direction, normal));
+    return sum / weightOf(rays);
+}
+
+// The world's axes first: of what is alike they are taken.
+std::vector<glm::dvec3> candidateNormals() {
+    std::vector<glm::dvec3> all = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int k = 0; k < normals; ++k) { // a spiral with even steps in z
+        const double z = (k + 0.5) / normals, phi = k * std::numbers::pi * (3 - std::sqrt(5.0));
+        const double r = std::sqrt(1 - z * z);
+        all.emplace_back(r * std::cos(phi), r * std::sin(phi), z);
+    }
+    return all;
+}
+
+// The rectangle that the rays have least flux through, were they as bright everywhere.
+Opening fitOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
+    Opening best;
+    double least = std::numeric_limits<double>::infinity();
+    const auto consider = [&](const glm::dvec3& normal, double turn, double advantage) {
+        const glm::dvec3 s = anyAcross(normal), t = glm::cross(normal, s);
+        const glm::dvec3 axisU = std::cos(turn) * s + std::sin(turn) * t;
+        const Opening opening = bounded(rays, centre, axisU, glm::cross(normal, axisU));
+        const double flux = opening.halfU * opening.halfV * meanCosine(rays, normal) * advantage;
+        if (!(flux < least)) return;
+        least = flux;
+        best = opening;
+    };
+    for (const auto& normal : candidateNormals()) consider(normal, 0, 1.1);
+    const glm::dvec3 normal = glm::cross(best.axisU, best.axisV);
+    for (int k = 1; k < turns; ++k) consider(normal, k * std::numbers::pi / 2 / turns, 1);
+    return best;
+}
+
+} // namespace
+
+bool Opening::holds(const UsefulRay& ray) const {
+    const auto place = placeOnPlane(ray, centre, glm::cross(axisU, axisV));
+    return place && std::abs(glm::dot(*place, axisU)) <= halfU && std::abs(glm::dot(*place, axisV)) <= halfV;
+}
+
+std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, size_t most) {
+    std::vector<Opening> openings;
+    const double all = weightOf(rays);
+    while (openings.size() < most && rays.size() >= fewestRays) {
+        const auto some = thinned(rays);
+        const double share = weightOf(some) * all / weightOf(rays); // of the weight of all rays that `some` stand for
+        const Ball ball = bestBall(some, share, radius);
+        if (ball.gain < leastOpeningGain) break;
+        std::vector<UsefulRay> near;
+        for (const auto& ray : some)
+            if (distance(ray, ball.centre) <= ball.radius) near.push_back(ray);
+        Opening opening = fitOpening(near, ball.centre);
+        opening.halfU = std::max(margin * opening.halfU, 1e-5 * radius);
+        opening.halfV = std::max(margin * opening.halfV, 1e-5 * radius);
+        const size_t before = rays.size();
+        std::erase_if(rays, [&](const UsefulRay& ray) { return opening.holds(ray); });
+        if (rays.size() == before) break;
+        openings.push_back(opening);
+    }
+    return openings;
+}
+
+} // namespace quasilux
