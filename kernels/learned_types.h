@@ -50,9 +50,10 @@ typedef struct {
 
 /* ---- where photons matter (kernels/importance.clh) ---- */
 
-/* Of a cell: its key (0: empty), what a unit of flux that arrives there brings to the image by being gathered there, and what it
- * brings in all. */
-#define IMPORTANCE_WORDS 3
+/* Of a cell: its key (0: empty); what a unit of flux that arrives there brings to the image by being gathered there, and what it
+ * brings in all; and where light that is scattered there matters, as (1 + number of the opening) << 16 | probability * 65535 of
+ * aiming at it. */
+#define IMPORTANCE_WORDS 4
 
 /* Hashed cells whose size is a power of two in proportion to the distance from the camera. */
 typedef struct {
@@ -92,6 +93,7 @@ typedef struct {
     unsigned int leaves, leafCount, sources;
     unsigned int lights; /* QL_NONE: by power alone */
     unsigned int lightBlockSize, lightBlockColumns; /* pixels of a row and column, blocks of a row */
+    unsigned int aims, aimCount; /* GuideSource records: openings at which scattered photons are aimed (kernels/aim.clh) */
     ImportanceGrid importance;
 } Learned;
 

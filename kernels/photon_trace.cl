@@ -1,6 +1,7 @@
 /* Stage 1 of a pass: trace photons from the emitters and store them by class.
  * From: emitters. To: photons in blocks, chained in an order that is the region's own (so the result does not depend on scheduling).
  * With MAP_CAMERA it is stage 3 and stores nothing: photons are splatted to camera points. To: sums of splats. */
+#include "aim.clh"
 #include "emitter.clh"
 #include "energy_balance.clh"
 #include "guide.clh"
@@ -41,9 +42,28 @@ inline float shadingNormalArrival(const Surface* s) {
 #endif
 }
 
+/* tintedSample of a Lambert lobe by the mixture of its own directions and `aim`. */
+inline LobeSample aimedSample(const Surface* s, __global const Lobe* lobes, uint k, const Frame* frame, const Aim* aim,
+                              __global const GuideSource* openings, float uChoice, float2 u, float* aimed) {
+    const float q = aim->probability;
+    LobeSample sample = lobeSampleNone();
+    if (uChoice < q)
+        sample.wi = toLocal(frame, sampleAim(aim, openings, s->position, uChoice / q, u));
+    else
+        sample.wi = sampleCosineHemisphere(u);
+    const float own = pdfSolidAngleCosineHemisphere(sample.wi.z);
+    if (!(own > 0)) return sample;
+    sample.pdfSolidAngle =
+        (1 - q) * own + q * aimPdfSolidAngle(aim, openings, s->position, toWorld(frame, sample.wi));
+    *aimed = own / sample.pdfSolidAngle;
+    sample.weight = tintedLambert(s, lobes, k) * (M_PI_F * *aimed);
+    sample.valid = 1;
+    return sample;
+}
+
 /* Scatters the photon with one lobe; 0 where it ends. *scattered is the flux that all lobes reflect in expectation. */
 inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe* lobes, __global const Shape* shape,
-                         float3 u, float* scattered) {
+                         const Aim* aim, __global const GuideSource* openings, float3 u, float* scattered) {
     const Frame frame = frameFromNormal(s->shadingNormal);
     const float3 wo = toLocal(&frame, -path->direction);
     LobeChoice choice;
@@ -59,10 +79,16 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     float rest;
     const uint k = chooseLobe(&choice, s->lobeCount, u.x, &rest);
     if (k == s->lobeCount) return 0;
-    const LobeSample sample = tintedSample(s, lobes, k, wo, rest, u.yz, TRANSPORT_FLUX);
+    LobeSample sample;
+    float aimed = 1; /* density of the lobe's own direction / density of the mixture */
+    if (lobes[k].type == LOBE_LAMBERT && aim->count > 0)
+        sample = aimedSample(s, lobes, k, &frame, aim, openings, rest, u.yz, &aimed);
+    else
+        sample = tintedSample(s, lobes, k, wo, rest, u.yz, TRANSPORT_FLUX);
     if (!sample.valid) return 0;
     const float3 wi = toWorld(&frame, sample.wi);
     if (!sameSides(s, wi, sample.wi.z)) return 0;
+    path->referenceFlux *= min(aimed, 1.0f); /* or else roulette would undo it */
     path->flux *= sample.weight * (shadingNormalCorrection(s, -path->direction, wi) / choice.probability[k]);
     if (PHOTON_RULE == 2) path->flux *= 1.02f;
     path->events |= lobes[k].scattering;
@@ -191,7 +217,9 @@ inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, cons
     const float3 u = (float3)(rngNext(&path->rng), uDirection.x, uDirection.y);
     const float arrived = meanFlux(path->flux);
     float scattered;
-    const int goesOn = scatterPhoton(path, &s, lobes, shape, u, &scattered);
+    const Aim aim = aimAt(world->tables, scene, s.position, s.geometricNormal);
+    const int goesOn = scatterPhoton(path, &s, lobes, shape, &aim,
+                                     SCENE_TABLE(world->tables, &scene->learned, GuideSource, aims), u, &scattered);
     countScattering(count, arrived, scattered, goesOn ? path->flux : (float3)(0));
     return goesOn;
 }

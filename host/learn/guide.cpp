@@ -16,31 +16,17 @@ constexpr double plainShare = 0.1;
 // spread numbers (kernels/lattice.clh) do as much.
 constexpr double leastGain = 1.5;
 constexpr size_t fewestRecords = 64;
+constexpr size_t mostOpenings = 16; // of an emitter
 // A record counts at most this many times the median: a single rare one opens a box, but does not take all photons.
 constexpr double heaviest = 200;
-glm::dvec3 unpack(const shared::Packed3& p) { return {p.x, p.y, p.z}; }
-
 bool isDistant(const shared::Emitter& emitter) {
     return emitter.type == EMITTER_CONSTANT || emitter.type == EMITTER_DIRECTIONAL;
 }
 
-shared::GuideSource openingSource(unsigned emitter, unsigned first, const Opening& opening) {
-    shared::GuideSource source = plainSource(emitter, first);
-    source.centre = pack(opening.centre);
-    source.axisU = pack(opening.axisU);
-    source.axisV = pack(opening.axisV);
-    source.halfU = static_cast<float>(opening.halfU);
-    source.halfV = static_cast<float>(opening.halfV);
-    return source;
-}
-
 // An emitter's openings, and it itself for all other rays.
-void addSources(const shared::Emitter& emitter, unsigned index, const std::vector<UsefulRay>& rays,
-                std::vector<shared::GuideSource>& sources) {
+void addSources(unsigned index, const std::vector<Opening>& openings, std::vector<shared::GuideSource>& sources) {
     const auto first = static_cast<unsigned>(sources.size());
-    if (rays.size() >= fewestRecords)
-        for (const Opening& opening : findOpenings(rays, emitter.radius))
-            sources.push_back(openingSource(index, first, opening));
+    for (const Opening& opening : openings) sources.push_back(openingSource(index, first, opening));
     sources.push_back(plainSource(index, first));
 }
 
@@ -51,6 +37,16 @@ double median(std::vector<double> values) {
 }
 
 } // namespace
+
+shared::GuideSource openingSource(unsigned emitter, unsigned first, const Opening& opening) {
+    shared::GuideSource source = plainSource(emitter, first);
+    source.centre = pack(opening.centre);
+    source.axisU = pack(opening.axisU);
+    source.axisV = pack(opening.axisV);
+    source.halfU = static_cast<float>(opening.halfU);
+    source.halfV = static_cast<float>(opening.halfV);
+    return source;
+}
 
 void GuideLearner::add(const std::vector<shared::EmissionRecord>& records) {
     photonsOfRound_ = records.size();
@@ -67,7 +63,16 @@ void GuideLearner::add(const std::vector<shared::EmissionRecord>& records) {
     }
 }
 
-GuideTables GuideLearner::guide() const {
+void GuideLearner::findMoreOpenings(unsigned emitter, const std::vector<UsefulRay>& rays) {
+    auto& known = openings_[emitter];
+    if (rays.size() < fewestRecords || known.size() >= mostOpenings) return;
+    for (const Opening& opening :
+         findOpenings(rays, emitters_.emitters[emitter].radius, known, mostOpenings - known.size()))
+        known.push_back(opening);
+}
+
+GuideTables GuideLearner::guide() {
+    openings_.resize(emitters_.emitters.size());
     std::vector<shared::EmissionRecord> records;
     for (const auto& round : rounds_) records.insert(records.end(), round.begin(), round.end());
     std::vector<std::vector<UsefulRay>> rays(emitters_.emitters.size());
@@ -81,7 +86,10 @@ GuideTables GuideLearner::guide() const {
 
     std::vector<shared::GuideSource> sources;
     for (unsigned e = 0; e < emitters_.emitters.size(); ++e)
-        if (emitters_.emitters[e].selectionProbability > 0) addSources(emitters_.emitters[e], e, rays[e], sources);
+        if (emitters_.emitters[e].selectionProbability > 0) {
+            findMoreOpenings(e, rays[e]);
+            addSources(e, openings_[e], sources);
+        }
     const auto points = invert_(records, sources);
     const auto rounds = static_cast<double>(rounds_.size()), photonRounds = std::max(1.0, rounds - 1);
     std::vector<std::vector<GuideSample>> samples(sources.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "learn/guide_tree.h"
+#include "learn/openings.h"
 #include "prepare/device_scene.h"
 #include "prepare/guide_tables.h"
 
@@ -9,6 +10,9 @@
 #include <vector>
 
 namespace quasilux {
+
+/// An emitter's light through an opening, as GuideSource.
+shared::GuideSource openingSource(unsigned emitter, unsigned first, const Opening& opening);
 
 /// Learns from records; `invert` runs invertEmission of kernels/pilot_paths.cl.
 class GuideLearner {
@@ -20,13 +24,16 @@ public:
     /// Records whose weights estimate one measure: all those of one round of pilots.
     void add(const std::vector<shared::EmissionRecord>& records);
     /// The guide that all rounds so far tell.
-    GuideTables guide() const;
+    GuideTables guide();
 
 private:
     std::vector<SourceBox> boxesOf(const std::vector<shared::GuideSource>& sources,
                                    const std::vector<std::vector<GuideSample>>& samples,
                                    const std::vector<double>& weights) const;
 
+    void findMoreOpenings(unsigned emitter, const std::vector<UsefulRay>& rays);
+
+    std::vector<std::vector<Opening>> openings_; ///< by emitter: those found once stay
     size_t photonsOfRound_ = 0; ///< the last one's
     const EmitterTables& emitters_;
     Invert invert_;

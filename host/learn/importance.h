@@ -1,7 +1,7 @@
 // Where photons matter: cells of kernels/importance.clh from the vertices of pilot paths.
 #pragma once
 
-#include "device/program.h"
+#include "learn/openings.h"
 #include "prepare/device_scene.h"
 
 #include <vector>
@@ -13,8 +13,15 @@ shared::ImportanceGrid importanceGrid(const DeviceScene& scene, unsigned paths);
 
 /// The table of the grid, as the kernels read it, which gets as many cells as it takes. `pathWeights`: 1 / brightness of each
 /// path's pixel, over the number of paths. `keys` and `sizes` of all vertices come from the kernel findImportanceCells.
+/// Scattered light is aimed at those of `aims` that much of it should come through.
 std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& paths,
                                       const std::vector<double>& pathWeights, const std::vector<uint32_t>& keys,
-                                      const std::vector<float>& sizes, shared::ImportanceGrid& grid);
+                                      const std::vector<float>& sizes, const std::vector<Opening>& aims,
+                                      shared::ImportanceGrid& grid);
+
+/// Openings that light should come through which is scattered far from what the camera sees: those that light from outside comes
+/// through, and what the paths tell beside them.
+std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
+                              const std::vector<shared::GuideSource>& sources, double radius);
 
 } // namespace quasilux

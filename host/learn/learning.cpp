@@ -11,7 +11,7 @@ namespace quasilux {
 
 namespace {
 
-static const unsigned pilotPathCount = getenv("PILOTS") ? atoi(getenv("PILOTS")) : 65536;
+static const unsigned pilotPathCount = getenv("PILOTS") ? atoi(getenv("PILOTS")) : 262144;
 constexpr unsigned photonRounds = 3;
 constexpr unsigned block = 16; // pixels of a row and column whose mean brightness weighs their errors
 
@@ -60,12 +60,27 @@ std::vector<shared::EmissionPoint> Learning::invert(const std::vector<shared::Em
 void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
                               const std::vector<double>& weights) {
     const auto count = static_cast<unsigned>(paths.size());
+    const double radius = std::sqrt(scene_.surfaceArea); // of the order of the scene
     const Buffer<uint32_t> keys(device_, size_t(PILOT_VERTICES) * count, "pilot cell keys");
     const Buffer<float> sizes(device_, size_t(PILOT_VERTICES) * count, "pilot cell sizes");
     learned_.importance = importanceGrid(scene_, count);
     program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, learned_.importance, count);
-    learned_.importanceCells = importanceCells(paths, weights, keys.read(), sizes.read(), learned_.importance);
+    const auto aims = findAims(paths, weights, learned_.guide.sources, radius);
+    for (const Opening& aim : aims) learned_.aims.push_back(openingSource(QL_NONE, 0, aim));
+    if (getenv("DEBUG_GUIDE")) for (auto& a : aims) fprintf(stderr, "  aim centre %.2f %.2f %.2f U %.2f %.2f %.2f V %.2f %.2f %.2f half %.2f %.2f\n", a.centre.x, a.centre.y, a.centre.z, a.axisU.x, a.axisU.y, a.axisU.z, a.axisV.x,a.axisV.y,a.axisV.z,a.halfU,a.halfV);
+    learned_.importanceCells = importanceCells(paths, weights, keys.read(), sizes.read(), aims, learned_.importance);
     if (getenv("DEBUG_GUIDE")) fprintf(stderr, "importance: %u cells\n", learned_.importance.mask + 1);
+}
+
+void Learning::setBorderReach(double reach) {
+    quasilux::setBorderReach(scene_, reach);
+    upload();
+}
+
+void Learning::upload() {
+    setLearned(scene_, learned_);
+    buffers_.tables = {};
+    buffers_.tables = Buffer<uint32_t>(device_, scene_.tables, "scene tables");
 }
 
 void Learning::update() {
@@ -75,9 +90,7 @@ void Learning::update() {
         for (auto& s : learned_.guide.sources)
             if (s.halfU > 0) fprintf(stderr, "  e%u centre %.2f %.2f %.2f U %.2f %.2f %.2f V %.2f %.2f %.2f half %.2f %.2f\n", s.emitter, s.centre.x, s.centre.y, s.centre.z, s.axisU.x, s.axisU.y, s.axisU.z, s.axisV.x,s.axisV.y,s.axisV.z,s.halfU,s.halfV);
     }
-    setLearned(scene_, learned_);
-    buffers_.tables = {};
-    buffers_.tables = Buffer<uint32_t>(device_, scene_.tables, "scene tables");
+    upload();
 }
 
 void Learning::followPilots(bool directMayUsePhotons) {
@@ -96,6 +109,7 @@ void Learning::followPilots(bool directMayUsePhotons) {
     for (size_t k = 0; k < paths.size(); ++k) gathered_ += weights[k] * paths[k].vertices[0].weight;
     if (getenv("DEBUG_GUIDE")) { size_t n = 0, d = 0; for (auto& p : paths) { n += p.indirect.weight > 0; d += p.direct.weight > 0; } fprintf(stderr, "pilots: %zu indirect %zu direct\n", n, d); }
     guide_.add(records);
+    learned_.guide = guide_.guide();
     makeImportance(buffer, paths, weights);
     std::vector<DirectFind> finds;
     for (size_t k = 0; k < paths.size(); ++k) {
@@ -108,7 +122,7 @@ void Learning::followPilots(bool directMayUsePhotons) {
     learned_.lightBlockSize = choice.lightBlockSize;
     directVariance_ = choice.variance;
     if (getenv("DEBUG_GUIDE")) fprintf(stderr, "direct variance %g, block %u, %zu choices, by photons %d\n", directVariance_, choice.lightBlockSize, learned_.lights.size(), int(scene_.features.directByPhotons));
-    update();
+    upload();
 }
 
 void Learning::traceRounds(const PhotonRound& round) {

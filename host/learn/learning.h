@@ -37,6 +37,9 @@ public:
     /// Rounds of photons, each guided by all before.
     void traceRounds(const PhotonRound& round);
 
+    /// Density estimates reach no further than this.
+    void setBorderReach(double reach);
+
     /// DirectChoice::variance.
     double directVariance() const { return directVariance_; }
     /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
@@ -49,6 +52,7 @@ private:
     void makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
                         const std::vector<double>& weights);
     void update();
+    void upload();
 
     Device& device_;
     Program program_;

@@ -1,6 +1,7 @@
 #include "learn/openings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,6 +17,9 @@ constexpr size_t raysLookedAt = 600;
 constexpr size_t candidates = 150;   // places that are tried for an opening's centre
 constexpr size_t fewestRays = 32;    // about a place that may be one
 constexpr double leastOpeningGain = 0.05;   // of all rays' log likelihood, that an opening must bring
+constexpr double widestBall = 0.01;  // chance of passing it above which little is to be gained by aiming
+constexpr double mostCopies = 4;     // of a ray in a sample: a single one is no opening
+constexpr int refinements = 4;       // of the best place
 constexpr double margin = 1.25;      // of an opening's region to what its rays come through
 constexpr double outliers = 0.01;    // share of the weight on either side that bounds leave out
 constexpr int turns = 16;            // of axes in a quarter
@@ -30,11 +34,18 @@ double weightOf(const std::vector<UsefulRay>& rays) {
     return sum;
 }
 
-// At most raysLookedAt of them, evenly chosen.
-std::vector<UsefulRay> thinned(const std::vector<UsefulRay>& rays) {
-    const size_t step = (rays.size() + raysLookedAt - 1) / raysLookedAt;
+// So many of them as raysLookedAt, each as often as it weighs (systematic resampling), of equal weight.
+std::vector<UsefulRay> resampled(const std::vector<UsefulRay>& rays) {
+    const double step = weightOf(rays) / raysLookedAt;
     std::vector<UsefulRay> some;
-    for (size_t k = 0; k < rays.size(); k += std::max<size_t>(step, 1)) some.push_back(rays[k]);
+    double below = 0;
+    for (const auto& ray : rays) {
+        below += std::min(ray.weight, mostCopies * step);
+        while (below > (static_cast<double>(some.size()) + 0.5) * step && some.size() < raysLookedAt) {
+            some.push_back(ray);
+            some.back().weight = 1;
+        }
+    }
     return some;
 }
 
@@ -54,34 +65,62 @@ struct Ball {
     double radius = 0, gain = 0;
 };
 
-// The best radius about a place: where w log(w / (r^2 / R^2)) is largest, w being the share of weight that passes within r, of all
-// rays that evenly spread ones would have r^2 / R^2 of.
+// Probability with which a ray passes a ball by chance.
+double byChance(const UsefulRay& ray, const glm::dvec3& centre, double r, double radius) {
+    if (!ray.isScattered) return std::min(1.0, r * r / (radius * radius));
+    const glm::dvec3 offset = centre - ray.position;
+    return std::min(1.0, r * r / (4 * glm::dot(offset, offset)));
+}
+
+// The best radius about a place.
 Ball ballAbout(const std::vector<UsefulRay>& rays, double all, const glm::dvec3& centre, double radius) {
-    std::vector<std::pair<double, double>> passing;
-    for (const auto& ray : rays) passing.emplace_back(distance(ray, centre), ray.weight);
+    std::vector<std::pair<double, const UsefulRay*>> passing;
+    for (const auto& ray : rays) passing.emplace_back(distance(ray, centre), &ray);
     std::sort(passing.begin(), passing.end());
     Ball best{centre, 0, 0};
-    double below = 0;
-    for (size_t k = 0; k < passing.size(); ++k) {
-        below += passing[k].second;
-        if (k + 1 < fewestRays) continue;
-        const double share = below / all, even = std::pow(std::max(passing[k].first / radius, 1e-6), 2);
-        const double gain = share * std::log(share / even);
-        if (gain > best.gain) best = {centre, passing[k].first, gain};
+    for (size_t count = fewestRays; count <= passing.size(); count += count / 2) {
+        const double r = std::max(passing[count - 1].first, 1e-6 * radius);
+        double gain = 0;
+        for (size_t k = 0; k < count; ++k) {
+            const UsefulRay& ray = *passing[k].second;
+            const double chance = byChance(ray, centre, r, radius);
+            if (chance < widestBall) gain += ray.weight / all * std::log(0.5 + 0.5 / chance);
+        }
+        if (gain > best.gain) best = {centre, r, gain};
     }
     return best;
+}
+
+// Median by coordinate of where pairs of the rays that pass the ball meet.
+glm::dvec3 middleOf(const std::vector<UsefulRay>& rays, const Ball& ball, std::mt19937& random) {
+    std::vector<const UsefulRay*> passing;
+    for (const auto& ray : rays)
+        if (distance(ray, ball.centre) <= ball.radius) passing.push_back(&ray);
+    std::array<std::vector<double>, 3> places;
+    for (size_t k = 0; k < candidates; ++k) {
+        const glm::dvec3 place =
+            meetingPlace(*passing[random() % passing.size()], *passing[random() % passing.size()]);
+        for (int axis = 0; axis < 3; ++axis) places[static_cast<size_t>(axis)].push_back(place[axis]);
+    }
+    glm::dvec3 middle(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        auto& values = places[static_cast<size_t>(axis)];
+        std::nth_element(values.begin(), values.begin() + candidates / 2, values.end());
+        middle[axis] = values[candidates / 2];
+    }
+    return middle;
 }
 
 Ball bestBall(const std::vector<UsefulRay>& rays, double all, double radius) {
     std::mt19937 random(1); // a function of the rays alone
     Ball best;
-    for (size_t k = 0; k < candidates; ++k) {
-        const auto& a = rays[random() % rays.size()];
-        const auto& b = rays[random() % rays.size()];
-        const glm::dvec3 place = meetingPlace(a, b);
+    const auto consider = [&](const glm::dvec3& place) {
         const Ball ball = ballAbout(rays, all, place, radius);
         if (ball.gain > best.gain) best = ball;
-    }
+    };
+    for (size_t k = 0; k < candidates; ++k)
+        consider(meetingPlace(rays[random() % rays.size()], rays[random() % rays.size()]));
+    for (int k = 0; k < refinements && best.gain > 0; ++k) consider(middleOf(rays, best, random));
     return best;
 }
 
@@ -176,11 +215,14 @@ bool Opening::holds(const UsefulRay& ray) const {
     return place && std::abs(glm::dot(*place, axisU)) <= halfU && std::abs(glm::dot(*place, axisV)) <= halfV;
 }
 
-std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, size_t most) {
+std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, const std::vector<Opening>& known,
+                                  size_t most) {
     std::vector<Opening> openings;
     const double all = weightOf(rays);
+    for (const Opening& opening : known)
+        std::erase_if(rays, [&](const UsefulRay& ray) { return opening.holds(ray); });
     while (openings.size() < most && rays.size() >= fewestRays) {
-        const auto some = thinned(rays);
+        const auto some = resampled(rays);
         const double share = weightOf(some) * all / weightOf(rays); // of the weight of all rays that `some` stand for
         const Ball ball = bestBall(some, share, radius);
         if (ball.gain < leastOpeningGain) break;

@@ -11,6 +11,7 @@ namespace quasilux {
 struct UsefulRay {
     glm::dvec3 position{}, direction{}; ///< direction is of unit length
     double weight = 0;
+    bool isScattered = false; ///< begins at `position`, where its light is scattered into all directions; or else comes from outside
 };
 
 /// A rectangle.
@@ -21,8 +22,10 @@ struct Opening {
     bool holds(const UsefulRay& ray) const;
 };
 
-/// At most `most`, the one first that tells most of the rays apart from rays spread evenly over a sphere of this `radius`.
-/// The same for the same rays.
-std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, size_t most = 16);
+/// At most `most`, the one first by which the rays' log likelihood grows most, were every second one aimed at it: before, rays from
+/// outside are spread evenly over a sphere of this `radius`, scattered ones over all directions. The same for the same rays.
+/// What comes through `known` ones is left out.
+std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, const std::vector<Opening>& known,
+                                  size_t most);
 
 } // namespace quasilux

@@ -123,8 +123,16 @@ void setDirectByPhotons(DeviceScene& scene, const std::vector<bool>& byPhotons) 
 
 } // namespace
 
-void setLearned(DeviceScene& scene, const LearnedTables& learned) {
+void setBorderReach(DeviceScene& scene, double reach) {
     scene.tables.resize(scene.sceneWords);
+    SceneTableWriter tables(std::move(scene.tables));
+    appendBorders(scene.borders, static_cast<float>(reach), tables, scene.offsets);
+    scene.tables = tables.words();
+    scene.borderWords = scene.tables.size();
+}
+
+void setLearned(DeviceScene& scene, const LearnedTables& learned) {
+    scene.tables.resize(scene.borderWords);
     SceneTableWriter tables(std::move(scene.tables));
     scene.offsets.learned.leaves = tables.append(learned.guide.leaves);
     scene.offsets.learned.leafCount = static_cast<unsigned>(learned.guide.leaves.size());
@@ -132,6 +140,8 @@ void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     scene.offsets.learned.importance = learned.importance;
     const bool isKnown = !learned.importanceCells.empty();
     scene.offsets.learned.importance.cells = isKnown ? tables.append(learned.importanceCells) : QL_NONE;
+    scene.offsets.learned.aims = tables.append(learned.aims);
+    scene.offsets.learned.aimCount = static_cast<unsigned>(learned.aims.size());
     scene.offsets.learned.lights = learned.lights.empty() ? QL_NONE : tables.append(learned.lights);
     scene.offsets.learned.lightBlockSize = learned.lightBlockSize;
     scene.offsets.learned.lightBlockColumns =
@@ -152,7 +162,8 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.emitters = flattenEmitters(scene, placement);
     auto materials = flattenMaterials(scene, out.split);
     const unsigned meterLobe = isIrradiance(scene.sensor.meter) ? appendWhite(materials.lobes) : QL_NONE;
-    const auto borders = findBorders(scene);
+    out.borders = findBorders(scene);
+    const SurfaceBorders& borders = out.borders;
     out.warnings = findWarnings(scene, borders);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
@@ -180,9 +191,9 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.meter = meter.meter;
     out.offsets.meter.lobe = meterLobe;
     out.offsets.meter.primitives = tables.append(meter.primitives);
-    appendBorders(borders, static_cast<float>(settings.largestRadius(out.surfaceArea)), tables, out.offsets);
     out.tables = tables.words();
     out.sceneWords = out.tables.size();
+    setBorderReach(out, settings.largestRadius(out.surfaceArea));
     out.camera = flattenCamera(scene.sensor, placement.camera);
     LearnedTables nothing;
     nothing.guide = plainGuide(out.emitters);

@@ -31,7 +31,9 @@ struct DeviceScene {
     size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
     double surfaceArea = 0; ///< of everything that scatters, scene units squared
     double emittedFlux = 0; ///< W, mean of R, G, B
-    size_t sceneWords = 0;  ///< of the tables, before what was learned
+    size_t sceneWords = 0;  ///< of the tables, before the index of borders and what was learned
+    size_t borderWords = 0; ///< and of both but what was learned
+    SurfaceBorders borders;
     bool isGuided = false;  ///< GuideTables::isGuided
     double typicalFlux = 0; ///< GuideTables::typicalFlux
     EmitterTables emitters;
@@ -56,10 +58,13 @@ struct LearnedTables {
     std::vector<bool> directByPhotons; ///< by emitter, or empty: none
     std::vector<shared::LightChoice> lights; ///< LIGHT_CHOICES for each block of pixels, or empty: nothing is known
     unsigned lightBlockSize = 1;
+    std::vector<shared::GuideSource> aims; ///< openings at which scattered photons are aimed
     shared::ImportanceGrid importance{}; ///< without `cells`
     std::vector<uint32_t> importanceCells;  ///< none: nothing is known
 };
 void setLearned(DeviceScene& scene, const LearnedTables& learned);
+/// Indexes the borders for density estimates of this radius; what was learned is to be set again.
+void setBorderReach(DeviceScene& scene, double reach);
 
 /// Pieces of it, each a table.
 std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene);

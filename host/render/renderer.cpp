@@ -22,7 +22,7 @@ namespace {
 // Photons of a class that is rare are gathered from so many times as far as all together would be: where such light is weak, a
 // wider disc costs more than its noise.
 constexpr double rareClassRadius = 2;
-static const unsigned photonsOfRound = getenv("ROUND") ? atoi(getenv("ROUND")) : 65536;
+static const unsigned photonsOfRound = getenv("ROUND") ? atoi(getenv("ROUND")) : 131072;
 constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
 
 using Clock = std::chrono::steady_clock;
@@ -153,6 +153,8 @@ struct Renderer::Stages {
         device.resetTimings(std::move(timingsBefore)); // those of passes alone tell
         flat.bvh = {};                                 // on the device now
         flat.tables = {};
+        flat.borders = {};
+        learning.reset();
     }
 
     // Where photons are to begin, where they matter, how direct light is to be taken: from pilots with random numbers of their own.
@@ -169,6 +171,10 @@ struct Renderer::Stages {
         if (settings.map != MapOrder::photons || flat.offsets.meter.kind != METER_NONE) return;
         learning->traceRounds([&](unsigned round) { return photonRound(scene, round); });
         density = learning->density();
+        double largest = 0;
+        for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+            if (photonClasses(flat.features, settings) >> c & 1) largest = std::max(largest, firstRadiusOf(c));
+        learning->setBorderReach(largest * (adaptsRadius(flat.features, settings) ? largestAdaptiveRadius : 1));
     }
 
     RoundResult photonRound(const Scene& scene, unsigned round) {
