@@ -79,6 +79,7 @@ typedef struct {
     float perFluxUnit;                       /* 1 / MapParams::fluxUnit */
     unsigned int maxDepth;                   /* segments of the whole path, QL_NONE = no limit */
     unsigned int learns;                     /* 1: no photon is stored; an EmissionRecord of each path is */
+    float usualWorth;                        /* of a photon to the image, flux * importance: weight windows aim at it; 0: none */
     float keepProbability[LIGHT_CLASSES];    /* of photons in media, by class: they are thinned where there are many */
     SceneTables scene;
 } PhotonParams;

@@ -14,6 +14,14 @@
 #include "scatter.clh"
 #include "splat_sums.clh"
 
+/* Photons are worth between these many times what is usual, as far as weight windows can see to it. */
+#define WINDOW_LOWER 0.03f
+#define WINDOW_UPPER 4.0f
+#define WINDOW_SPLITS_MAX 64u
+#define WINDOW_SURVIVAL_MIN 0.1f
+/* Splits of what was split; what comes after is not split. */
+#define WINDOW_STACK 4u
+
 /* Classes of light that the lobes met here can ever take, restricted to those the kernels store. */
 inline uint storableClasses(__global const Lobe* lobes, uint count) {
     uint classes = 0;
@@ -147,6 +155,8 @@ inline PhotonPath emitPhoton(const PhotonWorld* world, const Lattice* lattice, u
     path.flux = emitted.flux / params->paths;
     path.referenceFlux = maxComponent(path.flux);
     path.events = 0;
+    path.splits = 1;
+    path.arrived = 0;
 #ifdef MIXED_DIRECT
     path.direct = SCENE_TABLE(world->tables, scene, Emitter, emitters)[emitted.emitter].directByPhotons;
 #endif
@@ -188,6 +198,30 @@ inline int arrivalCounts(const PhotonPath* path, uint lightClass) {
 #endif
 }
 
+/* Weight window: a photon that is worth more than usual to the image where it is to be scattered is split, one that is worth far less
+ * ends by roulette; 0 where it does. */
+inline int passWindow(PhotonPath* path, uint cell, const PhotonWorld* world, RegionCount* count) {
+    if (!(world->params->usualWorth > 0) || cell == QL_NONE) return 1;
+    const float flux = meanFlux(path->flux);
+    const float worth = flux * scatteredImportance(world->tables, cell) / world->params->usualWorth;
+    if (worth < WINDOW_LOWER) {
+        const float survival = max(worth / WINDOW_LOWER, WINDOW_SURVIVAL_MIN);
+        if (rngNext(&path->rng) >= survival) {
+            countChance(count, flux, 0);
+            return 0;
+        }
+        path->flux /= survival;
+        path->referenceFlux /= survival;
+        countChance(count, flux, meanFlux(path->flux));
+    }
+    if (worth > WINDOW_UPPER) {
+        path->splits = (uint)min(worth, (float)WINDOW_SPLITS_MAX);
+        path->flux /= path->splits;
+        path->referenceFlux /= path->splits;
+    }
+    return 1;
+}
+
 /* A surface that the path has come to; 0 where it ends. */
 inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, const PhotonSink* sink,
                        RegionCount* count) {
@@ -204,7 +238,9 @@ inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, cons
     ++path->depth;
     __global const Lobe* lobes = SCENE_TABLE(world->tables, scene, Lobe, lobes) + s.firstLobe;
     const uint lightClass = lawPhotonClass(path->events);
-    if (storableClasses(lobes, s.lobeCount) & (1u << lightClass) && arrivalCounts(path, lightClass)) {
+    const int delivered = path->arrived;
+    path->arrived = 0;
+    if (!delivered && storableClasses(lobes, s.lobeCount) & (1u << lightClass) && arrivalCounts(path, lightClass)) {
         const float3 arriving = path->flux * shadingNormalArrival(&s);
         if (all(isfinite(arriving)) && world->params->learns)
             learnArrival(count, world, s.position, importanceFace(s.geometricNormal), arriving, lightClass);
@@ -217,7 +253,10 @@ inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, cons
     const float3 u = (float3)(rngNext(&path->rng), uDirection.x, uDirection.y);
     const float arrived = meanFlux(path->flux);
     float scattered;
-    const Aim aim = aimAt(world->tables, scene, s.position, s.geometricNormal);
+    const uint cell = importanceCell(world->tables, &scene->learned.importance, s.position,
+                                     importanceFace(s.geometricNormal));
+    if (!delivered && !passWindow(path, cell, world, count)) return 0;
+    const Aim aim = aimFrom(world->tables, scene, cell);
     const int goesOn = scatterPhoton(path, &s, lobes, shape, &aim,
                                      SCENE_TABLE(world->tables, &scene->learned, GuideSource, aims), u, &scattered);
     countScattering(count, arrived, scattered, goesOn ? path->flux : (float3)(0));
@@ -260,6 +299,31 @@ inline int photonEvent(PhotonPath* path, const PhotonWorld* world, const PhotonS
         return 0;
     }
     return meetSurface(path, hit, world, sink, count);
+}
+
+/* Follows a path, and all that it is split into, to the end. */
+inline void followPhoton(PhotonPath* path, const PhotonWorld* world, const PhotonSink* sink, RegionCount* count) {
+    PhotonPath split[WINDOW_STACK];
+    uint left[WINDOW_STACK], depth = 0;
+    for (;;) {
+        const PhotonPath before = *path;
+        path->splits = 1;
+        int goesOn = photonEvent(path, world, sink, count);
+        if (path->splits > 1 && depth < WINDOW_STACK) {
+            split[depth] = before;
+            split[depth].flux = before.flux / path->splits;
+            split[depth].referenceFlux = before.referenceFlux / path->splits;
+            split[depth].arrived = 1;
+            left[depth++] = path->splits - 1;
+        }
+        while (!goesOn) {
+            if (depth == 0) return;
+            *path = split[depth - 1];
+            path->rng.key = rngMix(path->rng.key + RNG_STEP * left[depth - 1]);
+            if (--left[depth - 1] == 0) --depth;
+            goesOn = 1;
+        }
+    }
 }
 
 #ifdef WALK_ABREAST
@@ -306,7 +370,7 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
                        RegionCount* count) {
     for (uint index = first; index < last; ++index) {
         PhotonPath path = emitPhoton(world, lattice, index, count, 0);
-        while (photonEvent(&path, world, sink, count)) continue;
+        followPhoton(&path, world, sink, count);
     }
 }
 #endif

@@ -18,7 +18,8 @@ constexpr double verticesOfCell = 128; // of those that the camera sees, about
 
 constexpr size_t mostAims = 8;
 constexpr double surestAim = 0.9;   // probability of aiming where all that matters comes through one opening
-constexpr double leastAimGain = 0.03; // of all scattered rays
+// Of all scattered rays; and of an opening that no light from outside is known to come through.
+constexpr double leastAimGain = 0.03, leastFoundGain = 0.5;
 constexpr double leastAim = 0.05;   // below, photons are not aimed
 constexpr double widestAim = 0.1;   // share of all directions that an opening takes from a place which aims at it
 
@@ -122,12 +123,13 @@ std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const
         if (source.halfU > 0)
             candidates.push_back(
                 {unpack(source.centre), unpack(source.axisU), unpack(source.axisV), source.halfU, source.halfV});
+    const size_t fromOutside = candidates.size();
     for (const Opening& found : findOpenings(rays, radius, candidates, mostAims)) candidates.push_back(found);
     std::vector<Opening> aims;
-    for (const Opening& candidate : candidates) {
-        if (aims.size() == mostAims || gainOfAim(candidate, rays) < leastAimGain * all) continue;
-        aims.push_back(candidate);
-        std::erase_if(rays, [&](const UsefulRay& ray) { return isAimed(candidate, ray); });
+    for (size_t k = 0; k < candidates.size() && aims.size() < mostAims; ++k) {
+        if (gainOfAim(candidates[k], rays) < all * (k < fromOutside ? leastAimGain : leastFoundGain)) continue;
+        aims.push_back(candidates[k]);
+        std::erase_if(rays, [&](const UsefulRay& ray) { return isAimed(candidates[k], ray); });
     }
     return aims;
 }

@@ -40,6 +40,23 @@ std::vector<double> pathWeights(const std::vector<shared::PilotPath>& paths, con
     return weights;
 }
 
+// The median over what is brought to the image: half of it comes from photons worth more.
+double usualWorthOf(const std::vector<shared::EmissionRecord>& records) {
+    std::vector<double> worths;
+    double all = 0, below = 0;
+    for (const auto& record : records) {
+        if (!(record.weight > 0)) continue;
+        worths.push_back(record.weight);
+        all += record.weight;
+    }
+    std::sort(worths.begin(), worths.end());
+    for (const double worth : worths) {
+        below += worth;
+        if (below >= all / 2) return worth * static_cast<double>(records.size());
+    }
+    return 0;
+}
+
 } // namespace
 
 Learning::Learning(Device& device, const std::string& options, DeviceScene& scene, SceneBuffers buffers,
@@ -136,6 +153,7 @@ void Learning::traceRounds(const PhotonRound& round) {
             fprintf(stderr, "round %u: useful %.4f effective %.4f max/mean %.1f sum %g density %g %g %g %g\n", k, n/result.records.size(), s*s/q/result.records.size(), m*n/s, s, result.density[0]/gathered_, result.density[1]/gathered_, result.density[2]/gathered_, result.density[3]/gathered_);
         }
         guide_.add(result.records);
+        usualWorth_ = usualWorthOf(result.records);
         for (size_t c = 0; c < LIGHT_CLASSES; ++c) density_[c] = gathered_ > 0 ? result.density[c] / gathered_ : 0;
         update();
         if (getenv("DEBUG_GUIDE")) fprintf(stderr, "round %.3f s update %.3f s\n", std::chrono::duration<double>(t1 - t0).count(), std::chrono::duration<double>(std::chrono::steady_clock::now() - t1).count());

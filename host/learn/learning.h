@@ -45,6 +45,8 @@ public:
     /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
     /// known.
     const std::array<double, LIGHT_CLASSES>& density() const { return density_; }
+    /// What a photon of the last round that was worth anything was worth to the image, times the number of photons; 0: not known.
+    double usualWorth() const { return usualWorth_; }
 
 private:
     std::vector<shared::EmissionPoint> invert(const std::vector<shared::EmissionRecord>& records,
@@ -61,7 +63,7 @@ private:
     shared::CameraParams params_;
     GuideLearner guide_;
     LearnedTables learned_;
-    double directVariance_ = 0;
+    double directVariance_ = 0, usualWorth_ = 0;
     double gathered_ = 0; ///< sum of what makes up ImportanceGrid's first values, times the cells' areas
     std::array<double, LIGHT_CLASSES> density_{};
 };

@@ -22,6 +22,7 @@ namespace {
 // Photons of a class that is rare are gathered from so many times as far as all together would be: where such light is weak, a
 // wider disc costs more than its noise.
 constexpr double rareClassRadius = 2;
+static const bool windowOff = getenv("NOWIN");
 static const unsigned photonsOfRound = getenv("ROUND") ? atoi(getenv("ROUND")) : 131072;
 constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
 
@@ -143,7 +144,8 @@ struct Renderer::Stages {
         for (auto& [name, radius] : report.initialRadius)
             for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
                 if (name == slotName(c)) radius = firstRadiusOf(c);
-        const auto photon = photonParams(scene, flat, settings);
+        auto photon = photonParams(scene, flat, settings);
+        if (learning && !windowOff) photon.usualWorth = static_cast<float>(learning->usualWorth() / photon.paths);
         const auto path = cameraParams(flat, settings, photon.maxDepth);
         const unsigned classes = photonClasses(flat.features, settings);
         if (settings.map == MapOrder::camera)
