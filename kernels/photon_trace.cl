@@ -155,7 +155,7 @@ inline PhotonPath emitPhoton(const PhotonWorld* world, const Lattice* lattice, u
     path.flux = emitted.flux / params->paths;
     path.referenceFlux = maxComponent(path.flux);
     path.events = 0;
-    path.splits = 1;
+    path.splits = 0;
     path.arrived = 0;
 #ifdef MIXED_DIRECT
     path.direct = SCENE_TABLE(world->tables, scene, Emitter, emitters)[emitted.emitter].directByPhotons;
@@ -199,8 +199,8 @@ inline int arrivalCounts(const PhotonPath* path, uint lightClass) {
 }
 
 /* Weight window: a photon that is worth more than usual to the image where it is to be scattered is split, one that is worth far less
- * ends by roulette; 0 where it does. */
-inline int passWindow(PhotonPath* path, uint cell, const PhotonWorld* world, RegionCount* count) {
+ * ends by roulette; 0 where it does. `others`: what it was split into beside itself; null: it is not split. */
+inline int passWindow(PhotonPath* path, PhotonPath* others, uint cell, const PhotonWorld* world, RegionCount* count) {
     if (!(world->params->usualWorth > 0) || cell == QL_NONE) return 1;
     const float flux = meanFlux(path->flux);
     const float worth = flux * scatteredImportance(world->tables, cell) / world->params->usualWorth;
@@ -214,17 +214,21 @@ inline int passWindow(PhotonPath* path, uint cell, const PhotonWorld* world, Reg
         path->referenceFlux /= survival;
         countChance(count, flux, meanFlux(path->flux));
     }
-    if (worth > WINDOW_UPPER) {
-        path->splits = (uint)min(worth, (float)WINDOW_SPLITS_MAX);
-        path->flux /= path->splits;
-        path->referenceFlux /= path->splits;
+    if (worth > WINDOW_UPPER && others) {
+        const uint splits = (uint)min(worth, (float)WINDOW_SPLITS_MAX);
+        path->flux /= splits;
+        path->referenceFlux /= splits;
+        *others = *path;
+        others->splits = splits - 1;
+        others->arrived = 1;
+        --others->depth; /* they come here once more */
     }
     return 1;
 }
 
-/* A surface that the path has come to; 0 where it ends. */
-inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, const PhotonSink* sink,
-                       RegionCount* count) {
+/* A surface that the path has come to; 0 where it ends. `others` as passWindow has it. */
+inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const PhotonWorld* world,
+                       const PhotonSink* sink, RegionCount* count) {
     const SceneTables* scene = &world->params->scene;
     const Surface s = surfaceAt(hit, path->origin, path->direction, world->blocks, world->tables, scene);
     __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
@@ -253,9 +257,11 @@ inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, cons
     const float3 u = (float3)(rngNext(&path->rng), uDirection.x, uDirection.y);
     const float arrived = meanFlux(path->flux);
     float scattered;
-    const uint cell = importanceCell(world->tables, &scene->learned.importance, s.position,
-                                     importanceFace(s.geometricNormal));
-    if (!delivered && !passWindow(path, cell, world, count)) return 0;
+    const uint cell = world->params->usualWorth > 0 || scene->learned.aimCount > 0
+                          ? importanceCell(world->tables, &scene->learned.importance, s.position,
+                                           importanceFace(s.geometricNormal))
+                          : QL_NONE;
+    if (!delivered && !passWindow(path, others, cell, world, count)) return 0;
     const Aim aim = aimFrom(world->tables, scene, cell);
     const int goesOn = scatterPhoton(path, &s, lobes, shape, &aim,
                                      SCENE_TABLE(world->tables, &scene->learned, GuideSource, aims), u, &scattered);
@@ -264,7 +270,8 @@ inline int meetSurface(PhotonPath* path, Hit hit, const PhotonWorld* world, cons
 }
 
 /* One event of a path: to the next collision or surface, and what happens there; 0 where the path ends. */
-inline int photonEvent(PhotonPath* path, const PhotonWorld* world, const PhotonSink* sink, RegionCount* count) {
+inline int photonEvent(PhotonPath* path, PhotonPath* others, const PhotonWorld* world, const PhotonSink* sink,
+                       RegionCount* count) {
     const SceneTables* scene = &world->params->scene;
     if (!photonMayGoOn(path, world->params, count)) return 0;
     ++path->steps;
@@ -298,31 +305,23 @@ inline int photonEvent(PhotonPath* path, const PhotonWorld* world, const PhotonS
         countEnergy(count, ENERGY_ESCAPED, meanFlux(path->flux));
         return 0;
     }
-    return meetSurface(path, hit, world, sink, count);
+    return meetSurface(path, others, hit, world, sink, count);
 }
 
 /* Follows a path, and all that it is split into, to the end. */
 inline void followPhoton(PhotonPath* path, const PhotonWorld* world, const PhotonSink* sink, RegionCount* count) {
-    PhotonPath split[WINDOW_STACK];
-    uint left[WINDOW_STACK], depth = 0;
+    PhotonPath split[WINDOW_STACK + 1]; /* as they arrived where they were split */
+    uint depth = 0;
+    split[0].splits = 0;
     for (;;) {
-        const PhotonPath before = *path;
-        path->splits = 1;
-        int goesOn = photonEvent(path, world, sink, count);
-        if (path->splits > 1 && depth < WINDOW_STACK) {
-            split[depth] = before;
-            split[depth].flux = before.flux / path->splits;
-            split[depth].referenceFlux = before.referenceFlux / path->splits;
-            split[depth].arrived = 1;
-            left[depth++] = path->splits - 1;
-        }
-        while (!goesOn) {
-            if (depth == 0) return;
-            *path = split[depth - 1];
-            path->rng.key = rngMix(path->rng.key + RNG_STEP * left[depth - 1]);
-            if (--left[depth - 1] == 0) --depth;
-            goesOn = 1;
-        }
+        int goesOn = photonEvent(path, depth < WINDOW_STACK ? split + depth : 0, world, sink, count);
+        if (split[depth].splits > 0) split[++depth].splits = 0;
+        if (goesOn) continue;
+        if (depth == 0) return;
+        PhotonPath* next = split + depth - 1;
+        next->rng.key = rngMix(next->rng.key + RNG_STEP * next->splits);
+        *path = *next;
+        if (--next->splits == 0) split[--depth].splits = 0;
     }
 }
 
@@ -332,7 +331,7 @@ inline void followPhoton(PhotonPath* path, const PhotonWorld* world, const Photo
 inline int joinWalk(PhotonPath* path, const Walkers* w, LaneMask walking, const PhotonWorld* world,
                     const PhotonSink* sink, RegionCount* count) {
     __global const Medium* media = SCENE_TABLE(world->tables, &world->params->scene, Medium, media);
-    while (photonEvent(path, world, sink, count))
+    while (photonEvent(path, 0, world, sink, count))
         if (inMedium(path->medium) && media[path->medium].planeCount > 0 && (!walking || path->medium == w->medium) &&
             all(isfinite(path->flux)))
             return 1;
@@ -384,7 +383,7 @@ inline void learnFromPaths(uint first, uint last, const Lattice* lattice, const 
         EmissionRecord record;
         count->useful = 0;
         PhotonPath path = emitPhoton(world, lattice, index, count, &record);
-        while (photonEvent(&path, world, sink, count)) continue;
+        while (photonEvent(&path, 0, world, sink, count)) continue;
         record.weight = count->useful;
         records[index] = record;
     }

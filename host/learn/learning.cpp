@@ -13,6 +13,7 @@ namespace {
 
 static const unsigned pilotPathCount = getenv("PILOTS") ? atoi(getenv("PILOTS")) : 262144;
 constexpr unsigned photonRounds = 3;
+constexpr double evenWorth = 0.5; // effective share of useful photons from which on weight windows are of no use
 constexpr unsigned block = 16; // pixels of a row and column whose mean brightness weighs their errors
 
 // 1 / brightness of each path's pixel, as relMSE has it, over the number of paths.
@@ -40,15 +41,18 @@ std::vector<double> pathWeights(const std::vector<shared::PilotPath>& paths, con
     return weights;
 }
 
-// The median over what is brought to the image: half of it comes from photons worth more.
+// The median over what is brought to the image: half of it comes from photons worth more. 0 where photons are worth much the same:
+// there is nothing to split or to end then.
 double usualWorthOf(const std::vector<shared::EmissionRecord>& records) {
     std::vector<double> worths;
-    double all = 0, below = 0;
+    double all = 0, squares = 0, below = 0;
     for (const auto& record : records) {
         if (!(record.weight > 0)) continue;
         worths.push_back(record.weight);
         all += record.weight;
+        squares += double(record.weight) * record.weight;
     }
+    if (worths.empty() || all * all / squares > evenWorth * static_cast<double>(worths.size())) return 0;
     std::sort(worths.begin(), worths.end());
     for (const double worth : worths) {
         below += worth;
