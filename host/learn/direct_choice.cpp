@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace quasilux {
 
@@ -62,17 +63,21 @@ std::vector<double> variances(const Blocks& blocks, size_t emitters) {
     return sum;
 }
 
-// What a block and its neighbours saw.
-Block about(const Blocks& blocks, size_t b) {
+// What a block and its neighbours saw, and the paths that they had.
+std::pair<Block, double> about(const Blocks& blocks, size_t b) {
     const int x = static_cast<int>(b % blocks.columns), y = static_cast<int>(b / blocks.columns);
     Block all;
+    double paths = 0;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, static_cast<int>(blocks.rows) - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, static_cast<int>(blocks.columns) - 1); ++u)
-            for (const auto& [emitter, seen] : blocks.seen[static_cast<size_t>(v) * blocks.columns + static_cast<size_t>(u)]) {
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, static_cast<int>(blocks.columns) - 1); ++u) {
+            const size_t at = static_cast<size_t>(v) * blocks.columns + static_cast<size_t>(u);
+            paths += blocks.paths[at];
+            for (const auto& [emitter, seen] : blocks.seen[at]) {
                 all[emitter].sum += seen.sum;
                 all[emitter].squares += seen.squares;
             }
-    return all;
+        }
+    return {all, paths};
 }
 
 // In proportion to the root of what samples of each emitter have as second moment, which leaves the least variance.
@@ -120,16 +125,17 @@ DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTab
     choice.lightBlockSize = blocks.size;
     double second = 0, paths = 0;
     for (size_t b = 0; b < blocks.seen.size(); ++b) {
-        const auto list = listOf(about(blocks, b), emitters, choice.byPhotons);
-        paths += blocks.paths[b];
+        const auto [around, pathsAround] = about(blocks, b);
+        const auto list = listOf(around, emitters, choice.byPhotons);
+        paths += pathsAround;
         double sum = 0;
-        for (const auto& [emitter, seen] : blocks.seen[b]) {
+        for (const auto& [emitter, seen] : around) {
             if (choice.byPhotons[emitter]) continue;
             sum += seen.sum;
             second += seen.squares * emitters.emitters[emitter].selectionProbability /
                       probabilityOf(emitter, list, emitters);
         }
-        second -= sum * sum / std::max(blocks.paths[b], 1.0);
+        second -= sum * sum / std::max(pathsAround, 1.0);
         if (sampled > 0 && emitters.emitters.size() > 1) choice.lights.insert(choice.lights.end(), list.begin(), list.end());
     }
     choice.variance = second / std::max(paths, 1.0);

@@ -109,7 +109,6 @@ shared::ImportanceGrid importanceGrid(const DeviceScene& scene, unsigned paths) 
 
 std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
                               const std::vector<shared::GuideSource>& sources, double radius) {
-    if (getenv("NOAIM")) return {};
     std::vector<UsefulRay> rays;
     double all = 0;
     for (size_t k = 0; k < paths.size(); ++k)

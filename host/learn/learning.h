@@ -25,6 +25,18 @@ struct RoundResult {
 /// Traces photons, numbered as a round, guided by what `scene` has learned so far.
 using PhotonRound = std::function<RoundResult(unsigned round)>;
 
+/// All that is learned. It can be given to other renders of the scene, whatever their settings: images keep their means.
+struct LearnedScene {
+    LearnedTables tables;
+    double directVariance = 0; ///< DirectChoice::variance
+    /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
+    /// known.
+    std::array<double, LIGHT_CLASSES> density{};
+    /// What a photon of the last round was worth to the image, times the number of photons; 0: photons are worth much the same, or
+    /// it is not known.
+    double usualWorth = 0;
+};
+
 class Learning {
 public:
     /// `options` to the compiler and `params` as camera paths have them.
@@ -37,23 +49,13 @@ public:
     /// Rounds of photons, each guided by all before.
     void traceRounds(const PhotonRound& round);
 
-    /// Density estimates reach no further than this.
-    void setBorderReach(double reach);
-
-    /// DirectChoice::variance.
-    double directVariance() const { return directVariance_; }
-    /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
-    /// known.
-    const std::array<double, LIGHT_CLASSES>& density() const { return density_; }
-    /// What a photon of the last round that was worth anything was worth to the image, times the number of photons; 0: not known.
-    double usualWorth() const { return usualWorth_; }
+    const LearnedScene& learned() const { return learned_; }
 
 private:
     std::vector<shared::EmissionPoint> invert(const std::vector<shared::EmissionRecord>& records,
                                               const std::vector<shared::GuideSource>& sources);
     void makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
                         const std::vector<double>& weights);
-    void update();
     void upload();
 
     Device& device_;
@@ -62,10 +64,8 @@ private:
     SceneBuffers buffers_;
     shared::CameraParams params_;
     GuideLearner guide_;
-    LearnedTables learned_;
-    double directVariance_ = 0, usualWorth_ = 0;
+    LearnedScene learned_;
     double gathered_ = 0; ///< sum of what makes up ImportanceGrid's first values, times the cells' areas
-    std::array<double, LIGHT_CLASSES> density_{};
 };
 
 } // namespace quasilux

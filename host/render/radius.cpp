@@ -21,8 +21,7 @@ double logShrink(unsigned pass) {
 double initialRadius(double area, unsigned photons) { return std::sqrt(photonsInDisc * area / (pi * photons)); }
 
 double radiusOfPhotons(double perArea) {
-    static const double n = getenv("N0") ? atof(getenv("N0")) : 300;
-    return std::sqrt(n / (pi * perArea));
+    return std::sqrt(photonsInDisc / (pi * perArea));
 }
 
 double radiusShrink(unsigned pass) { return std::exp(logShrink(pass) / 2); }

@@ -22,8 +22,12 @@ namespace {
 // Photons of a class that is rare are gathered from so many times as far as all together would be: where such light is weak, a
 // wider disc costs more than its noise.
 constexpr double rareClassRadius = 2;
-static const bool windowOff = getenv("NOWIN");
-static const unsigned photonsOfRound = getenv("ROUND") ? atoi(getenv("ROUND")) : 131072;
+// Relative variance that photons leave in a pass: of photonsInDisc (radius.cpp) of them, for light of which half is theirs; cost of
+// gathering them, tracing included, in samples of an emitter.
+constexpr double photonVariance = 2e-3, costOfGathering = 4;
+constexpr long mostDirectSamples = 8;
+// Of a round while learning.
+constexpr unsigned fewestPhotonsOfRound = 8192, mostPhotonsOfRound = 131072;
 constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
 
 using Clock = std::chrono::steady_clock;
@@ -63,7 +67,7 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     // The meter's own scattering does not count (kernels/meter.clh).
     params.bdd = settings.bdd + (meterIsGenuineDiffuse(flat.features, settings) ? 1 : 0);
     params.maxDepth = maxDepth;
-    params.directSamples = getenv("DS") ? atoi(getenv("DS")) : 1;
+    params.directSamples = 1;
     params.camera = flat.camera;
     params.scene = flat.offsets;
     return params;
@@ -132,21 +136,24 @@ SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSe
 } // namespace
 
 struct Renderer::Stages {
-    Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_)
+    Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_,
+           std::shared_ptr<const LearnedScene> known)
         : device(device_), settings(settings_), flat(std::move(flat_)),
-          geometry(device, flat), learning(followPilots()),
+          geometry(device, flat), learned(std::move(known)), learning(learned ? nullptr : followPilots()),
           program(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                   kernelOptions(flat, settings)),
           film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
           report(describe(scene, flat, settings)) {
         auto timingsBefore = device.timings();
-        if (learning) learnFromPhotons(scene);
+        if (!learned) learned = learnFromPhotons(scene);
+        limitBorders();
         for (auto& [name, radius] : report.initialRadius)
             for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
                 if (name == slotName(c)) radius = firstRadiusOf(c);
         auto photon = photonParams(scene, flat, settings);
-        if (learning && !windowOff) photon.usualWorth = static_cast<float>(learning->usualWorth() / photon.paths);
-        const auto path = cameraParams(flat, settings, photon.maxDepth);
+        photon.usualWorth = static_cast<float>(learned->usualWorth / photon.paths);
+        auto path = cameraParams(flat, settings, photon.maxDepth);
+        path.directSamples = directSamples();
         const unsigned classes = photonClasses(flat.features, settings);
         if (settings.map == MapOrder::camera)
             prepareCameraMap(path, photon, classes);
@@ -156,7 +163,6 @@ struct Renderer::Stages {
         flat.bvh = {};                                 // on the device now
         flat.tables = {};
         flat.borders = {};
-        learning.reset();
     }
 
     // Where photons are to begin, where they matter, how direct light is to be taken: from pilots with random numbers of their own.
@@ -169,19 +175,36 @@ struct Renderer::Stages {
         return pilots;
     }
 
-    void learnFromPhotons(const Scene& scene) {
-        if (settings.map != MapOrder::photons || flat.offsets.meter.kind != METER_NONE) return;
-        learning->traceRounds([&](unsigned round) { return photonRound(scene, round); });
-        density = learning->density();
+    std::shared_ptr<const LearnedScene> learnFromPhotons(const Scene& scene) {
+        if (!learning) return std::make_shared<LearnedScene>();
+        if (settings.map == MapOrder::photons && flat.offsets.meter.kind == METER_NONE)
+            learning->traceRounds([&](unsigned round) { return photonRound(scene, round); });
+        auto all = std::make_shared<LearnedScene>(learning->learned());
+        learning.reset();
+        return all;
+    }
+
+    // Borders are looked up no further than density estimates reach.
+    void limitBorders() {
+        if (learned->density == decltype(learned->density){}) return;
         double largest = 0;
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
             if (photonClasses(flat.features, settings) >> c & 1) largest = std::max(largest, firstRadiusOf(c));
-        learning->setBorderReach(largest * (adaptsRadius(flat.features, settings) ? largestAdaptiveRadius : 1));
+        setBorderReach(flat, largest * (adaptsRadius(flat.features, settings) ? largestAdaptiveRadius : 1));
+        setLearned(flat, learned->tables);
+        geometry.tables = {};
+        geometry.tables = Buffer<uint32_t>(device, flat.tables, "scene tables");
+    }
+
+    // Samples of emitters for each gathering, from what either leaves of variance and what either costs.
+    unsigned directSamples() const {
+        const double best = std::sqrt(std::max(0.0, learned->directVariance) / photonVariance * costOfGathering);
+        return static_cast<unsigned>(std::clamp(std::lround(best), 1L, mostDirectSamples));
     }
 
     RoundResult photonRound(const Scene& scene, unsigned round) {
         shared::PhotonParams params = photonParams(scene, flat, settings);
-        params.paths = photonsOfRound;
+        params.paths = std::clamp(2 * report.photonsPerPass, fewestPhotonsOfRound, mostPhotonsOfRound);
         params.pathsPerRegion = PhotonStage::pathsPerRegion;
         params.regions = PhotonStage::regionCount(params.paths);
         params.pass = firstRoundPass + round;
@@ -264,12 +287,12 @@ struct Renderer::Stages {
         const double byArea =
             firstRadius(flat.surfaceArea, settings, report.photonsPerPass) * classRadiusFactor(lightClass);
         double all = 0;
-        for (const double ofClass : density) all += ofClass;
+        for (const double ofClass : learned->density) all += ofClass;
         if (!(all > 0)) return byArea;
         const auto radiusOf = [&](double perPhoton) {
             return perPhoton > 0 ? radiusOfPhotons(perPhoton * report.photonsPerPass) : byArea;
         };
-        const double byDensity = std::min(radiusOf(density[lightClass]), rareClassRadius * radiusOf(all));
+        const double byDensity = std::min(radiusOf(learned->density[lightClass]), rareClassRadius * radiusOf(all));
         return std::min(byArea, settings.radiusScale * byDensity);
     }
 
@@ -341,7 +364,8 @@ struct Renderer::Stages {
     RenderSettings settings;
     DeviceScene flat;
     GeometryBuffers geometry;
-    std::unique_ptr<Learning> learning; // null: nothing is learned
+    std::shared_ptr<const LearnedScene> learned;
+    std::unique_ptr<Learning> learning; // while it goes on
     Program program;
     Film film;
     std::optional<PhotonStage> photons;     // this and one of the next two, or
@@ -351,7 +375,6 @@ struct Renderer::Stages {
     std::optional<CameraMapStage> cameraMap; // this
     SceneReport report;
     RenderCounters counters;
-    std::array<double, LIGHT_CLASSES> density{}; // Learning::density
     shared::CameraCounters dropped{}; // by the film, so far
 };
 
@@ -384,12 +407,14 @@ RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
     return *this;
 }
 
-Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings) {
+Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
+                   std::shared_ptr<const LearnedScene> known) {
     const auto start = Clock::now();
     DeviceScene flat = flatten(scene, settings);
+    if (known) setLearned(flat, known->tables);
     const double prepareSeconds = since(start);
     checkFits(planScene(flat, settings), device.info(), flat, settings);
-    stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat));
+    stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), std::move(known));
     stages_->counters.prepareSeconds = prepareSeconds;
     stages_->counters.compileSeconds = since(start) - prepareSeconds;
     stages_->report.bufferBytes = device.allocations();
@@ -420,6 +445,8 @@ void Renderer::renderPass(unsigned pass) {
 }
 
 FilmImage Renderer::develop() const { return stages_->film.develop(static_cast<unsigned>(stages_->counters.passes)); }
+
+std::shared_ptr<const LearnedScene> Renderer::learned() const { return stages_->learned; }
 
 const SceneReport& Renderer::report() const {
     stages_->report.bufferBytes = stages_->device.allocations();

@@ -15,6 +15,7 @@
 namespace quasilux {
 
 class Device;
+struct LearnedScene;
 
 /// Memory that the whole render takes at most, told before its first pass.
 struct MemoryForecast {
@@ -85,8 +86,10 @@ struct Progress {
 
 class Renderer {
 public:
-    /// Prepares the scene and compiles the kernels it needs.
-    Renderer(Device& device, const Scene& scene, const RenderSettings& settings);
+    /// Prepares the scene, compiles the kernels it needs and learns where photons serve the image, unless that is `known` from
+    /// another renderer of the scene.
+    Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
+             std::shared_ptr<const LearnedScene> known = nullptr);
     ~Renderer();
 
     /// Adds the independent estimate number `pass` (from 0) to the film.
@@ -94,6 +97,7 @@ public:
     FilmImage develop() const;
     const SceneReport& report() const;
     const RenderCounters& counters() const;
+    std::shared_ptr<const LearnedScene> learned() const;
 
 private:
     struct Stages;
