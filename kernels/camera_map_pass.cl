@@ -5,3 +5,5 @@
 #include "camera_paths.cl"
 
 #include "photon_trace.cl"
+
+#include "pilot_paths.cl"

@@ -19,7 +19,7 @@ namespace quasilux::shared {
  * emitter's own coordinates. A ray belongs to the first of its emitter's sources that holds it. */
 typedef struct {
     unsigned int emitter;
-    unsigned int first; /* source of the emitter */
+    unsigned int first;           /* source of the emitter */
     Packed3 centre, axisU, axisV; /* axes orthonormal */
     float halfU, halfV;
 } GuideSource;
@@ -34,11 +34,11 @@ typedef struct {
 
 /* Emission that would serve the camera, as a pilot path found it. */
 typedef struct {
-    unsigned int emitter; /* QL_NONE: nothing found */
-    unsigned int element; /* triangle of a mesh */
+    unsigned int emitter;        /* QL_NONE: nothing found */
+    unsigned int element;        /* triangle of a mesh */
     Packed3 position, direction; /* of the ray, away from the emitter */
     float weight;                /* estimate of what it brings to the image, over all photons */
-    float inverseDensity; /* of a photon: 1 / density of the numbers that it was made from */
+    float inverseDensity;        /* of a photon: 1 / density of the numbers that it was made from */
     unsigned int pixel;
 } EmissionRecord;
 
@@ -72,7 +72,8 @@ typedef struct {
 } PilotVertex;
 
 typedef struct {
-    EmissionRecord indirect, direct; /* one of all that the path found, in proportion to their weights, with their sum */
+    EmissionRecord indirect,
+        direct; /* one of all that the path found, in proportion to their weights, with their sum */
     PilotVertex vertices[PILOT_VERTICES]; /* the first one is where photons are gathered */
     float radiance;                       /* of the whole path, mean of R, G, B */
     unsigned int pixel;
@@ -91,9 +92,10 @@ typedef struct {
 
 typedef struct {
     unsigned int leaves, leafCount, sources;
-    unsigned int lights; /* QL_NONE: by power alone */
+    unsigned int lights;                            /* QL_NONE: by power alone */
     unsigned int lightBlockSize, lightBlockColumns; /* pixels of a row and column, blocks of a row */
-    unsigned int aims, aimCount; /* GuideSource records: openings at which scattered photons are aimed (kernels/aim.clh) */
+    unsigned int aims,
+        aimCount; /* GuideSource records: openings at which scattered photons are aimed (kernels/aim.clh) */
     ImportanceGrid importance;
 } Learned;
 

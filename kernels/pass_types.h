@@ -25,7 +25,7 @@ typedef struct {
     unsigned int textures, texels, uvs;
     unsigned int media, mediumPlanes;
     unsigned int emitters, emitterTriangles, emitterCount;
-    unsigned int directSharing; /* DIRECT_SHARING_* */
+    unsigned int directSharing;   /* DIRECT_SHARING_* */
     unsigned int emittersSampled; /* by genuine diffuse lobes, for direct light: all but those with directByPhotons */
     unsigned int segments, borderCells, borderItems;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
@@ -79,8 +79,8 @@ typedef struct {
     float perFluxUnit;                       /* 1 / MapParams::fluxUnit */
     unsigned int maxDepth;                   /* segments of the whole path, QL_NONE = no limit */
     unsigned int learns;                     /* 1: no photon is stored; an EmissionRecord of each path is */
-    float usualWorth;                        /* of a photon to the image, flux * importance: weight windows aim at it; 0: none */
-    float keepProbability[LIGHT_CLASSES];    /* of photons in media, by class: they are thinned where there are many */
+    float usualWorth; /* of a photon to the image, flux * importance: weight windows aim at it; 0: none */
+    float keepProbability[LIGHT_CLASSES]; /* of photons in media, by class: they are thinned where there are many */
     SceneTables scene;
 } PhotonParams;
 
@@ -112,7 +112,7 @@ typedef struct {
     unsigned int bdd;
     unsigned int maxDepth;
     unsigned int directSamples; /* of emitters, where a path takes direct light first */
-    unsigned int radiusBlock; /* pixels of a row and column that share a density radius */
+    unsigned int radiusBlock;   /* pixels of a row and column that share a density radius */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
     Camera camera;
     MapParams map;

@@ -6,6 +6,8 @@
 
 #include "photon_trace.cl"
 
+#include "pilot_paths.cl"
+
 #ifdef ADAPTIVE_RADIUS
 #include "adaptive_radius.cl"
 #endif

@@ -61,8 +61,7 @@ inline LobeSample aimedSample(const Surface* s, __global const Lobe* lobes, uint
         sample.wi = sampleCosineHemisphere(u);
     const float own = pdfSolidAngleCosineHemisphere(sample.wi.z);
     if (!(own > 0)) return sample;
-    sample.pdfSolidAngle =
-        (1 - q) * own + q * aimPdfSolidAngle(aim, openings, s->position, toWorld(frame, sample.wi));
+    sample.pdfSolidAngle = (1 - q) * own + q * aimPdfSolidAngle(aim, openings, s->position, toWorld(frame, sample.wi));
     *aimed = own / sample.pdfSolidAngle;
     sample.weight = tintedLambert(s, lobes, k) * (M_PI_F * *aimed);
     sample.valid = 1;
@@ -125,8 +124,13 @@ inline void crossMeter(const PhotonPath* path, float length, const PhotonSink* s
 
 /* What is to be known of a photon's beginning while learning. */
 inline EmissionRecord recordOf(const EmittedPhoton* photon, __global const uint* tables, const SceneTables* scene) {
-    EmissionRecord record = {photon->emitter, 0, {photon->position.x, photon->position.y, photon->position.z},
-                             {photon->direction.x, photon->direction.y, photon->direction.z}, 0, photon->inverseDensity, QL_NONE};
+    EmissionRecord record = {photon->emitter,
+                             0,
+                             {photon->position.x, photon->position.y, photon->position.z},
+                             {photon->direction.x, photon->direction.y, photon->direction.z},
+                             0,
+                             photon->inverseDensity,
+                             QL_NONE};
 #ifdef HAS_EMITTER_TRIANGLES
     __global const Emitter* emitter = SCENE_TABLE(tables, scene, Emitter, emitters) + photon->emitter;
     if (EMITTER_IS(emitter, EMITTER_TRIANGLES))
@@ -227,8 +231,8 @@ inline int passWindow(PhotonPath* path, PhotonPath* others, uint cell, const Pho
 }
 
 /* A surface that the path has come to; 0 where it ends. `others` as passWindow has it. */
-inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const PhotonWorld* world,
-                       const PhotonSink* sink, RegionCount* count) {
+inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const PhotonWorld* world, const PhotonSink* sink,
+                       RegionCount* count) {
     const SceneTables* scene = &world->params->scene;
     const Surface s = surfaceAt(hit, path->origin, path->direction, world->blocks, world->tables, scene);
     __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
@@ -257,10 +261,10 @@ inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const Phot
     const float3 u = (float3)(rngNext(&path->rng), uDirection.x, uDirection.y);
     const float arrived = meanFlux(path->flux);
     float scattered;
-    const uint cell = world->params->usualWorth > 0 || scene->learned.aimCount > 0
-                          ? importanceCell(world->tables, &scene->learned.importance, s.position,
-                                           importanceFace(s.geometricNormal))
-                          : QL_NONE;
+    const uint cell =
+        world->params->usualWorth > 0 || scene->learned.aimCount > 0
+            ? importanceCell(world->tables, &scene->learned.importance, s.position, importanceFace(s.geometricNormal))
+            : QL_NONE;
     if (!delivered && !passWindow(path, others, cell, world, count)) return 0;
     const Aim aim = aimFrom(world->tables, scene, cell);
     const int goesOn = scatterPhoton(path, &s, lobes, shape, &aim,

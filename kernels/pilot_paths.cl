@@ -22,21 +22,21 @@ typedef struct {
     Ray ray;
     float3 throughput;
     Rng rng;
-    uint d;         /* genuine diffuse scatterings */
-    int gathers;    /* the vertex where photons are gathered is behind */
-    uint events;    /* SCATTER_* since then */
-    uint vertices;  /* stored */
-    float lobePdf;  /* of the last direction, 0: delta */
-    float3 from;    /* where the segment began */
-    float passed;   /* of the segment, before null surfaces */
+    uint d;        /* genuine diffuse scatterings */
+    int gathers;   /* the vertex where photons are gathered is behind */
+    uint events;   /* SCATTER_* since then */
+    uint vertices; /* stored */
+    float lobePdf; /* of the last direction, 0: delta */
+    float3 from;   /* where the segment began */
+    float passed;  /* of the segment, before null surfaces */
     uint medium;
 } PilotState;
 
 inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
 
 /* Keeps one of the records that a path finds, in proportion to their weights, with the sum of all. */
-inline void keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float3 position, float3 direction,
-                       Rng* rng) {
+inline void keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float3 position,
+                       float3 direction, Rng* rng) {
     if (!(weight > 0) || !isfinite(weight)) return;
     kept->weight += weight;
     if (rngNext(rng) * kept->weight >= weight) return;
@@ -68,22 +68,25 @@ inline void storeVertex(PilotPath* path, PilotState* state, float3 position, uin
     vertex->weight = meanOf(state->throughput);
 }
 
-/* One emitter is sampled; lobes of `mask`. */
-inline float3 pilotDirectLight(const World* world, const PilotState* state, const Surface* s, const Frame* frame,
-                               float3 wo, __global const Lobe* lobes, const LobeChoice* choice,
-                               const EmitterSample* light, uint mask) {
-    const SceneTables* scene = &world->params->scene;
+/* What a sample of an emitter brings to the image by the lobes of `mask`, and by the others in *rest. */
+inline float3 pilotDirectLight(const Surface* s, const Frame* frame, float3 wo, __global const Lobe* lobes,
+                               const LobeChoice* choice, const EmitterSample* light, uint mask, float3* rest) {
+    *rest = 0;
     const float3 wi = toLocal(frame, light->direction);
     if (!sameSides(s, light->direction, wi.z)) return 0;
     float3 sum = 0;
     for (uint k = 0; k < s->lobeCount; ++k) {
-        if (!(mask >> k & 1)) continue;
-        float weight = 1;
+        if (lobes[k].scattering == SCATTER_SPECULAR) continue;
+        float weight = fabs(wi.z);
         if (light->pdfSolidAngle > 0)
-            weight = shareOf(light->pdfSolidAngle, choice->probability[k] * lobePdfSolidAngle(lobes + k, wo, wi));
-        sum += weight * tintedEval(s, lobes, k, wo, wi);
+            weight *= shareOf(light->pdfSolidAngle, choice->probability[k] * lobePdfSolidAngle(lobes + k, wo, wi));
+        const float3 value = weight * tintedEval(s, lobes, k, wo, wi) * light->radianceOverPdf;
+        if (mask >> k & 1)
+            sum += value;
+        else
+            *rest += value;
     }
-    return sum * fabs(wi.z) * light->radianceOverPdf;
+    return sum;
 }
 
 inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* state, const Surface* s,
@@ -94,41 +97,28 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
     const uint index = emitterSelect(emitters, scene->emitterCount, &uSelect);
     EmitterSample light =
         emitterSampleDirection(emitters + index, SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles),
-                                 s->position, uSelect, rngNext2(&state->rng));
+                               s->position, uSelect, rngNext2(&state->rng));
     if (!light.valid) return;
+    uint element = 0;
+#ifdef HAS_EMITTER_TRIANGLES
+    if (emitters[index].type == EMITTER_TRIANGLES)
+        element = trianglesSelect(emitters + index,
+                                  SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles), uSelect) -
+                  emitters[index].firstTriangle;
+#endif
     light.radianceOverPdf /= emitters[index].selectionProbability;
     light.pdfSolidAngle *= emitters[index].selectionProbability;
-    uint diffuse = 0, scattering = 0;
-    for (uint k = 0; k < s->lobeCount; ++k) {
-        scattering |= (lobes[k].scattering != SCATTER_SPECULAR) << k;
-        diffuse |= (lobes[k].scattering == SCATTER_GENUINE_DIFFUSE) << k;
-    }
-    const int atGathering = !state->gathers && state->d == world->params->bdd;
-    const uint mask = state->gathers ? scattering : atGathering ? diffuse : 0;
-    const float3 wanted =
-        mask ? pilotDirectLight(world, state, s, frame, wo, lobes, choice, &light, mask) : (float3)(0);
-    const float3 other = scattering & ~mask ? pilotDirectLight(world, state, s, frame, wo, lobes, choice, &light,
-                                                               scattering & ~mask)
-                                            : (float3)(0);
+    const int gathersHere = !state->gathers && state->d == world->params->bdd;
+    uint mask = 0; /* of lobes whose light photons might bring */
+    for (uint k = 0; k < s->lobeCount; ++k)
+        mask |= (state->gathers || (gathersHere && lobes[k].scattering == SCATTER_GENUINE_DIFFUSE)) << k;
+    float3 other;
+    const float3 wanted = pilotDirectLight(s, frame, wo, lobes, choice, &light, mask, &other);
     if (!any(wanted + other > 0)) return;
     Ray shadow = leavingRay(s, light.direction);
     shadow.tMax = shadowReach(&light, s->positionError);
     const float3 visible = visibility(shadow, state->medium, world->nodes, world->blocks, world->tables, scene);
     if (!any(visible > 0)) return;
-    /* Of a mesh the triangle is what the ray meets there. */
-    uint element = 0;
-    if (emitters[index].type == EMITTER_TRIANGLES) {
-        Ray to = shadow;
-        to.tMin = light.distance * (1 - 1e-3f);
-        to.tMax = light.distance * (1 + 1e-3f);
-        const Hit hit = intersectClosest(world->nodes, world->blocks, to);
-        if (hit.primitive == QL_NONE) return;
-        const uint primitive = hit.primitive & PRIMITIVE_INDEX_MASK;
-        const PrimitiveInfo info = SCENE_TABLE(world->tables, scene, PrimitiveInfo, primitives)[primitive];
-        __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + info.shape;
-        if (shape->emitter != index) return;
-        element = primitive - shape->firstPrimitive;
-    }
     const float3 end = isinf(light.distance) ? s->position : s->position + light.distance * light.direction;
     path->radiance += meanOf(state->throughput * other * visible);
     foundEmission(path, state, !state->gathers, meanOf(state->throughput * wanted * visible), index, element, end,
@@ -136,15 +126,15 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
 }
 
 /* Emission that the path runs into. */
-inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, uint index, uint element, float distance,
-                        float3 normal, float3 end) {
+inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, uint index, uint element,
+                        float distance, float3 normal, float3 end) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
     float share = 1;
     if (state->lobePdf > 0)
-        share = shareOf(state->lobePdf, emitter->selectionProbability *
-                                            emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
-                                                                 state->passed + distance, normal));
+        share = shareOf(state->lobePdf,
+                        emitter->selectionProbability * emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
+                                                                             state->passed + distance, normal));
     const int isDirect = state->gathers && state->events == 0;
     foundEmission(path, state, isDirect, share * meanOf(state->throughput * loadRgb(emitter->radiance)), index, element,
                   end, state->ray.direction, &state->rng);
@@ -168,8 +158,7 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
     const float3 wi = toWorld(frame, sample.wi);
     if (!sameSides(s, wi, sample.wi.z)) return 0;
     state->throughput *= sample.weight / choice->probability[k];
-    state->lobePdf =
-        lobes[k].scattering == SCATTER_SPECULAR ? 0.f : choice->probability[k] * sample.pdfSolidAngle;
+    state->lobePdf = lobes[k].scattering == SCATTER_SPECULAR ? 0.f : choice->probability[k] * sample.pdfSolidAngle;
     noteScattering(state, lobes[k].scattering, world->params->bdd);
     state->ray = leavingRay(s, wi);
     state->from = s->position;
@@ -185,8 +174,7 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
 /* A surface that the path has come to; 0 where it ends. */
 inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* state, Hit hit) {
     const SceneTables* scene = &world->params->scene;
-    const Surface s =
-        surfaceAt(hit, state->ray.origin, state->ray.direction, world->blocks, world->tables, scene);
+    const Surface s = surfaceAt(hit, state->ray.origin, state->ray.direction, world->blocks, world->tables, scene);
     __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
     if (s.emitter != QL_NONE && s.front)
         meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
@@ -307,8 +295,8 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
 
 /* Learning, step 2: the numbers of the rays that pilots found, in the coordinates of the source that is to emit them. */
 __kernel void invertEmission(__global const uint* tables, __global const EmissionRecord* records,
-                             __global const GuideSource* sources, const uint sourceCount, __global EmissionPoint* points, const SceneTables scene,
-                             const uint count) {
+                             __global const GuideSource* sources, const uint sourceCount,
+                             __global EmissionPoint* points, const SceneTables scene, const uint count) {
     const uint index = get_global_id(0);
     if (index >= count) return;
     const EmissionRecord record = records[index];

@@ -1,8 +1,5 @@
-// The choice of settings by pilot passes (docs/auto.md): prediction, and the mean of what is added. The search: search_test.cpp.
-//
-// False alarms: the mean is held to 4 standard errors (6e-5); the seeds are fixed.
+// The choice of settings by pilot passes (docs/auto.md): prediction, and the image of the choice. The search: search_test.cpp.
 #include "auto/auto_render.h"
-#include "auto/combination.h"
 #include "support/even_pilot.h"
 #include "support/render_statistics.h"
 
@@ -12,7 +9,6 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <random>
 
 namespace quasilux {
 namespace {
@@ -140,147 +136,32 @@ TEST(Prediction, HoldsInARender) {
     EXPECT_GT(predictAfterPasses(pilot, 8).noise / noise, 2);
 }
 
-// --- images as one ---
+// --- the image is that of the choice ---
 
-TEST(Combination, WeightsAreInverseToTheErrorAndSmallOnesAreLeftOut) {
-    const auto weights = combinationWeights({{2, 1}, {1e6, 1}, {1, 1}});
-    EXPECT_NEAR(weights[0], 1.0 / 3, 1e-12);
-    EXPECT_EQ(weights[1], 0);
-    EXPECT_NEAR(weights[2], 2.0 / 3, 1e-12);
-    EXPECT_EQ(combinationWeights({{INFINITY, 1}, {INFINITY, 1}}), (std::vector<double>{0, 1}));
-    // Few passes that tell of little error weigh as their time.
-    EXPECT_NEAR(combinationWeights({{0.1, 1}, {1, 9}})[0], 0.1, 1e-12);
-}
-
-FilmImage syntheticImage(unsigned pixels, double mean, double deviation, std::mt19937& random) {
-    FilmImage image;
-    image.width = pixels;
-    image.height = 1;
-    image.passes = 8;
-    std::normal_distribution<float> noise(static_cast<float>(mean), static_cast<float>(deviation));
-    for (unsigned k = 0; k < 3 * pixels; ++k) image.radiance.push_back(noise(random));
-    image.standardError.assign(3 * pixels, static_cast<float>(deviation));
-    return image;
-}
-
-// Squared deviations over told variances: chi-squared of 60,000 values, 4.5 standard deviations (7e-6) either way.
-// Negative control: weights that are not squared tell another variance.
-TEST(Combination, ToldErrorIsTheScatter) {
-    std::mt19937 random(1);
-    const unsigned pixels = 20'000;
-    const std::vector<FilmImage> images{syntheticImage(pixels, 5, 1, random), syntheticImage(pixels, 5, 0.5, random)};
-    const std::vector<double> weights{0.2, 0.8};
-    const FilmImage sum = combineImages(images, weights);
-    double squares = 0;
-    for (size_t k = 0; k < sum.radiance.size(); ++k)
-        squares += std::pow((sum.radiance[k] - 5) / sum.standardError[k], 2);
-    const double n = 3.0 * pixels, bound = 4.5 * std::sqrt(2 / n);
-    EXPECT_NEAR(squares / n, 1, bound);
-    const double unsquared = 0.2 * 1 + 0.8 * 0.25, right = 0.04 * 1 + 0.64 * 0.25;
-    EXPECT_GT(std::abs(squares / n * right / unsquared - 1), bound);
-    EXPECT_EQ(sum.passes, 16u);
-}
-
-// --- the mean does not depend on the choice ---
-
-// scenes/furnace_split.xml has radiance 2.5 everywhere, for every setting.
-class CostedPilot : public RendererPilot {
-public:
-    CostedPilot(Device& device, const Scene& scene, const RenderSettings& settings, double& clock)
-        : RendererPilot(device, std::make_unique<Renderer>(device, scene, settings), false), clock_(clock) {}
-    void renderPass() override {
-        RendererPilot::renderPass();
-        clock_ += 0.1;
-    }
-    PilotMeasure measure() const override {
-        PilotMeasure pilot = RendererPilot::measure();
-        pilot.secondsPerPass = 0.1;
-        pilot.secondsWithRadius = 0;
-        pilot.photonShare = 0.5;
-        return pilot;
-    }
-    double openingSeconds() const override { return 0; }
-
-private:
-    double& clock_;
-};
-
-double meanOf(const FilmImage& image) {
-    double sum = 0;
-    for (const float value : image.radiance) sum += value;
-    return sum / static_cast<double>(image.radiance.size());
-}
-
-// The images that a search with this seed leaves, the chosen one last; 8 s of 0.1 s a pass.
-struct Searched {
-    std::vector<FilmImage> images;
-    std::vector<double> seconds;
-};
-Searched searchedImages(Device& device, const Scene& scene, uint64_t seed) {
-    double clock = 0;
-    SearchWorld world;
-    world.open = [&](const RenderSettings& settings) {
-        return std::make_unique<CostedPilot>(device, scene, settings, clock);
-    };
-    world.clock = [&] { return clock; };
-    RenderSettings settings;
-    settings.photonsPerPass = 2000;
-    settings.seed = seed;
-    StopRule stop;
-    stop.seconds = 8;
-    auto result = Search(world, scene, {true, true, true, false, false}, stop).run(settings, world.open(settings));
-    while (clock < 4) result.best->renderPass();
-    result.others.push_back(result.best->image());
-    result.othersSeconds.push_back(0.1 * result.best->passes());
-    return {std::move(result.others), std::move(result.othersSeconds)};
-}
-
-struct Means {
-    std::vector<double> values;
-
-    double z(double truth) const {
-        double sum = 0, squares = 0;
-        for (const double v : values) sum += v;
-        const double n = static_cast<double>(values.size()), mean = sum / n;
-        for (const double v : values) squares += (v - mean) * (v - mean);
-        return (mean - truth) / std::sqrt(squares / (n * (n - 1)));
-    }
-};
-
-FilmImage weightedByPixel(const std::vector<FilmImage>& images) {
-    FilmImage sum = images.back();
-    for (size_t k = 0; k < sum.radiance.size(); ++k) {
-        double weights = 0, value = 0;
-        for (const auto& image : images) {
-            const double weight = 1 / (1e-12 + std::pow(image.standardError[k], 2));
-            weights += weight;
-            value += weight * image.radiance[k];
-        }
-        sum.radiance[k] = static_cast<float>(value / weights);
-    }
-    return sum;
-}
-
-TEST(AutoMean, IsThatOfAnyFixedChoice) {
+// Whatever pilots showed: the same bits as the chosen settings give by themselves, from pass 0 on, with the user's seed.
+// Control: another seed gives others.
+TEST(AutoImage, IsThatOfTheSettingsChosen) {
     Device device(0);
     const Scene scene = projectScene("furnace_split.xml", {{"resolution", "12"}});
-    Means combined, byPixel, darker;
-    size_t added = 0;
-    for (uint64_t seed = 1; seed <= 96; ++seed) {
-        const auto [images, seconds] = searchedImages(device, scene, seed);
-        added += images.size() - 1;
-        combined.values.push_back(meanOf(combineImages(images, weightsByError(images, seconds))));
-        byPixel.values.push_back(meanOf(weightedByPixel(images)));
-        double dark = INFINITY;
-        for (const auto& image : images) dark = std::min(dark, meanOf(image));
-        darker.values.push_back(dark);
-    }
-    EXPECT_GT(added, 96u) << "nothing was added that could change the mean";
-    EXPECT_LT(std::abs(combined.z(2.5)), 4);
-    // Negative controls: weights by the pixel's own variance, or keeping the darkest image, are seen. The former brighten
-    // here, and darken where bright pixels are the noisier ones.
-    EXPECT_GT(byPixel.z(2.5), 4);
-    EXPECT_LT(darker.z(2.5), -4);
+    RenderSettings settings;
+    settings.photonsPerPass = 2000;
+    settings.seed = 5;
+    StopRule stop;
+    stop.seconds = 6;
+    const std::atomic<bool> interrupted = false;
+    const AutoRender render = renderAuto(device, scene, settings, std::make_unique<Renderer>(device, scene, settings),
+                                         {false, false, false, true, true}, stop, nullptr, nullptr, interrupted);
+    EXPECT_GT(render.search.rows.size(), 1u) << "nothing was tried";
+    EXPECT_EQ(render.settings.seed, 5u);
+    const auto alone = [&](uint64_t seed) {
+        RenderSettings chosen = render.settings;
+        chosen.seed = seed;
+        Renderer renderer(device, scene, chosen, Renderer(device, scene, settings).learned());
+        for (unsigned pass = 0; pass < render.image.passes; ++pass) renderer.renderPass(pass);
+        return renderer.develop().radiance;
+    };
+    EXPECT_EQ(render.image.radiance, alone(5));
+    EXPECT_NE(render.image.radiance, alone(6));
 }
 
 } // namespace

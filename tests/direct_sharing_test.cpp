@@ -6,14 +6,12 @@
 namespace quasilux {
 namespace {
 
-EmitterTables emitterOf(unsigned type, float area) {
+std::vector<shared::Emitter> emitterOf(unsigned type, float area) {
     shared::Emitter emitter{};
     emitter.type = type;
     emitter.area = area;
     emitter.normalSign = 1;
-    EmitterTables tables;
-    tables.emitters = {emitter};
-    return tables;
+    return {emitter};
 }
 
 TEST(DirectSharing, LambertLobesShareUnderLargeEmitters) {
@@ -25,9 +23,9 @@ TEST(DirectSharing, LambertLobesShareUnderLargeEmitters) {
 }
 
 TEST(DirectSharing, SeveralEmittersCountTogether) {
-    EmitterTables tables = emitterOf(EMITTER_RECTANGLE, 2);
-    tables.emitters.push_back(tables.emitters[0]);
-    EXPECT_EQ(directSharing(tables, 100, false), DIRECT_SHARING_LAMBERT);
+    auto emitters = emitterOf(EMITTER_RECTANGLE, 2);
+    emitters.push_back(emitters[0]);
+    EXPECT_EQ(directSharing(emitters, 100, false), DIRECT_SHARING_LAMBERT);
 }
 
 // Directions cannot meet them; and `area` of parallel light is that of its beam.
@@ -43,13 +41,13 @@ TEST(DirectSharing, UnboundedEstimatesAlwaysShare) {
 }
 
 TEST(DirectSharing, SpheresThatShineInwardsToo) {
-    EmitterTables tables = emitterOf(EMITTER_SPHERE, 1);
-    EXPECT_EQ(directSharing(tables, 100, true), 0u);
-    tables.emitters[0].normalSign = -1;
-    EXPECT_EQ(directSharing(tables, 100, true), DIRECT_SHARING_LAMBERT | DIRECT_SHARING_MEDIA);
+    auto emitters = emitterOf(EMITTER_SPHERE, 1);
+    EXPECT_EQ(directSharing(emitters, 100, true), 0u);
+    emitters[0].normalSign = -1;
+    EXPECT_EQ(directSharing(emitters, 100, true), DIRECT_SHARING_LAMBERT | DIRECT_SHARING_MEDIA);
 }
 
-TEST(DirectSharing, NothingThatScattersNothingThatShares) { EXPECT_EQ(directSharing(EmitterTables{}, 0, false), 0u); }
+TEST(DirectSharing, NothingThatScattersNothingThatShares) { EXPECT_EQ(directSharing({}, 0, false), 0u); }
 
 } // namespace
 } // namespace quasilux

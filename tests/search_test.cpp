@@ -38,7 +38,6 @@ public:
         pilot.photonShare = truth_.photonShare;
         return pilot;
     }
-    FilmImage image() const override { return {}; }
     unsigned photonsPerPass() const override { return photons_; }
     double openingSeconds() const override { return 0.05; }
 

@@ -1,4 +1,4 @@
-// A render whose open settings are chosen by pilot passes; these count towards its image.
+// A render whose open settings are chosen by pilot passes. Its image is that of the settings chosen, from pass 0 on.
 #pragma once
 
 #include "auto/search.h"
@@ -10,11 +10,10 @@ class Device;
 
 struct AutoRender {
     FilmImage image;
-    RenderSettings settings; ///< chosen; its seed is the user's, whatever the candidates' own were
+    RenderSettings settings; ///< chosen; the seed is the user's
     SceneReport report;      ///< of the renderer chosen
-    RenderCounters counters; ///< of all renderers
+    RenderCounters counters; ///< of the passes of the image
     SearchReport search;
-    std::vector<double> weights; ///< of the images that were added, the last one that of the settings chosen
 };
 
 /// `start` was made for `settings` and has no passes yet. `onChosen` is called once, before the passes that follow.

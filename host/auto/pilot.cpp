@@ -43,7 +43,7 @@ void RendererPilot::renderPass() {
 
 PilotMeasure RendererPilot::measure() const {
     const double photons = lateMedian(&PassSeconds::photons), camera = lateMedian(&PassSeconds::camera);
-    PilotMeasure pilot = measurePilot(image(), hasMedia_, photons + camera);
+    PilotMeasure pilot = measurePilot(renderer_->develop(), hasMedia_, photons + camera);
     if (pilot.secondsPerPass > 0) pilot.photonShare = photons / pilot.secondsPerPass;
     pilot.radius = radiusOf(renderer_->report());
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());

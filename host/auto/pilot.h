@@ -1,4 +1,4 @@
-// A few passes of one candidate, which count towards the image.
+// A few passes of one candidate.
 #pragma once
 
 #include "auto/prediction.h"
@@ -13,7 +13,6 @@ public:
     virtual void renderPass() = 0;
     virtual unsigned passes() const = 0;
     virtual PilotMeasure measure() const = 0;
-    virtual FilmImage image() const = 0;
     virtual unsigned photonsPerPass() const = 0;
     /// Preparing and compiling, as far as the first pass told.
     virtual double openingSeconds() const = 0;
@@ -28,12 +27,11 @@ public:
     void renderPass() override;
     unsigned passes() const override { return static_cast<unsigned>(renderer_->counters().passes); }
     PilotMeasure measure() const override;
-    FilmImage image() const override { return renderer_->develop(); }
     unsigned photonsPerPass() const override { return renderer_->report().photonsPerPass; }
     double openingSeconds() const override;
 
-    Renderer& renderer() { return *renderer_; }
-    const Renderer& renderer() const { return *renderer_; }
+    /// Nothing may be asked of the pilot then.
+    std::unique_ptr<Renderer> release() { return std::move(renderer_); }
 
 private:
     struct PassSeconds {

@@ -1,6 +1,5 @@
 #include "auto/search.h"
 
-#include "auto/combination.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -79,7 +78,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     report_.horizon = horizon();
     for (const PilotRow& row : report_.rows) report_.passes += row.passes;
     report_.passes -= report_.rows[report_.chosen].passes;
-    return {best_.settings, std::move(best_.pilot), std::move(retired_), std::move(retiredSeconds_), report_};
+    return {best_.settings, std::move(best_.pilot), report_};
 }
 
 bool Search::tryRound(const RenderSettings& start) {
@@ -145,19 +144,6 @@ void Search::note(const Contender& contender, const std::string& outcome) {
         row.predictedError = predictAfter(contender.measure, secondsLeft()).relativeError();
     const std::string key = kernelKey(contender.settings, scene_);
     if (!opening(key)) openings_.emplace_back(key, row.openingSeconds);
-}
-
-void Search::retire(Contender& contender) {
-    if (world_.onGivenUp) world_.onGivenUp(*contender.pilot);
-    // Of one pass no error is known; and what would weigh next to nothing need not be kept.
-    if (contender.measure.passes > 1 && best_.measure.passes > 1) {
-        const double now = predictAfterPasses(contender.measure, contender.measure.passes).relativeMse();
-        if (predictAfter(best_.measure, secondsLeft()).relativeMse() > leastWeight * now) {
-            retired_.push_back(contender.pilot->image());
-            retiredSeconds_.push_back(contender.measure.passes * contender.measure.secondsPerPass);
-        }
-    }
-    contender.pilot.reset();
 }
 
 std::optional<double> Search::opening(const std::string& key) const {
@@ -228,7 +214,7 @@ bool Search::tryCandidate(Coordinate coordinate, const RenderSettings& settings)
         std::swap(best_, challenger);
         note(challenger, report_.rows[challenger.row].outcome);
     }
-    retire(challenger);
+    challenger.pilot.reset();
     return verdict == Verdict::better;
 }
 

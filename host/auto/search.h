@@ -16,9 +16,8 @@ namespace quasilux {
 /// What the search needs of the world.
 struct SearchWorld {
     std::function<std::unique_ptr<Pilot>(const RenderSettings&)> open;
-    std::function<double()> clock;               ///< seconds since the render began
-    std::function<void(unsigned)> onPass;        ///< after each pass, how many there were; may be empty
-    std::function<void(const Pilot&)> onGivenUp; ///< before a pilot is thrown away; may be empty
+    std::function<double()> clock;        ///< seconds since the render began
+    std::function<void(unsigned)> onPass; ///< after each pass, how many there were; may be empty
     /// Whether Ctrl-C was pressed.
     const std::atomic<bool>* interrupted = nullptr;
 };
@@ -26,14 +25,12 @@ struct SearchWorld {
 struct SearchResult {
     RenderSettings settings;
     std::unique_ptr<Pilot> best;
-    std::vector<FilmImage> others;     ///< of those given up
-    std::vector<double> othersSeconds; ///< that their passes took
     SearchReport report;
 };
 
-/// Share of the render's time that goes to pilots of candidates, opening them included. Were all of it lost, error
-/// would grow by 1 / sqrt(1 - 0.25) = 1.15; but their passes count.
-inline constexpr double pilotShare = 0.25;
+/// Share of the render's time that goes to pilots of candidates, opening them included; those of the best one so far take about as
+/// long again. All of it lost, error grows by 1 / sqrt(1 - 2 * 0.12) = 1.15.
+inline constexpr double pilotShare = 0.12;
 
 class Search {
 public:
@@ -73,7 +70,6 @@ private:
     double openingCost(const RenderSettings& settings) const;
     void enter(Contender& contender);
     void note(const Contender& contender, const std::string& outcome);
-    void retire(Contender& contender);
     double spent() const;
     double secondsAllowed() const;
     double horizon() const;
@@ -85,8 +81,6 @@ private:
     Freedom freedom_;
     StopRule stop_;
     Contender best_;
-    std::vector<FilmImage> retired_;
-    std::vector<double> retiredSeconds_;
     std::vector<std::string> tried_;
     std::vector<std::pair<std::string, double>> openings_; ///< seconds by kernelKey, in the order of first openings
     SearchReport report_;

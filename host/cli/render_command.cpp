@@ -159,7 +159,6 @@ RenderRecord makeRecord(const RenderOptions& options, Device& device, const Auto
     record.report = render.report;
     record.counters = render.counters;
     record.search = render.search;
-    record.searchWeights = render.weights;
     record.error = estimateError(render.image);
     record.meter = meter;
     record.kernels = device.timings();

@@ -9,8 +9,8 @@ namespace quasilux {
 
 namespace {
 
-constexpr double findsOfBlock = 256;   // paths that a block of pixels is to have
-constexpr double byPowerAlone = 0.1;   // probability that an emitter is chosen by power whatever was seen
+constexpr double findsOfBlock = 256;  // paths that a block of pixels is to have
+constexpr double byPowerAlone = 0.05; // probability that an emitter is chosen by power whatever was seen
 // Relative variance of a sample above which photons are the better estimate: they leave far less, but blur.
 constexpr double mostVariance = 1;
 
@@ -39,8 +39,8 @@ Blocks sortedByBlock(const std::vector<DirectFind>& finds, const shared::Camera&
     blocks.seen.resize(size_t(blocks.columns) * blocks.rows);
     blocks.paths.resize(blocks.seen.size());
     for (const auto& find : finds) {
-        const size_t at = find.pixel / camera.width / blocks.size * blocks.columns +
-                          find.pixel % camera.width / blocks.size;
+        const size_t at =
+            find.pixel / camera.width / blocks.size * blocks.columns + find.pixel % camera.width / blocks.size;
         blocks.paths[at] += 1;
         if (find.emitter == QL_NONE || !(find.value > 0)) continue;
         Seen& seen = blocks.seen[at][find.emitter];
@@ -63,21 +63,19 @@ std::vector<double> variances(const Blocks& blocks, size_t emitters) {
     return sum;
 }
 
-// What a block and its neighbours saw, and the paths that they had.
-std::pair<Block, double> about(const Blocks& blocks, size_t b) {
+// What a block and its neighbours saw.
+Block about(const Blocks& blocks, size_t b) {
     const int x = static_cast<int>(b % blocks.columns), y = static_cast<int>(b / blocks.columns);
     Block all;
-    double paths = 0;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, static_cast<int>(blocks.rows) - 1); ++v)
         for (int u = std::max(x - 1, 0); u <= std::min(x + 1, static_cast<int>(blocks.columns) - 1); ++u) {
             const size_t at = static_cast<size_t>(v) * blocks.columns + static_cast<size_t>(u);
-            paths += blocks.paths[at];
             for (const auto& [emitter, seen] : blocks.seen[at]) {
                 all[emitter].sum += seen.sum;
                 all[emitter].squares += seen.squares;
             }
         }
-    return {all, paths};
+    return all;
 }
 
 // In proportion to the root of what samples of each emitter have as second moment, which leaves the least variance.
@@ -86,8 +84,8 @@ std::vector<shared::LightChoice> listOf(const Block& seen, const EmitterTables& 
     std::vector<std::pair<double, unsigned>> strengths;
     for (const auto& [emitter, values] : seen)
         if (!byPhotons[emitter])
-            strengths.emplace_back(
-                std::sqrt(values.squares * emitters.emitters[emitter].selectionProbability), emitter);
+            strengths.emplace_back(std::sqrt(values.squares * emitters.emitters[emitter].selectionProbability),
+                                   emitter);
     std::sort(strengths.rbegin(), strengths.rend());
     if (strengths.size() > LIGHT_CHOICES - 1) strengths.resize(LIGHT_CHOICES - 1);
     double all = 0;
@@ -98,14 +96,6 @@ std::vector<shared::LightChoice> listOf(const Block& seen, const EmitterTables& 
     list.push_back({QL_NONE, strengths.empty() ? 1.f : static_cast<float>(byPowerAlone)});
     list.resize(LIGHT_CHOICES, {QL_NONE, 0});
     return list;
-}
-
-double probabilityOf(unsigned emitter, const std::vector<shared::LightChoice>& list, const EmitterTables& emitters) {
-    double listed = 0;
-    size_t k = 0;
-    for (; list[k].emitter != QL_NONE; ++k)
-        if (list[k].emitter == emitter) listed = list[k].probability;
-    return listed + list[k].probability * emitters.emitters[emitter].selectionProbability;
 }
 
 } // namespace
@@ -123,22 +113,11 @@ DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTab
         sampled += !choice.byPhotons[e];
     }
     choice.lightBlockSize = blocks.size;
-    double second = 0, paths = 0;
+    if (sampled < 2) return choice;
     for (size_t b = 0; b < blocks.seen.size(); ++b) {
-        const auto [around, pathsAround] = about(blocks, b);
-        const auto list = listOf(around, emitters, choice.byPhotons);
-        paths += pathsAround;
-        double sum = 0;
-        for (const auto& [emitter, seen] : around) {
-            if (choice.byPhotons[emitter]) continue;
-            sum += seen.sum;
-            second += seen.squares * emitters.emitters[emitter].selectionProbability /
-                      probabilityOf(emitter, list, emitters);
-        }
-        second -= sum * sum / std::max(pathsAround, 1.0);
-        if (sampled > 0 && emitters.emitters.size() > 1) choice.lights.insert(choice.lights.end(), list.begin(), list.end());
+        const auto list = listOf(about(blocks, b), emitters, choice.byPhotons);
+        choice.lights.insert(choice.lights.end(), list.begin(), list.end());
     }
-    choice.variance = second / std::max(paths, 1.0);
     return choice;
 }
 

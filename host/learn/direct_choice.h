@@ -18,9 +18,8 @@ struct DirectChoice {
     /// By emitter: its light is taken from photons where it is genuinely diffusely reflected. True where samples of it mostly find it
     /// hidden.
     std::vector<bool> byPhotons;
-    std::vector<shared::LightChoice> lights; ///< as LearnedTables; empty where there is but one emitter to sample
+    std::vector<shared::LightChoice> lights; ///< as LearnedTables; empty where there is at most one emitter to sample
     unsigned lightBlockSize = 1;
-    double variance = 0; ///< of direct light by one sample of an emitter so chosen, relative to brightness squared
 };
 
 /// `finds`: one for each pilot path. `mayUsePhotons`: or else none is taken from photons.

@@ -34,7 +34,7 @@ private:
     void findMoreOpenings(unsigned emitter, const std::vector<UsefulRay>& rays);
 
     std::vector<std::vector<Opening>> openings_; ///< by emitter: those found once stay
-    size_t photonsOfRound_ = 0; ///< the last one's
+    size_t photonsOfRound_ = 0;                  ///< the last one's
     const EmitterTables& emitters_;
     Invert invert_;
     std::vector<std::vector<shared::EmissionRecord>> rounds_;

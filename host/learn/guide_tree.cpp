@@ -123,7 +123,7 @@ private:
 } // namespace
 
 std::vector<GuideLeafBox> buildGuideTree(const std::vector<GuideSample>& samples, const GuideBox& root,
-                                     const GuideTreeSettings& settings) {
+                                         const GuideTreeSettings& settings) {
     return TreeBuilder(samples, settings).build(root);
 }
 

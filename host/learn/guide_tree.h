@@ -33,7 +33,7 @@ struct GuideTreeSettings {
 /// Cuts `root` where the samples' density differs most. Leaves do not overlap and fill `root`; their probabilities are above 0
 /// and sum to its probability. Without samples it is `root` alone.
 std::vector<GuideLeafBox> buildGuideTree(const std::vector<GuideSample>& samples, const GuideBox& root,
-                                     const GuideTreeSettings& settings = {});
+                                         const GuideTreeSettings& settings = {});
 
 /// By how much the second moment of weights by `root` evenly exceeds that of weights by the samples' density, as the leaves know
 /// it: 1 where nothing is gained.

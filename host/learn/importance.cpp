@@ -17,11 +17,11 @@ namespace {
 constexpr double verticesOfCell = 128; // of those that the camera sees, about
 
 constexpr size_t mostAims = 8;
-constexpr double surestAim = 0.9;   // probability of aiming where all that matters comes through one opening
+constexpr double surestAim = 0.9; // probability of aiming where all that matters comes through one opening
 // Of all scattered rays; and of an opening that no light from outside is known to come through.
 constexpr double leastAimGain = 0.03, leastFoundGain = 0.5;
-constexpr double leastAim = 0.05;   // below, photons are not aimed
-constexpr double widestAim = 0.1;   // share of all directions that an opening takes from a place which aims at it
+constexpr double leastAim = 0.05; // below, photons are not aimed
+constexpr double widestAim = 0.1; // share of all directions that an opening takes from a place which aims at it
 
 double length(const shared::Packed3& v) { return glm::length(unpack(v)); }
 
@@ -102,7 +102,9 @@ shared::ImportanceGrid importanceGrid(const DeviceScene& scene, unsigned paths) 
     const bool isPerspective = isCamera && !camera.orthographic;
     // Its image at distance 1, or its image as it is.
     grid.sizePerDistance = isPerspective ? static_cast<float>(std::sqrt(share * image)) : 0;
-    grid.smallestSize = static_cast<float>(isPerspective ? 1e-6 * ofScene : isCamera ? std::sqrt(share * image) : ofScene);
+    grid.smallestSize = static_cast<float>(isPerspective ? 1e-6 * ofScene
+                                           : isCamera    ? std::sqrt(share * image)
+                                                         : ofScene);
     if (!(grid.smallestSize > 0)) grid.smallestSize = 1e-6f;
     return grid;
 }

@@ -12,7 +12,6 @@ namespace {
 
 constexpr unsigned pathsPerPixel = 16, fewestPaths = 8192, mostPaths = 262144;
 constexpr unsigned photonRounds = 3;
-constexpr double evenWorth = 0.5; // effective share of useful photons from which on weight windows are of no use
 constexpr unsigned block = 16; // pixels of a row and column whose mean brightness weighs their errors
 
 unsigned pilotCount(const shared::Camera& camera) {
@@ -45,18 +44,20 @@ std::vector<double> pathWeights(const std::vector<shared::PilotPath>& paths, con
     return weights;
 }
 
-// The median over what is brought to the image: half of it comes from photons worth more. 0 where photons are worth much the same:
-// there is nothing to split or to end then.
+// Is anything hidden, so that few of the photons matter that are not guided? Or else there is nothing to split or to end either.
+bool isHidden(const LearnedTables& learned) {
+    return learned.guide.leaves.size() > learned.directByPhotons.size() || !learned.aims.empty();
+}
+
+// The median over what is brought to the image: half of it comes from photons worth more.
 double usualWorthOf(const std::vector<shared::EmissionRecord>& records) {
     std::vector<double> worths;
-    double all = 0, squares = 0, below = 0;
+    double all = 0, below = 0;
     for (const auto& record : records) {
         if (!(record.weight > 0)) continue;
         worths.push_back(record.weight);
         all += record.weight;
-        squares += double(record.weight) * record.weight;
     }
-    if (worths.empty() || all * all / squares > evenWorth * static_cast<double>(worths.size())) return 0;
     std::sort(worths.begin(), worths.end());
     for (const double worth : worths) {
         below += worth;
@@ -67,9 +68,9 @@ double usualWorthOf(const std::vector<shared::EmissionRecord>& records) {
 
 } // namespace
 
-Learning::Learning(Device& device, const std::string& options, DeviceScene& scene, SceneBuffers buffers,
+Learning::Learning(Device& device, const Program& program, DeviceScene& scene, SceneBuffers buffers,
                    const shared::CameraParams& params)
-    : device_(device), program_(device, "pilot_paths.cl", options), scene_(scene), buffers_(buffers), params_(params),
+    : device_(device), program_(program), scene_(scene), buffers_(buffers), params_(params),
       guide_(scene.emitters, [this](const auto& records, const auto& sources) { return invert(records, sources); }) {}
 
 std::vector<shared::EmissionPoint> Learning::invert(const std::vector<shared::EmissionRecord>& records,
@@ -93,7 +94,8 @@ void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std
     program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, learned_.tables.importance, count);
     const auto aims = findAims(paths, weights, learned_.tables.guide.sources, radius);
     for (const Opening& aim : aims) learned_.tables.aims.push_back(openingSource(QL_NONE, 0, aim));
-    learned_.tables.importanceCells = importanceCells(paths, weights, keys.read(), sizes.read(), aims, learned_.tables.importance);
+    learned_.tables.importanceCells =
+        importanceCells(paths, weights, keys.read(), sizes.read(), aims, learned_.tables.importance);
 }
 
 void Learning::upload() {
@@ -125,7 +127,6 @@ void Learning::followPilots(bool directMayUsePhotons) {
     learned_.tables.directByPhotons = std::move(choice.byPhotons);
     learned_.tables.lights = std::move(choice.lights);
     learned_.tables.lightBlockSize = choice.lightBlockSize;
-    learned_.directVariance = choice.variance;
     upload();
 }
 
@@ -134,7 +135,7 @@ void Learning::traceRounds(const PhotonRound& round) {
         const RoundResult result = round(k);
         guide_.add(result.records);
         learned_.tables.guide = guide_.guide();
-        learned_.usualWorth = usualWorthOf(result.records);
+        learned_.usualWorth = isHidden(learned_.tables) ? usualWorthOf(result.records) : 0;
         for (size_t c = 0; c < LIGHT_CLASSES; ++c)
             learned_.density[c] = gathered_ > 0 ? result.density[c] / gathered_ : 0;
         upload();

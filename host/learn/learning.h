@@ -19,7 +19,7 @@ struct SceneBuffers {
 
 /// What a round of photons told.
 struct RoundResult {
-    std::vector<shared::EmissionRecord> records;  ///< what each would bring to the image
+    std::vector<shared::EmissionRecord> records; ///< what each would bring to the image
     std::array<double, LIGHT_CLASSES> density{}; ///< sum of RegionCount::density over photons / their number
 };
 /// Traces photons, numbered as a round, guided by what `scene` has learned so far.
@@ -28,7 +28,6 @@ using PhotonRound = std::function<RoundResult(unsigned round)>;
 /// All that is learned. It can be given to other renders of the scene, whatever their settings: images keep their means.
 struct LearnedScene {
     LearnedTables tables;
-    double directVariance = 0; ///< DirectChoice::variance
     /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
     /// known.
     std::array<double, LIGHT_CLASSES> density{};
@@ -39,8 +38,8 @@ struct LearnedScene {
 
 class Learning {
 public:
-    /// `options` to the compiler and `params` as camera paths have them.
-    Learning(Device& device, const std::string& options, DeviceScene& scene, SceneBuffers buffers,
+    /// `program` has kernels/pilot_paths.cl; `params` as camera paths have them.
+    Learning(Device& device, const Program& program, DeviceScene& scene, SceneBuffers buffers,
              const shared::CameraParams& params);
 
     /// Follows paths from the camera; `scene` then has what they tell: the guide, the importance, how direct light is to be taken,
@@ -59,7 +58,7 @@ private:
     void upload();
 
     Device& device_;
-    Program program_;
+    const Program& program_;
     DeviceScene& scene_;
     SceneBuffers buffers_;
     shared::CameraParams params_;

@@ -14,19 +14,21 @@ namespace quasilux {
 namespace {
 
 constexpr size_t raysLookedAt = 600;
-constexpr size_t candidates = 150;   // places that are tried for an opening's centre
-constexpr size_t fewestRays = 32;    // about a place that may be one
-constexpr double leastOpeningGain = 0.05;   // of all rays' log likelihood, that an opening must bring
-constexpr double widestBall = 0.01;  // chance of passing it above which little is to be gained by aiming
-constexpr double mostCopies = 4;     // of a ray in a sample: a single one is no opening
-constexpr int refinements = 4;       // of the best place
-constexpr double margin = 1.25;      // of an opening's region to what its rays come through
-constexpr double outliers = 0.01;    // share of the weight on either side that bounds leave out
-constexpr int turns = 16;            // of axes in a quarter
-constexpr int normals = 48;          // tried on a hemisphere, beside the world's axes
+constexpr size_t candidates = 150;        // places that are tried for an opening's centre
+constexpr size_t fewestRays = 32;         // about a place that may be one
+constexpr double leastOpeningGain = 0.05; // of all rays' log likelihood, that an opening must bring
+constexpr double widestBall = 0.01;       // chance of passing it above which little is to be gained by aiming
+constexpr double mostCopies = 4;          // of a ray in a sample: a single one is no opening
+constexpr int refinements = 4;            // of the best place
+constexpr double margin = 1.25;           // of an opening's region to what its rays come through
+constexpr double outliers = 0.01;         // share of the weight on either side that bounds leave out
+constexpr int turns = 16;                 // of axes in a quarter
+constexpr int normals = 48;               // tried on a hemisphere, beside the world's axes
 
 glm::dvec3 across(const UsefulRay& ray, const glm::dvec3& v) { return v - glm::dot(ray.direction, v) * ray.direction; }
-double distance(const UsefulRay& ray, const glm::dvec3& place) { return glm::length(across(ray, place - ray.position)); }
+double distance(const UsefulRay& ray, const glm::dvec3& place) {
+    return glm::length(across(ray, place - ray.position));
+}
 
 double weightOf(const std::vector<UsefulRay>& rays) {
     double sum = 0;
@@ -98,8 +100,7 @@ glm::dvec3 middleOf(const std::vector<UsefulRay>& rays, const Ball& ball, std::m
         if (distance(ray, ball.centre) <= ball.radius) passing.push_back(&ray);
     std::array<std::vector<double>, 3> places;
     for (size_t k = 0; k < candidates; ++k) {
-        const glm::dvec3 place =
-            meetingPlace(*passing[random() % passing.size()], *passing[random() % passing.size()]);
+        const glm::dvec3 place = meetingPlace(*passing[random() % passing.size()], *passing[random() % passing.size()]);
         for (int axis = 0; axis < 3; ++axis) places[static_cast<size_t>(axis)].push_back(place[axis]);
     }
     glm::dvec3 middle(0);
@@ -219,10 +220,10 @@ std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, co
                                   size_t most) {
     std::vector<Opening> openings;
     const double all = weightOf(rays);
-    for (const Opening& opening : known)
-        std::erase_if(rays, [&](const UsefulRay& ray) { return opening.holds(ray); });
+    for (const Opening& opening : known) std::erase_if(rays, [&](const UsefulRay& ray) { return opening.holds(ray); });
     while (openings.size() < most && rays.size() >= fewestRays) {
         const auto some = resampled(rays);
+        if (some.size() < fewestRays) break;                        // a few of them have all the weight
         const double share = weightOf(some) * all / weightOf(rays); // of the weight of all rays that `some` stand for
         const Ball ball = bestBall(some, share, radius);
         if (ball.gain < leastOpeningGain) break;

@@ -11,7 +11,8 @@ namespace quasilux {
 struct UsefulRay {
     glm::dvec3 position{}, direction{}; ///< direction is of unit length
     double weight = 0;
-    bool isScattered = false; ///< begins at `position`, where its light is scattered into all directions; or else comes from outside
+    bool isScattered =
+        false; ///< begins at `position`, where its light is scattered into all directions; or else comes from outside
 };
 
 /// A rectangle.

@@ -20,8 +20,7 @@ struct RenderRecord {
     unsigned workGroupSize = 0;
     SceneReport report;
     RenderCounters counters;
-    SearchReport search;               ///< which settings were searched, and why these were chosen
-    std::vector<double> searchWeights; ///< in the image, of candidates given up and, last, of the one chosen
+    SearchReport search; ///< which settings were searched, and why these were chosen
     ErrorEstimate error;
     MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
     std::map<std::string, KernelTiming> kernels;

@@ -95,7 +95,7 @@ json deviceJson(const DeviceInfo& device) {
             {"isCpu", device.isCpu}};
 }
 
-json searchJson(const SearchReport& search, const std::vector<double>& weights) {
+json searchJson(const SearchReport& search) {
     json rows = json::array();
     for (const PilotRow& row : search.rows)
         rows.push_back({{"bdd", row.settings.bdd},
@@ -116,8 +116,7 @@ json searchJson(const SearchReport& search, const std::vector<double>& weights) 
             {"pilotSeconds", search.seconds},
             {"horizon", search.horizon},
             {"predictedError", search.rows.empty() ? 0 : search.rows.at(search.chosen).predictedError},
-            {"outOfTime", search.outOfTime},
-            {"weights", weights}};
+            {"outOfTime", search.outOfTime}};
 }
 
 json settingsJson(const RenderSettings& settings) {
@@ -162,6 +161,15 @@ json sceneReportJson(const SceneReport& report) {
         {"forecast", {{"deviceBytes", report.forecast.deviceBytes}, {"hostPeakBytes", report.forecast.hostPeakBytes}}},
         {"photonsPerPass", report.photonsPerPass},
         {"initialRadius", report.initialRadius},
+        {"learned",
+         {{"guided", report.learned.isGuided},
+          {"leaves", report.learned.leaves},
+          {"openings", report.learned.openings},
+          {"aims", report.learned.aims},
+          {"emittersByPhotons", report.learned.emittersByPhotons},
+          {"directSamples", report.learned.directSamples},
+          {"weightWindows", report.learned.hasWeightWindows},
+          {"seconds", report.learned.seconds}}},
         {"warnings", report.warnings}};
 }
 
@@ -175,7 +183,7 @@ json statisticsJson(const RenderRecord& record, const FilmImage& image) {
             {"image", {{"width", image.width}, {"height", image.height}}},
             {"meter", meter},
             {"settings", settingsJson(record.settings)},
-            {"auto", searchJson(record.search, record.searchWeights)},
+            {"auto", searchJson(record.search)},
             {"stop",
              {{"seconds", orNull(record.stop.seconds)},
               {"passes", orNull(record.stop.passes)},

@@ -115,8 +115,8 @@ void setDirectByPhotons(DeviceScene& scene, const std::vector<bool>& byPhotons) 
         emitters[k].directByPhotons = k < byPhotons.size() && byPhotons[k];
         if (!emitters[k].directByPhotons) sampled.push_back(emitters[k]);
     }
-    std::memcpy(scene.tables.data() + scene.offsets.emitters, emitters.data(), emitters.size() * sizeof(shared::Emitter));
-    scene.features.directByPhotons = sampled.size() < emitters.size();
+    std::memcpy(scene.tables.data() + scene.offsets.emitters, emitters.data(),
+                emitters.size() * sizeof(shared::Emitter));
     scene.offsets.emittersSampled = static_cast<unsigned>(sampled.size());
     scene.offsets.directSharing = directSharing(sampled, scene.surfaceArea, scene.features.irradianceMeter);
 }

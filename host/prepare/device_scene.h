@@ -55,12 +55,12 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings);
 /// Takes what was learned of the scene into its tables, instead of what they had.
 struct LearnedTables {
     GuideTables guide;
-    std::vector<bool> directByPhotons; ///< by emitter, or empty: none
+    std::vector<bool> directByPhotons;       ///< by emitter, or empty: none
     std::vector<shared::LightChoice> lights; ///< LIGHT_CHOICES for each block of pixels, or empty: nothing is known
     unsigned lightBlockSize = 1;
     std::vector<shared::GuideSource> aims; ///< openings at which scattered photons are aimed
-    shared::ImportanceGrid importance{}; ///< without `cells`
-    std::vector<uint32_t> importanceCells;  ///< none: nothing is known
+    shared::ImportanceGrid importance{};   ///< without `cells`
+    std::vector<uint32_t> importanceCells; ///< none: nothing is known
 };
 void setLearned(DeviceScene& scene, const LearnedTables& learned);
 /// Indexes the borders for density estimates of this radius; what was learned is to be set again.

@@ -86,7 +86,8 @@ bool adaptsRadius(const Features& features, const RenderSettings& settings) {
 
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings) {
     return settings.direct == DirectLight::emitters && settings.map == MapOrder::photons && !isMeter(features) &&
-           !features.media && features.genuineDiffuse && !settings.genericKernels;
+           !features.media && features.genuineDiffuse && !settings.genericKernels &&
+           settings.emission == Emission::guided && features.emitterTypes.contains(EMITTER_CONSTANT);
 }
 
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {

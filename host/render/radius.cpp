@@ -20,9 +20,7 @@ double logShrink(unsigned pass) {
 
 double initialRadius(double area, unsigned photons) { return std::sqrt(photonsInDisc * area / (pi * photons)); }
 
-double radiusOfPhotons(double perArea) {
-    return std::sqrt(photonsInDisc / (pi * perArea));
-}
+double radiusOfPhotons(double perArea) { return std::sqrt(photonsInDisc / (pi * perArea)); }
 
 double radiusShrink(unsigned pass) { return std::exp(logShrink(pass) / 2); }
 

@@ -40,7 +40,6 @@ FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
     if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
     const auto start = Clock::now();
     const auto elapsed = [&] { return before.seconds + std::chrono::duration<double>(Clock::now() - start).count(); };
-    const auto develop = [&] { return before.finish ? before.finish(renderer.develop()) : renderer.develop(); };
     Progress progress;
     progress.phase = "rendering";
     double lastCheck = 0, checkCost = 0;
@@ -51,7 +50,7 @@ FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
         progress.passes = pass + 1;
         progress.seconds = elapsed();
         if (progress.passes >= firstErrorCheck && isErrorDue(progress.seconds - lastCheck, checkCost)) {
-            progress.relativeError = estimateError(develop()).sum();
+            progress.relativeError = estimateError(renderer.develop()).sum();
             lastCheck = elapsed();
             checkCost = lastCheck - progress.seconds;
         }
@@ -62,7 +61,7 @@ FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
         if (onProgress) onProgress(progress);
         if (stop.relativeError && progress.relativeError >= 0 && progress.relativeError <= *stop.relativeError) break;
     }
-    return develop();
+    return renderer.develop();
 }
 
 } // namespace quasilux

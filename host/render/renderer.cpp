@@ -22,10 +22,7 @@ namespace {
 // Photons of a class that is rare are gathered from so many times as far as all together would be: where such light is weak, a
 // wider disc costs more than its noise.
 constexpr double rareClassRadius = 2;
-// Relative variance that photons leave in a pass: of photonsInDisc (radius.cpp) of them, for light of which half is theirs; cost of
-// gathering them, tracing included, in samples of an emitter.
-constexpr double photonVariance = 2e-3, costOfGathering = 4;
-constexpr long mostDirectSamples = 8;
+constexpr unsigned samplesOfManyEmitters = 4;
 // Of a round while learning.
 constexpr unsigned fewestPhotonsOfRound = 8192, mostPhotonsOfRound = 131072;
 constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
@@ -139,14 +136,16 @@ struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_,
            std::shared_ptr<const LearnedScene> known)
         : device(device_), settings(settings_), flat(std::move(flat_)),
-          geometry(device, flat), learned(std::move(known)), learning(learned ? nullptr : followPilots()),
           program(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                   kernelOptions(flat, settings)),
+          geometry(device, flat), learned(std::move(known)), learning(learned ? nullptr : followPilots()),
           film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
           report(describe(scene, flat, settings)) {
+        const auto start = Clock::now();
         auto timingsBefore = device.timings();
         if (!learned) learned = learnFromPhotons(scene);
         limitBorders();
+        describeLearned(since(start));
         for (auto& [name, radius] : report.initialRadius)
             for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
                 if (name == slotName(c)) radius = firstRadiusOf(c);
@@ -168,7 +167,7 @@ struct Renderer::Stages {
     // Where photons are to begin, where they matter, how direct light is to be taken: from pilots with random numbers of their own.
     std::unique_ptr<Learning> followPilots() {
         if (settings.emission == Emission::plain || photonClasses(flat.features, settings) == 0) return nullptr;
-        auto pilots = std::make_unique<Learning>(device, kernelOptions(flat, settings), flat,
+        auto pilots = std::make_unique<Learning>(device, program, flat,
                                                  SceneBuffers{geometry.nodes, geometry.blocks, geometry.tables},
                                                  cameraParams(flat, settings, QL_NONE));
         pilots->followPilots(mayTakeDirectFromPhotons(flat.features, settings));
@@ -196,11 +195,21 @@ struct Renderer::Stages {
         geometry.tables = Buffer<uint32_t>(device, flat.tables, "scene tables");
     }
 
-    // Samples of emitters for each gathering, from what either leaves of variance and what either costs.
-    unsigned directSamples() const {
-        const double best = std::sqrt(std::max(0.0, learned->directVariance) / photonVariance * costOfGathering);
-        return static_cast<unsigned>(std::clamp(std::lround(best), 1L, mostDirectSamples));
+    void describeLearned(double seconds) {
+        const LearnedTables& tables = learned->tables;
+        auto& row = report.learned;
+        row.isGuided = tables.guide.isGuided;
+        row.leaves = tables.guide.leaves.size();
+        for (const auto& source : tables.guide.sources) row.openings += source.halfU > 0;
+        row.aims = tables.aims.size();
+        for (const bool byPhotons : tables.directByPhotons) row.emittersByPhotons += byPhotons;
+        row.directSamples = directSamples();
+        row.hasWeightWindows = learned->usualWorth > 0;
+        row.seconds = seconds;
     }
+
+    // Samples of emitters where a path gathers: several where each must choose one of many, as they share the choices out.
+    unsigned directSamples() const { return learned->tables.lights.empty() ? 1 : samplesOfManyEmitters; }
 
     RoundResult photonRound(const Scene& scene, unsigned round) {
         shared::PhotonParams params = photonParams(scene, flat, settings);
@@ -363,10 +372,10 @@ struct Renderer::Stages {
     Device& device;
     RenderSettings settings;
     DeviceScene flat;
+    Program program;
     GeometryBuffers geometry;
     std::shared_ptr<const LearnedScene> learned;
     std::unique_ptr<Learning> learning; // while it goes on
-    Program program;
     Film film;
     std::optional<PhotonStage> photons;     // this and one of the next two, or
     std::optional<AdaptiveRadius> adaptive; // where the camera stage has it
@@ -411,6 +420,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
                    std::shared_ptr<const LearnedScene> known) {
     const auto start = Clock::now();
     DeviceScene flat = flatten(scene, settings);
+    flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
     if (known) setLearned(flat, known->tables);
     const double prepareSeconds = since(start);
     checkFits(planScene(flat, settings), device.info(), flat, settings);

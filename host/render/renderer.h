@@ -47,7 +47,15 @@ struct SceneReport {
     MemoryForecast forecast;
     unsigned photonsPerPass = 0;
     std::map<std::string, double> initialRadius; ///< scene units, by photon class
-    std::vector<std::string> warnings;           ///< DeviceScene::warnings
+    /// What was learned before pass 0 (docs/learning.md).
+    struct Learned {
+        bool isGuided = false;
+        size_t leaves = 0, openings = 0, aims = 0, emittersByPhotons = 0;
+        unsigned directSamples = 1;
+        bool hasWeightWindows = false;
+        double seconds = 0;
+    } learned;
+    std::vector<std::string> warnings; ///< DeviceScene::warnings
 };
 
 /// Counted over all passes.
@@ -104,10 +112,9 @@ private:
     std::unique_ptr<Stages> stages_;
 };
 
-/// What a render has behind it when renderUntil goes on with it.
+/// What a render has behind it when renderUntil begins.
 struct RenderedBefore {
-    double seconds = 0;                                   ///< that the stop rule counts
-    std::function<FilmImage(FilmImage)> finish = nullptr; ///< adds what other renderers made to the image
+    double seconds = 0; ///< that the stop rule counts
 };
 
 /// Renders passes 0, 1, … (or from the last one rendered on) until the rule, or `interrupted`, ends it.
