@@ -6,4 +6,6 @@
 
 #include "photon_trace.cl"
 
+#ifdef LEARNS
 #include "pilot_paths.cl"
+#endif

@@ -6,7 +6,9 @@
 
 #include "photon_trace.cl"
 
+#ifdef LEARNS
 #include "pilot_paths.cl"
+#endif
 
 #ifdef ADAPTIVE_RADIUS
 #include "adaptive_radius.cl"

@@ -50,6 +50,7 @@ inline float shadingNormalArrival(const Surface* s) {
 #endif
 }
 
+#ifdef LEARNS
 /* tintedSample of a Lambert lobe by the mixture of its own directions and `aim`. */
 inline LobeSample aimedSample(const Surface* s, __global const Lobe* lobes, uint k, const Frame* frame, const Aim* aim,
                               __global const GuideSource* openings, float uChoice, float2 u, float* aimed) {
@@ -67,6 +68,7 @@ inline LobeSample aimedSample(const Surface* s, __global const Lobe* lobes, uint
     sample.valid = 1;
     return sample;
 }
+#endif
 
 /* Scatters the photon with one lobe; 0 where it ends. *scattered is the flux that all lobes reflect in expectation. */
 inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe* lobes, __global const Shape* shape,
@@ -88,9 +90,11 @@ inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe
     if (k == s->lobeCount) return 0;
     LobeSample sample;
     float aimed = 1; /* density of the lobe's own direction / density of the mixture */
+#ifdef LEARNS
     if (lobes[k].type == LOBE_LAMBERT && aim->count > 0)
         sample = aimedSample(s, lobes, k, &frame, aim, openings, rest, u.yz, &aimed);
     else
+#endif
         sample = tintedSample(s, lobes, k, wo, rest, u.yz, TRANSPORT_FLUX);
     if (!sample.valid) return 0;
     const float3 wi = toWorld(&frame, sample.wi);
@@ -202,6 +206,7 @@ inline int arrivalCounts(const PhotonPath* path, uint lightClass) {
 #endif
 }
 
+#ifdef LEARNS
 /* Weight window: a photon that is worth more than usual to the image where it is to be scattered is split, one that is worth far less
  * ends by roulette; 0 where it does. `others`: what it was split into beside itself; null: it is not split. */
 inline int passWindow(PhotonPath* path, PhotonPath* others, uint cell, const PhotonWorld* world, RegionCount* count) {
@@ -229,6 +234,7 @@ inline int passWindow(PhotonPath* path, PhotonPath* others, uint cell, const Pho
     }
     return 1;
 }
+#endif
 
 /* A surface that the path has come to; 0 where it ends. `others` as passWindow has it. */
 inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const PhotonWorld* world, const PhotonSink* sink,
@@ -261,12 +267,16 @@ inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const Phot
     const float3 u = (float3)(rngNext(&path->rng), uDirection.x, uDirection.y);
     const float arrived = meanFlux(path->flux);
     float scattered;
+#ifdef LEARNS
     const uint cell =
         world->params->usualWorth > 0 || scene->learned.aimCount > 0
             ? importanceCell(world->tables, &scene->learned.importance, s.position, importanceFace(s.geometricNormal))
             : QL_NONE;
     if (!delivered && !passWindow(path, others, cell, world, count)) return 0;
     const Aim aim = aimFrom(world->tables, scene, cell);
+#else
+    const Aim aim = {0, 0, 0};
+#endif
     const int goesOn = scatterPhoton(path, &s, lobes, shape, &aim,
                                      SCENE_TABLE(world->tables, &scene->learned, GuideSource, aims), u, &scattered);
     countScattering(count, arrived, scattered, goesOn ? path->flux : (float3)(0));

@@ -84,6 +84,10 @@ bool adaptsRadius(const Features& features, const RenderSettings& settings) {
     return mayAdaptRadius(isMeter(features), features.media, settings) && photonClasses(features, settings) != 0;
 }
 
+bool learns(const Features& features, const RenderSettings& settings) {
+    return settings.emission == Emission::guided && photonClasses(features, settings) != 0;
+}
+
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings) {
     return settings.direct == DirectLight::emitters && settings.map == MapOrder::photons && !isMeter(features) &&
            !features.media && features.genuineDiffuse && !settings.genericKernels &&
@@ -109,6 +113,7 @@ std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settin
     if (settings.direct == DirectLight::emitters) options += " -DDIRECT_BY_EMITTERS";
     if (settings.variant == Variant::alternative) options += " -DLAW_ALTERNATIVE";
     if (estimatesBias(scene.features, settings)) options += " -DESTIMATE_BIAS=1";
+    if (learns(scene.features, settings)) options += " -DLEARNS";
     if (adaptsRadius(scene.features, settings)) options += " -DADAPTIVE_RADIUS";
     if (settings.mediumRule != MediumRule::right)
         options += fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(settings.mediumRule));

@@ -19,6 +19,8 @@ bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);
 /// Is it chosen by pixel? Only where mayAdaptRadius(), and some photons are stored.
 bool adaptsRadius(const Features& features, const RenderSettings& settings);
 
+/// Is it learned before pass 0 where photons serve the image?
+bool learns(const Features& features, const RenderSettings& settings);
 /// Whether direct light of some emitters may be taken from photons, that of others by sampling them.
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings);
 

@@ -166,7 +166,7 @@ struct Renderer::Stages {
 
     // Where photons are to begin, where they matter, how direct light is to be taken: from pilots with random numbers of their own.
     std::unique_ptr<Learning> followPilots() {
-        if (settings.emission == Emission::plain || photonClasses(flat.features, settings) == 0) return nullptr;
+        if (!learns(flat.features, settings)) return nullptr;
         auto pilots = std::make_unique<Learning>(device, program, flat,
                                                  SceneBuffers{geometry.nodes, geometry.blocks, geometry.tables},
                                                  cameraParams(flat, settings, QL_NONE));

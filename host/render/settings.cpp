@@ -8,6 +8,7 @@ namespace quasilux {
 RenderSettings settingsFromScene(const Scene& scene) {
     const SceneSettings& said = scene.settings;
     RenderSettings settings;
+    settings.emission = Emission::guided;
     // A meter is often small: paths from it find what reaches it by quasi-specular lobes, photons hardly ever meet it.
     if (isIrradiance(scene.sensor.meter)) settings.variant = Variant::alternative;
     try {

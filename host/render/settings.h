@@ -33,7 +33,7 @@ struct RenderSettings {
     Variant variant = Variant::main;
     DirectLight direct = DirectLight::emitters;
     MapOrder map = MapOrder::photons;
-    Emission emission = Emission::guided;
+    Emission emission = Emission::plain; ///< settingsFromScene: guided
     std::string quasiSpecular = "auto";        ///< auto | none | all | ID,ID,…
     bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
     unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
