@@ -25,15 +25,15 @@ enum class MediumRule { right, missingSigmaT, missingEtaSquared, wrongSignOfG };
 
 /// The right tracing of photons, or a known mistake, as negative controls of tests: flux that escapes is not counted in the
 /// energy balance; scattering multiplies flux by 1.02; shading normals are taken for the geometry's where photons scatter,
-/// or where they are stored.
-enum class PhotonRule { right, escapeNotCounted, scatteringGains, missingAdjoint, missingArrival };
+/// or where they are stored; guided photons do not carry the weight of their leaf.
+enum class PhotonRule { right, escapeNotCounted, scatteringGains, missingAdjoint, missingArrival, missingGuideWeight };
 
 struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
     Variant variant = Variant::main;
     DirectLight direct = DirectLight::emitters;
     MapOrder map = MapOrder::photons;
-    Emission emission = Emission::plain; ///< settingsFromScene: guided
+    Emission emission = Emission::plain;       ///< settingsFromScene: guided
     std::string quasiSpecular = "auto";        ///< auto | none | all | ID,ID,…
     bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
     unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size

@@ -1,0 +1,189 @@
+// Guided emission (docs/learning.md): the tree of numbers, openings found from rays, and that means do not depend on any of it.
+//
+// False alarms: flux and radiance are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case); the seeds are fixed.
+#include "learn/guide_tree.h"
+#include "learn/openings.h"
+#include "render/renderer.h"
+#include "scene/color.h"
+#include "support/render_statistics.h"
+#include "support/scene_files.h"
+#include "support/stored_photons.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+namespace quasilux {
+namespace {
+
+// --- the tree ---
+
+std::vector<GuideSample> samplesWithin(double side, size_t count) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> number;
+    std::vector<GuideSample> samples(count);
+    for (auto& sample : samples) {
+        for (float& u : sample.u) u = number(random);
+        for (size_t d = 1; d < 3; ++d) sample.u[d] = 0.3f + static_cast<float>(side) * sample.u[d];
+        sample.weight = 1;
+    }
+    return samples;
+}
+
+bool holds(const GuideBox& box, const std::array<float, emissionDimensions>& u) {
+    for (size_t d = 0; d < emissionDimensions; ++d)
+        if (u[d] < box.lower[d] || u[d] >= box.lower[d] + box.size[d]) return false;
+    return true;
+}
+
+TEST(GuideTree, LeavesFillTheCubeOnce) {
+    const auto leaves = buildGuideTree(samplesWithin(0.1, 5000), {});
+    double volume = 0, probability = 0;
+    for (const auto& leaf : leaves) {
+        volume += leaf.box.volume();
+        probability += leaf.box.probability;
+        EXPECT_GT(leaf.box.probability, 0);
+    }
+    EXPECT_NEAR(volume, 1, 1e-9);
+    EXPECT_NEAR(probability, 1, 1e-9);
+    for (const auto& point : samplesWithin(0.5, 1000))
+        EXPECT_EQ(
+            std::count_if(leaves.begin(), leaves.end(), [&](const auto& leaf) { return holds(leaf.box, point.u); }), 1);
+}
+
+TEST(GuideTree, FollowsTheSamplesAndNothingElse) {
+    const auto leaves = buildGuideTree(samplesWithin(0.1, 5000), {});
+    double within = 0;
+    for (const auto& leaf : leaves)
+        if (leaf.box.lower[1] > 0.29 && leaf.box.lower[1] + leaf.box.size[1] < 0.41) within += leaf.box.probability;
+    EXPECT_GT(within, 0.7) << "a hundredth of the cube has all samples";
+    EXPECT_GT(guideGain(leaves, {}), 30);
+    // Controls: of even samples, and of none, nothing is learned.
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> number;
+    auto even = samplesWithin(0.1, 5000);
+    for (auto& sample : even)
+        for (float& u : sample.u) u = number(random);
+    EXPECT_LT(guideGain(buildGuideTree(even, {}), {}), 1.1);
+    EXPECT_EQ(buildGuideTree({}, {}).size(), 1u);
+}
+
+// --- openings ---
+
+// Rays in a cone about (0.3, 1, 0.2) through places of a rectangle; `spread`: from anywhere in a ball of radius 50.
+std::vector<UsefulRay> raysThrough(const glm::dvec3& centre, double halfX, double halfZ, size_t count, bool spread) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<UsefulRay> rays;
+    for (size_t k = 0; k < count; ++k) {
+        UsefulRay ray;
+        ray.direction = glm::normalize(glm::dvec3(number(random), 1.5, number(random)));
+        const glm::dvec3 place = spread ? 50.0 * glm::dvec3(number(random), number(random), number(random))
+                                        : centre + glm::dvec3(halfX * number(random), 0, halfZ * number(random));
+        ray.position = place - 70.0 * ray.direction;
+        ray.weight = 1;
+        rays.push_back(ray);
+    }
+    return rays;
+}
+
+TEST(Openings, TwoWindowsAreFound) {
+    auto rays = raysThrough({2, 0, 1.5}, 0.6, 0.6, 2000, false);
+    for (const auto& ray : raysThrough({8, 0, 1.5}, 0.5, 0.7, 1500, false)) rays.push_back(ray);
+    for (const auto& ray : raysThrough({}, 0, 0, 500, true)) rays.push_back(ray);
+    const auto openings = findOpenings(rays, 100, {}, 8);
+    ASSERT_GE(openings.size(), 2u);
+    EXPECT_LT(glm::distance(openings[0].centre, glm::dvec3(2, 0, 1.5)), 0.3);
+    EXPECT_LT(glm::distance(openings[1].centre, glm::dvec3(8, 0, 1.5)), 0.3);
+    for (size_t k = 0; k < 2; ++k) {
+        EXPECT_LT(openings[k].halfU, 1.2);
+        EXPECT_LT(openings[k].halfV, 1.2);
+    }
+    // Known ones are not found again. Control: rays from everywhere come through none.
+    for (const Opening& other : findOpenings(rays, 100, openings, 8))
+        EXPECT_GT(glm::distance(other.centre, openings[0].centre), 1);
+    EXPECT_TRUE(findOpenings(raysThrough({}, 0, 0, 2000, true), 50, {}, 8).empty());
+}
+
+// --- means ---
+
+// scenes/furnace_split.xml: flux by class is known (photon_trace_test.cpp). Here photons begin nearly all in a hundredth of the numbers.
+double directFlux(PhotonRule rule) {
+    FlattenSettings flattening;
+    flattening.largestRadius = [](double) { return 0.1; };
+    DeviceScene flat = flattenScene(projectScene("furnace_split.xml"), flattening);
+    std::vector<shared::GuideSource> sources;
+    std::vector<SourceBox> boxes;
+    for (unsigned e = 0; e < flat.emitters.emitters.size(); ++e) {
+        for (const auto& leaf : buildGuideTree(samplesWithin(0.1, 3000), {})) boxes.push_back({e, leaf.box});
+        sources.push_back(plainSource(e, e));
+    }
+    LearnedTables learned;
+    learned.guide = makeGuideTables(flat.emitters, sources, boxes);
+    learned.guide.isGuided = true;
+    setLearned(flat, learned);
+    RenderSettings settings;
+    settings.direct = DirectLight::photons;
+    settings.photonRule = rule;
+    PhotonTracing tracing;
+    tracing.paths = 50'000;
+    tracing.radius = 0.1f;
+    std::vector<double> flux;
+    for (const auto& pass : tracePhotons(flat, settings, tracing)) {
+        flux.push_back(0);
+        for (const StoredPhoton& photon : pass[LIGHT_DIRECT]) flux.back() += mean(photon.flux) / flat.emittedFlux;
+    }
+    const MeanAndError result = meanAndError(flux);
+    return (result.mean - 1) / result.standardError;
+}
+
+TEST(GuidedMean, FluxIsThatOfPlainEmissionWhateverWasLearned) {
+    EXPECT_LT(std::abs(directFlux(PhotonRule::right)), 4);
+    EXPECT_GT(std::abs(directFlux(PhotonRule::missingGuideWeight)), 4) << "negative control";
+}
+
+// A room with a window on a wide site, where everything emits what it absorbs and the sky has radiance 1: radiance is 1 everywhere.
+std::string wall(const std::string& scale, const std::string& translate, double emitted, double reflectance) {
+    return "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"" + scale + "\"/><translate value=\"" +
+           translate + "\"/></transform><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" +
+           std::to_string(reflectance) + "\"/></bsdf><emitter type=\"area\"><rgb name=\"radiance\" value=\"" +
+           std::to_string(emitted) + "\"/></emitter></shape>";
+}
+
+Scene furnaceRoom() {
+    const auto inside = [](const std::string& scale, const std::string& translate) {
+        return wall(scale, translate, 0.1, 0.9);
+    };
+    test::SceneFiles files;
+    return loadScene(files.write(
+        "scene.xml",
+        R"(<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><float name="fov" value="65"/>
+        <transform name="to_world"><lookat origin="2,0.3,1.5" target="2,3,1" up="0,0,1"/></transform>
+        <film type="hdrfilm"><rfilter type="box"/><integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>
+        <emitter type="constant"><rgb name="radiance" value="1"/></emitter>)" +
+            inside("2.2,1.7,0.1", "2,1.5,-0.1") + inside("2.2,1.7,0.1", "2,1.5,2.9") +
+            inside("0.1,1.7,1.4", "-0.1,1.5,1.4") + inside("0.1,1.7,1.4", "4.1,1.5,1.4") +
+            inside("2,0.1,1.4", "2,3.1,1.4") + inside("0.7,0.1,1.4", "0.7,-0.1,1.4") +
+            inside("0.7,0.1,1.4", "3.3,-0.1,1.4") + inside("0.6,0.1,0.45", "2,-0.1,0.45") +
+            inside("0.6,0.1,0.35", "2,-0.1,2.45") + wall("100,100,0.1", "0,0,-0.4", 0.8, 0.2) + "</scene>"));
+}
+
+MeanAndError renderRoom(PhotonRule rule) {
+    RenderSettings settings;
+    settings.emission = Emission::guided;
+    settings.photonsPerPass = 16'000;
+    settings.photonRule = rule;
+    return renderGroups(furnaceRoom(), settings, std::vector<int>(256, 0), 10, 8).front();
+}
+
+TEST(GuidedMean, ARoomOfAFurnaceIsAsBrightAsItsSky) {
+    const MeanAndError right = renderRoom(PhotonRule::right);
+    EXPECT_NEAR(right.mean, 1, 4 * right.standardError + 0.005);
+    EXPECT_LT(right.standardError, 0.01) << "too noisy to tell anything";
+    const MeanAndError wrong = renderRoom(PhotonRule::missingGuideWeight);
+    EXPECT_GT(std::abs(wrong.mean - 1), 4 * wrong.standardError + 0.005) << "negative control";
+}
+
+} // namespace
+} // namespace quasilux
