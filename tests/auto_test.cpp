@@ -150,7 +150,7 @@ TEST(AutoImage, IsThatOfTheSettingsChosen) {
     stop.seconds = 6;
     const std::atomic<bool> interrupted = false;
     const AutoRender render = renderAuto(device, scene, settings, std::make_unique<Renderer>(device, scene, settings),
-                                         {false, false, false, true, true}, stop, nullptr, nullptr, interrupted);
+                                         {true, false, false, true, true}, stop, nullptr, nullptr, interrupted);
     EXPECT_GT(render.search.rows.size(), 1u) << "nothing was tried";
     EXPECT_EQ(render.settings.seed, 5u);
     const auto alone = [&](uint64_t seed) {
