@@ -27,7 +27,7 @@ using PhotonRound = std::function<RoundResult(unsigned round)>;
 
 /// All that is learned. It can be given to other renders of the scene, whatever their settings: images keep their means.
 struct LearnedScene {
-    LearnedTables tables;
+    LearnedTables tables; ///< without leaves: nothing was learned
     /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
     /// known.
     std::array<double, LIGHT_CLASSES> density{};

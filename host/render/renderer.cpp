@@ -421,7 +421,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     const auto start = Clock::now();
     DeviceScene flat = flatten(scene, settings);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
-    if (known) setLearned(flat, known->tables);
+    if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
     const double prepareSeconds = since(start);
     checkFits(planScene(flat, settings), device.info(), flat, settings);
     stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), std::move(known));
