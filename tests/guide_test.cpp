@@ -143,7 +143,7 @@ TEST(GuidedMean, FluxIsThatOfPlainEmissionWhateverWasLearned) {
     EXPECT_GT(std::abs(directFlux(PhotonRule::missingGuideWeight)), 4) << "negative control";
 }
 
-// A room with a window on a wide site, where everything emits what it absorbs and the sky has radiance 1: radiance is 1 everywhere.
+// A room with a window on a site, where everything emits what it absorbs and the sky has radiance 1: radiance is 1 everywhere.
 std::string wall(const std::string& scale, const std::string& translate, double emitted, double reflectance) {
     return "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"" + scale + "\"/><translate value=\"" +
            translate + "\"/></transform><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" +
@@ -166,7 +166,7 @@ Scene furnaceRoom() {
             inside("0.1,1.7,1.4", "-0.1,1.5,1.4") + inside("0.1,1.7,1.4", "4.1,1.5,1.4") +
             inside("2,0.1,1.4", "2,3.1,1.4") + inside("0.7,0.1,1.4", "0.7,-0.1,1.4") +
             inside("0.7,0.1,1.4", "3.3,-0.1,1.4") + inside("0.6,0.1,0.45", "2,-0.1,0.45") +
-            inside("0.6,0.1,0.35", "2,-0.1,2.45") + wall("100,100,0.1", "0,0,-0.4", 0.8, 0.2) + "</scene>"));
+            inside("0.6,0.1,0.35", "2,-0.1,2.45") + wall("10,10,0.1", "0,0,-0.4", 0.8, 0.2) + "</scene>"));
 }
 
 MeanAndError renderRoom(PhotonRule rule) {

@@ -124,7 +124,7 @@ TEST(Search, TriesShorterPathsAgainWithTheSplitThatWon) {
     };
     RenderSettings start;
     start.bdd = 1;
-    const Found found = search(world, 8, {true, true, true, true, true}, std::nullopt, start);
+    const Found found = search(world, 17, {true, true, true, true, true}, std::nullopt, start);
     EXPECT_EQ(found.settings.bdd, 0u);
     EXPECT_EQ(found.settings.quasiSpecular, "none");
 }
@@ -197,7 +197,7 @@ TEST(Search, CloseCallsGoOnWherePassesAreCheap) {
                    [=](const RenderSettings& s) {
                        return s.bdd == 1 ? Truth{secondsPerPass, 0.7, 0, firstNoise, 70} : Truth{secondsPerPass};
                    },
-                   60, {true, false, false, false, false})
+                   125, {true, false, false, false, false})
             .settings.bdd;
     };
     EXPECT_EQ(found(0.02, 1.1), 1u);
@@ -271,12 +271,12 @@ TEST(Search, KeepsToItsShareOfTheTime) {
         const Found found = search(world, seconds);
         EXPECT_LE(found.report.seconds, pilotShare * seconds + 1e-9) << seconds;
     }
-    const auto rows = search(world, 1.5).report.rows; // a candidate of the same kernels, once
+    const auto rows = search(world, 3).report.rows; // a candidate of the same kernels, once
     ASSERT_EQ(rows.size(), 2u);
     const Scene scene = projectScene("cornell_phong.xml");
     EXPECT_EQ(kernelKey(rows[1].settings, scene), kernelKey(rows[0].settings, scene));
-    EXPECT_EQ(search(world, 0.9).report.rows.size(), 1u);
-    EXPECT_THAT(search(world, 0.5).report.line(), HasSubstr("(1 candidate, 0 passes of others"));
+    EXPECT_EQ(search(world, 1.8).report.rows.size(), 1u);
+    EXPECT_THAT(search(world, 1).report.line(), HasSubstr("(1 candidate, 0 passes of others"));
 }
 
 // As where a renderer beside the best one takes more memory than the device has.

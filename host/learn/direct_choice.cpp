@@ -91,6 +91,7 @@ std::vector<shared::LightChoice> listOf(const Block& seen, const EmitterTables& 
     double all = 0;
     for (const auto& [strength, emitter] : strengths) all += strength;
     std::vector<shared::LightChoice> list;
+    list.reserve(LIGHT_CHOICES);
     for (const auto& [strength, emitter] : strengths)
         list.push_back({emitter, static_cast<float>((1 - byPowerAlone) * strength / all)});
     list.push_back({QL_NONE, strengths.empty() ? 1.f : static_cast<float>(byPowerAlone)});

@@ -77,6 +77,7 @@ double byChance(const UsefulRay& ray, const glm::dvec3& centre, double r, double
 // The best radius about a place.
 Ball ballAbout(const std::vector<UsefulRay>& rays, double all, const glm::dvec3& centre, double radius) {
     std::vector<std::pair<double, const UsefulRay*>> passing;
+    passing.reserve(rays.size());
     for (const auto& ray : rays) passing.emplace_back(distance(ray, centre), &ray);
     std::sort(passing.begin(), passing.end());
     Ball best{centre, 0, 0};
