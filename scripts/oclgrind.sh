@@ -27,7 +27,7 @@ asWritten="-w -cl-opt-disable -Dinline=static -DALWAYS_INLINE=static -DWALK_ANYW
 check() {
     local log=$folder/log
     rm -f "$log"
-    if ! oclgrind --data-races --check-api --build-options "$asWritten" --log "$log" "$program" render "scenes/$1" --passes 1 --photons 48 \
+    if ! oclgrind --data-races --check-api --build-options "$asWritten" --log "$log" "$program" render "scenes/$1" --emission plain --passes 1 --photons 48 \
         --work-group-size 4 --quiet -o "$folder/image.exr" "${@:2}" || [[ -s $log ]]; then
         echo "oclgrind: $*"
         [[ ! -e $log ]] || head -n 40 "$log"
