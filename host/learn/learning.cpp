@@ -10,13 +10,17 @@ namespace quasilux {
 
 namespace {
 
+constexpr uint64_t shareOfMemory = 4; // one part in so many
 constexpr unsigned pathsPerPixel = 16, fewestPaths = 8192, mostPaths = 262144;
 constexpr unsigned photonRounds = 3;
 constexpr unsigned block = 16; // pixels of a row and column whose mean brightness weighs their errors
 
-unsigned pilotCount(const shared::Camera& camera) {
+// Fewer where the device has little memory: their buffer is to be no part worth mentioning.
+unsigned pilotCount(const shared::Camera& camera, const DeviceInfo& device) {
     const uint64_t wanted = uint64_t(pathsPerPixel) * camera.width * camera.height;
-    return static_cast<unsigned>(std::clamp<uint64_t>(wanted, fewestPaths, mostPaths));
+    const uint64_t room =
+        std::min(device.maximumAllocation, device.globalMemory / 4) / shareOfMemory / sizeof(shared::PilotPath);
+    return static_cast<unsigned>(std::clamp<uint64_t>(std::min(wanted, room), fewestPaths / shareOfMemory, mostPaths));
 }
 
 // 1 / brightness of each path's pixel, as relMSE has it, over the number of paths.
@@ -105,7 +109,7 @@ void Learning::upload() {
 }
 
 void Learning::followPilots(bool directMayUsePhotons) {
-    const unsigned count = pilotCount(params_.camera);
+    const unsigned count = pilotCount(params_.camera, device_.info());
     const Buffer<shared::PilotPath> buffer(device_, count, "pilot paths");
     program_.kernel("tracePilotPaths")
         .launch(count, buffers_.nodes, buffers_.blocks, buffers_.tables, buffer, params_, count);
