@@ -328,7 +328,12 @@ inline void followPhoton(PhotonPath* path, const PhotonWorld* world, const Photo
     uint depth = 0;
     split[0].splits = 0;
     for (;;) {
-        int goesOn = photonEvent(path, depth < WINDOW_STACK ? split + depth : 0, world, sink, count);
+#ifdef HAS_MEDIA
+        PhotonPath* others = 0; /* they would fly through the medium before the surface anew */
+#else
+        PhotonPath* others = depth < WINDOW_STACK ? split + depth : 0;
+#endif
+        int goesOn = photonEvent(path, others, world, sink, count);
         if (split[depth].splits > 0) split[++depth].splits = 0;
         if (goesOn) continue;
         if (depth == 0) return;
