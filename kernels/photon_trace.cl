@@ -13,14 +13,7 @@
 #include "photon_walk.clh"
 #include "scatter.clh"
 #include "splat_sums.clh"
-
-/* Photons are worth between these many times what is usual, as far as weight windows can see to it. */
-#define WINDOW_LOWER 0.03f
-#define WINDOW_UPPER 4.0f
-#define WINDOW_SPLITS_MAX 64u
-#define WINDOW_SURVIVAL_MIN 0.1f
-/* Splits of what was split; what comes after is not split. */
-#define WINDOW_STACK 4u
+#include "weight_window.clh"
 
 /* Classes of light that the lobes met here can ever take, restricted to those the kernels store. */
 inline uint storableClasses(__global const Lobe* lobes, uint count) {
@@ -205,36 +198,6 @@ inline int arrivalCounts(const PhotonPath* path, uint lightClass) {
     return 1;
 #endif
 }
-
-#ifdef LEARNS
-/* Weight window: a photon that is worth more than usual to the image where it is to be scattered is split, one that is worth far less
- * ends by roulette; 0 where it does. `others`: what it was split into beside itself; null: it is not split. */
-inline int passWindow(PhotonPath* path, PhotonPath* others, uint cell, const PhotonWorld* world, RegionCount* count) {
-    if (!(world->params->usualWorth > 0) || cell == QL_NONE) return 1;
-    const float flux = meanFlux(path->flux);
-    const float worth = flux * scatteredImportance(world->tables, cell) / world->params->usualWorth;
-    if (worth < WINDOW_LOWER) {
-        const float survival = max(worth / WINDOW_LOWER, WINDOW_SURVIVAL_MIN);
-        if (rngNext(&path->rng) >= survival) {
-            countChance(count, flux, 0);
-            return 0;
-        }
-        path->flux /= survival;
-        path->referenceFlux /= survival;
-        countChance(count, flux, meanFlux(path->flux));
-    }
-    if (worth > WINDOW_UPPER && others) {
-        const uint splits = (uint)min(worth, (float)WINDOW_SPLITS_MAX);
-        path->flux /= splits;
-        path->referenceFlux /= splits;
-        *others = *path;
-        others->splits = splits - 1;
-        others->arrived = 1;
-        --others->depth; /* they come here once more */
-    }
-    return 1;
-}
-#endif
 
 /* A surface that the path has come to; 0 where it ends. `others` as passWindow has it. */
 inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const PhotonWorld* world, const PhotonSink* sink,

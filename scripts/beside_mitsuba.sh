@@ -4,17 +4,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-bash scripts/setup.sh
-cmake --preset release
-cmake --build --preset release --target quasilux
-
-folder=$PWD/build/mitsuba
-if [[ ! -x $folder/bin/pip ]]; then # a folder without it was left half made
-    # Debian's own Python, whose modules read the images.
-    /usr/bin/python3 -m venv --system-site-packages "$folder" || {
-        echo "beside_mitsuba: /usr/bin/python3 -m venv failed; on Debian install python3-venv" >&2
-        exit 1
-    }
-fi
-"$folder/bin/pip" install --quiet --disable-pip-version-check mitsuba
+source scripts/mitsuba.sh
 "$folder/bin/python3" scripts/beside_mitsuba.py "$@"

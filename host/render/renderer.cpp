@@ -8,6 +8,7 @@
 #include "render/method.h"
 #include "render/pilot.h"
 #include "render/radius.h"
+#include "render/scene_report.h"
 #include "util/process_memory.h"
 
 #include <chrono>
@@ -75,61 +76,6 @@ double meanRadiance(const DeviceScene& flat) {
     return flat.surfaceArea > 0 ? flat.emittedFlux / (std::numbers::pi * flat.surfaceArea) : flat.emittedFlux;
 }
 
-std::string scatteringName(unsigned scattering) {
-    if (scattering == SCATTER_SPECULAR) return "specular";
-    return scattering == SCATTER_QUASI_SPECULAR ? "quasi-specular" : "genuine diffuse";
-}
-
-void describeLobes(const Bsdf& bsdf, const char* side, const std::vector<LobeDescription>& lobes,
-                   const std::vector<LobeDecision>& decisions, SceneReport& report) {
-    for (size_t k = 0; k < lobes.size(); ++k)
-        report.lobes.push_back(
-            {bsdf.id, lobes[k].name + side, scatteringName(decisions[k].scattering), decisions[k].why});
-}
-
-void describeMedia(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings, SceneReport& report) {
-    for (size_t k = 0; k < flat.media.size(); ++k) {
-        SceneReport::MediumRow row;
-        row.medium = scene.media[k].id;
-        row.level = flat.mediumSplit[k].level;
-        row.why = flat.mediumSplit[k].why;
-        row.kernelRadius = settings.radiusScale * flat.media[k].kernelRadius[LIGHT_DIFFUSE];
-        row.kernelHalfHeight = settings.radiusScale * flat.media[k].kernelHalfHeight[LIGHT_DIFFUSE];
-        report.media.push_back(row);
-    }
-}
-
-std::string slotName(unsigned slot) {
-    return slot < LIGHT_CLASSES ? componentName(slot) : "volume " + componentName(slot - LIGHT_CLASSES);
-}
-
-SceneReport describe(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
-    SceneReport report;
-    report.warnings = flat.warnings;
-    report.triangles = flat.triangles;
-    report.spheres = flat.spheres;
-    report.patches = flat.patches;
-    report.borderSegments = flat.borderSegments;
-    report.features = compiledFeatures(flat, settings).names();
-    for (size_t k = 0; k < flat.emitters.emitters.size(); ++k)
-        report.emitters.push_back(
-            {flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type), flat.emitters.power[k]});
-    for (size_t k = 0; k < scene.bsdfs.size(); ++k) {
-        describeLobes(scene.bsdfs[k], "", scene.bsdfs[k].front, flat.split[k].front, report);
-        describeLobes(scene.bsdfs[k], " (behind)", scene.bsdfs[k].back, flat.split[k].back, report);
-    }
-    report.photonsPerPass = photonsPerPass(settings, flat.camera);
-    describeMedia(scene, flat, settings, report);
-    for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
-        if (!(photonClasses(flat.features, settings) >> slot & 1)) continue;
-        report.photonClasses.push_back(slotName(slot));
-        if (slot < LIGHT_CLASSES)
-            report.initialRadius[slotName(slot)] =
-                firstRadius(flat.surfaceArea, settings, report.photonsPerPass) * classRadiusFactor(slot);
-    }
-    return report;
-}
-
 } // namespace
 
 struct Renderer::Stages {
@@ -140,15 +86,14 @@ struct Renderer::Stages {
                   kernelOptions(flat, settings)),
           geometry(device, flat), learned(std::move(known)), learning(learned ? nullptr : followPilots()),
           film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
-          report(describe(scene, flat, settings)) {
+          report(describeScene(scene, flat, settings)) {
         const auto start = Clock::now();
         auto timingsBefore = device.timings();
         if (!learned) learned = learnFromPhotons(scene);
         limitBorders();
         describeLearned(since(start));
-        for (auto& [name, radius] : report.initialRadius)
-            for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
-                if (name == slotName(c)) radius = firstRadiusOf(c);
+        for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+            if (photonClasses(flat.features, settings) >> c & 1) report.initialRadius[slotName(c)] = firstRadiusOf(c);
         auto photon = photonParams(scene, flat, settings);
         photon.usualWorth = static_cast<float>(learned->usualWorth / photon.paths);
         auto path = cameraParams(flat, settings, photon.maxDepth);
@@ -386,35 +331,6 @@ struct Renderer::Stages {
     RenderCounters counters;
     shared::CameraCounters dropped{}; // by the film, so far
 };
-
-RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
-    passes += other.passes;
-    photonsEmitted += other.photonsEmitted;
-    for (const auto& [name, count] : other.photonsStored) photonsStored[name] += count;
-    for (const auto& [name, count] : other.cameraPointsStored) cameraPointsStored[name] += count;
-    storedPoints = std::max(storedPoints, other.storedPoints);
-    storedBytes = std::max(storedBytes, other.storedBytes);
-    cameraPaths += other.cameraPaths;
-    nonFinite += other.nonFinite;
-    cutPaths += other.cutPaths;
-    overflows += other.overflows;
-    clipped += other.clipped;
-    if (other.meterCaustics) meterCaustics = meterCaustics.value_or(0) + *other.meterCaustics;
-    fluxEmitted += other.fluxEmitted;
-    fluxCut += other.fluxCut;
-    if (other.energy) {
-        if (!energy) energy.emplace();
-        *energy += *other.energy;
-    }
-    throughputCut += other.throughputCut;
-    prepareSeconds += other.prepareSeconds;
-    compileSeconds += other.compileSeconds;
-    firstPassSeconds += other.firstPassSeconds;
-    renderSeconds += other.renderSeconds;
-    radiusSeconds += other.radiusSeconds;
-    radiusPaths += other.radiusPaths;
-    return *this;
-}
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
                    std::shared_ptr<const LearnedScene> known) {

@@ -79,9 +79,6 @@ struct RenderCounters {
     double prepareSeconds = 0, compileSeconds = 0, firstPassSeconds = 0, renderSeconds = 0;
     double radiusSeconds = 0; ///< of renderSeconds, for choosing radii by pixel in the first passes, and
     uint64_t radiusPaths = 0; ///< camera paths for it, at the largest radius
-
-    /// Of two renderers together.
-    RenderCounters& operator+=(const RenderCounters& other);
 };
 
 struct Progress {

@@ -1,0 +1,61 @@
+#include "render/scene_report.h"
+
+#include "render/method.h"
+
+namespace quasilux {
+
+namespace {
+
+std::string scatteringName(unsigned scattering) {
+    if (scattering == SCATTER_SPECULAR) return "specular";
+    return scattering == SCATTER_QUASI_SPECULAR ? "quasi-specular" : "genuine diffuse";
+}
+
+void describeLobes(const Bsdf& bsdf, const char* side, const std::vector<LobeDescription>& lobes,
+                   const std::vector<LobeDecision>& decisions, SceneReport& report) {
+    for (size_t k = 0; k < lobes.size(); ++k)
+        report.lobes.push_back(
+            {bsdf.id, lobes[k].name + side, scatteringName(decisions[k].scattering), decisions[k].why});
+}
+
+void describeMedia(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings, SceneReport& report) {
+    for (size_t k = 0; k < flat.media.size(); ++k) {
+        SceneReport::MediumRow row;
+        row.medium = scene.media[k].id;
+        row.level = flat.mediumSplit[k].level;
+        row.why = flat.mediumSplit[k].why;
+        row.kernelRadius = settings.radiusScale * flat.media[k].kernelRadius[LIGHT_DIFFUSE];
+        row.kernelHalfHeight = settings.radiusScale * flat.media[k].kernelHalfHeight[LIGHT_DIFFUSE];
+        report.media.push_back(row);
+    }
+}
+
+} // namespace
+
+std::string slotName(unsigned slot) {
+    return slot < LIGHT_CLASSES ? componentName(slot) : "volume " + componentName(slot - LIGHT_CLASSES);
+}
+
+SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
+    SceneReport report;
+    report.warnings = flat.warnings;
+    report.triangles = flat.triangles;
+    report.spheres = flat.spheres;
+    report.patches = flat.patches;
+    report.borderSegments = flat.borderSegments;
+    report.features = compiledFeatures(flat, settings).names();
+    for (size_t k = 0; k < flat.emitters.emitters.size(); ++k)
+        report.emitters.push_back(
+            {flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type), flat.emitters.power[k]});
+    for (size_t k = 0; k < scene.bsdfs.size(); ++k) {
+        describeLobes(scene.bsdfs[k], "", scene.bsdfs[k].front, flat.split[k].front, report);
+        describeLobes(scene.bsdfs[k], " (behind)", scene.bsdfs[k].back, flat.split[k].back, report);
+    }
+    report.photonsPerPass = photonsPerPass(settings, flat.camera);
+    describeMedia(scene, flat, settings, report);
+    for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
+        if (photonClasses(flat.features, settings) >> slot & 1) report.photonClasses.push_back(slotName(slot));
+    return report;
+}
+
+} // namespace quasilux
