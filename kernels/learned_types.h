@@ -55,12 +55,16 @@ typedef struct {
  * aiming at it. */
 #define IMPORTANCE_WORDS 4
 
+/* Distances from the eye, by powers of two: nearer ones belong to the first, farther ones to the last. */
+#define DISTANCE_OCTAVES 16
+
 /* Hashed cells whose size is a power of two in proportion to the distance from the camera. */
 typedef struct {
     unsigned int cells; /* offset of IMPORTANCE_WORDS for each; QL_NONE: nothing is known */
     unsigned int mask;  /* cells - 1, a power of two - 1; at least half of them are empty */
     Packed3 eye;
     float sizePerDistance, smallestSize;
+    float nearest; /* distance from the eye where the first of DISTANCE_OCTAVES begins */
 } ImportanceGrid;
 
 /* Vertex of a pilot path. */

@@ -63,6 +63,7 @@ typedef struct {
     float fluxCut;                  /* W, mean of R, G, B, of those paths */
     float useful;                   /* while learning: what the path at hand brings to the image */
     float density[LIGHT_CLASSES];   /* while learning: photons by area about what the camera sees, times a constant */
+    float densityByOctave[DISTANCE_OCTAVES]; /* of them all, by distance from the eye */
     unsigned int overflows;         /* sums of splats that left the range of their fixed point (camera map) */
     unsigned int clipped;           /* photons with more flux than packed_flux.clh holds */
     unsigned int meterCaustics;     /* caustic and quasi-caustic photons that were counted at a meter */
@@ -89,10 +90,19 @@ typedef struct {
 #define ESTIMATE_BIAS 0
 #endif
 
+/* Factor on density radii by distance from the eye (kernels/radius_field.clh): factor[k] at nearest * 2^k, linear between. */
+typedef struct {
+    unsigned int octaves; /* 0: radii are the same everywhere */
+    Packed3 eye;
+    float nearest;
+    float factor[DISTANCE_OCTAVES + 1];
+} RadiusField;
+
 /* One indexed map per photon class, all in one cell table and one sorted set of photons (kernels/photon_grid.clh). */
 typedef struct {
     float
-        radius[LIGHT_CLASSES]; /* density radius of this pass on surfaces, before any scale of the pixel = cell size */
+        radius[LIGHT_CLASSES]; /* density radius of this pass on surfaces, before any factor of the place or the pixel */
+    RadiusField field;
     float volumeScale;         /* of this pass's kernels in media to those of pass 0 (Medium) */
     unsigned int media;        /* SceneTables::media */
     unsigned int cellMask;     /* cells of one class - 1, a power of two - 1 */

@@ -242,19 +242,19 @@ TEST(Borders, GridListsAllSegmentsWithinReach) {
         const SurfaceBorders borders = findBorders(scene);
         for (const float reach : {0.02f, 0.3f, 2.0f, 50.0f}) {
             size_t near = 0, nearHalved = 0;
-            const SurfaceBorders::Grid grid = indexBorders(borders, reach);
+            const SurfaceBorders::Grid grid = indexBorders(borders, BorderReach(reach));
             EXPECT_EQ(countMissed(borders, grid, reach, near), 0u) << reach;
             EXPECT_GT(near, 1000u);
             EXPECT_LE(double(grid.cells.x) * grid.cells.y * grid.cells.z, 2e6);
             if (reach == 0.3f) { // negative control: a grid for half the reach misses some
-                EXPECT_GT(countMissed(borders, indexBorders(borders, reach / 2), reach, nearHalved), 0u) << reach;
+                EXPECT_GT(countMissed(borders, indexBorders(borders, BorderReach(reach / 2)), reach, nearHalved), 0u) << reach;
             }
         }
     }
 }
 
 TEST(Borders, EmptyGridIsOneCell) {
-    const SurfaceBorders::Grid grid = indexBorders(SurfaceBorders{}, 1);
+    const SurfaceBorders::Grid grid = indexBorders(SurfaceBorders{}, BorderReach(1));
     EXPECT_EQ(grid.cells, glm::uvec3(1));
     EXPECT_EQ(grid.cellStart, (std::vector<unsigned>{0, 0}));
     EXPECT_TRUE(grid.items.empty());
@@ -265,7 +265,7 @@ TEST(Borders, EmptyGridIsOneCell) {
 
 TEST(Borders, TinyReachKeepsTheGridSmall) {
     const SurfaceBorders borders = findBorders(cornellBox());
-    const SurfaceBorders::Grid grid = indexBorders(borders, 1e-5f);
+    const SurfaceBorders::Grid grid = indexBorders(borders, BorderReach(1e-5f));
     EXPECT_LE(grid.cellStart.size(), 2000001u);
     EXPECT_GT(grid.cellStart.size(), 500000u);
     EXPECT_LT(grid.items.size(), 100000u); // 36 segments of about 130 cells, a few deep
@@ -278,7 +278,7 @@ TEST(Borders, LargeMesh) {
     const auto start = std::chrono::steady_clock::now();
     const SurfaceBorders borders = findBorders(scene);
     const auto found = std::chrono::steady_clock::now();
-    const SurfaceBorders::Grid grid = indexBorders(borders, 0.02f);
+    const SurfaceBorders::Grid grid = indexBorders(borders, BorderReach(0.02f));
     const auto indexed = std::chrono::steady_clock::now();
     std::printf("%zu primitives, %zu segments: found in %.2f s, indexed in %.2f s (%zu items)\n",
                 borders.patchOfPrimitive.size(), borders.segments.size(),

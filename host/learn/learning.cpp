@@ -1,6 +1,7 @@
 #include "learn/learning.h"
 
 #include "learn/direct_choice.h"
+#include "learn/distance_octaves.h"
 #include "learn/importance.h"
 
 #include <algorithm>
@@ -94,12 +95,16 @@ void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std
     const double radius = std::sqrt(scene_.surfaceArea); // of the order of the scene
     const Buffer<uint32_t> keys(device_, size_t(PILOT_VERTICES) * count, "pilot cell keys");
     const Buffer<float> sizes(device_, size_t(PILOT_VERTICES) * count, "pilot cell sizes");
-    learned_.tables.importance = importanceGrid(scene_, count);
-    program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, learned_.tables.importance, count);
+    auto& grid = learned_.tables.importance;
+    grid = importanceGrid(scene_, count);
+    grid.nearest = nearestGathered(paths, weights, grid.eye);
+    const auto gathered = gatheredByOctave(paths, weights, grid);
+    for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].gathered = gathered[o];
+    program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, grid, count);
     const auto aims = findAims(paths, weights, learned_.tables.guide.sources, radius);
     for (const Opening& aim : aims) learned_.tables.aims.push_back(openingSource(QL_NONE, 0, aim));
     learned_.tables.importanceCells =
-        importanceCells(paths, weights, keys.read(), sizes.read(), aims, learned_.tables.importance);
+        importanceCells(paths, weights, keys.read(), sizes.read(), aims, grid);
 }
 
 void Learning::upload() {
@@ -137,6 +142,7 @@ void Learning::followPilots(bool directMayUsePhotons) {
 void Learning::traceRounds(const PhotonRound& round) {
     for (unsigned k = 0; k < photonRounds; ++k) {
         const RoundResult result = round(k);
+        for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].arrived = result.densityByOctave[o];
         guide_.add(result.records);
         learned_.tables.guide = guide_.guide();
         learned_.usualWorth = isHidden(learned_.tables) ? usualWorthOf(result.records) : 0;

@@ -17,10 +17,11 @@ struct SceneBuffers {
     Buffer<uint32_t>& tables;
 };
 
-/// What a round of photons told.
+/// What a round of photons found.
 struct RoundResult {
     std::vector<shared::EmissionRecord> records; ///< what each would bring to the image
     std::array<double, LIGHT_CLASSES> density{}; ///< sum of RegionCount::density over photons / their number
+    std::array<double, DISTANCE_OCTAVES> densityByOctave{}; ///< likewise
 };
 /// Traces photons, numbered as a round, guided by what `scene` has learned so far.
 using PhotonRound = std::function<RoundResult(unsigned round)>;
@@ -31,6 +32,11 @@ struct LearnedScene {
     /// Photons of a class about what the camera sees, by area, for each photon of a pass: the mean over the camera's paths. 0: not
     /// known.
     std::array<double, LIGHT_CLASSES> density{};
+    /// Of all classes together in a distance octave (ImportanceGrid::nearest): `arrived` / `gathered` is the density.
+    struct Octave {
+        double arrived = 0, gathered = 0;
+    };
+    std::array<Octave, DISTANCE_OCTAVES> octaves{};
     /// What a photon of the last round was worth to the image, times the number of photons; 0: photons are worth much the same, or
     /// it is not known.
     double usualWorth = 0;

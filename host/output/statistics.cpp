@@ -169,6 +169,7 @@ json sceneReportJson(const SceneReport& report) {
           {"emittersByPhotons", report.learned.emittersByPhotons},
           {"directSamples", report.learned.directSamples},
           {"weightWindows", report.learned.hasWeightWindows},
+          {"radiusFactors", report.learned.radiusFactors},
           {"seconds", report.learned.seconds}}},
         {"warnings", report.warnings}};
 }

@@ -25,11 +25,14 @@ Box boundsOf(const std::vector<shared::BorderSegment>& segments) {
     return box;
 }
 
-/// Half-width of a cell's neighbourhood: `reach`, and what a point's cell may be off by if computed in floats.
-double safeReach(const Box& box, double reach) {
+/// What a point's cell may be off by if computed in floats.
+double rounding(const Box& box) {
     const glm::dvec3 largest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
-    return 1.001 * reach + 1e-6 * std::max({largest.x, largest.y, largest.z});
+    return 1e-6 * std::max({largest.x, largest.y, largest.z});
 }
+
+/// Half-width of a cell's neighbourhood.
+double safeReach(double reach, double rounding) { return 1.001 * reach + rounding; }
 
 /// Cell size from `reach` up that keeps the number of cells within bounds.
 void chooseCells(const glm::dvec3& extent, double reach, SurfaceBorders::Grid& grid) {
@@ -79,15 +82,15 @@ CellRange cellsAround(const glm::dvec3& a, const glm::dvec3& b, double reach, co
             glm::uvec3(glm::clamp(glm::floor((glm::max(a, b) + reach - lower) / size), glm::dvec3(0.0), last))};
 }
 
-/// Calls visit(cell index) for the cells whose box may lie within `reach` of the segment: both the cell's box widened
-/// by `reach` and the ball about it widened by `reach` must meet the segment. Goes slab by slab along the segment's
+/// Calls visit(cell index) for the cells whose box may lie within `reach` of the segment, or their own of `reachOfCell` where that is
+/// not empty: both the cell's box widened by it and the ball about it widened by it must meet the segment. Goes slab by slab along the segment's
 /// longest axis, so that a long oblique segment does not visit the whole box about it.
 template <typename Visit>
-void forEachCellNear(const shared::BorderSegment& segment, double reach, const SurfaceBorders::Grid& grid,
-                     const Visit& visit) {
+void forEachCellNear(const shared::BorderSegment& segment, double reach, const std::vector<float>& reachOfCell,
+                     const SurfaceBorders::Grid& grid, const Visit& visit) {
     const glm::dvec3 a = point(segment.a), b = point(segment.b), lower(grid.lower), extent = glm::abs(b - a);
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    const double size = grid.cellSize, half = 0.5 * size + reach, ball = 0.5 * std::sqrt(3.0) * size + reach;
+    const double size = grid.cellSize, half = 0.5 * size + reach, halfDiagonal = 0.5 * std::sqrt(3.0) * size;
     const CellRange all = cellsAround(a, b, reach, grid);
     for (unsigned slab = all.from[axis]; slab <= all.to[axis]; ++slab) {
         const double middle = lower[axis] + (slab + 0.5) * size;
@@ -100,34 +103,51 @@ void forEachCellNear(const shared::BorderSegment& segment, double reach, const S
         for (unsigned z = range.from.z; z <= range.to.z; ++z)
             for (unsigned y = range.from.y; y <= range.to.y; ++y)
                 for (unsigned x = range.from.x; x <= range.to.x; ++x) {
+                    const size_t cell = (size_t(z) * grid.cells.y + y) * grid.cells.x + x;
+                    const double own = reachOfCell.empty() ? reach : reachOfCell[cell];
                     const glm::dvec3 center = lower + (glm::dvec3(x, y, z) + 0.5) * size;
-                    if (meetsBox(a, b, center, half) && distanceToSegment(center, a, b) <= ball)
-                        visit((size_t(z) * grid.cells.y + y) * grid.cells.x + x);
+                    if (meetsBox(a, b, center, 0.5 * size + own) && distanceToSegment(center, a, b) <= halfDiagonal + own)
+                        visit(cell);
                 }
     }
 }
 
+/// By cell; empty where it is the same everywhere.
+std::vector<float> reachByCell(const BorderReach& reach, double rounding, const SurfaceBorders::Grid& grid) {
+    std::vector<float> reaches;
+    if (!reach.about) return reaches;
+    const double size = grid.cellSize, halfDiagonal = 0.5 * std::sqrt(3.0) * size;
+    for (unsigned z = 0; z < grid.cells.z; ++z)
+        for (unsigned y = 0; y < grid.cells.y; ++y)
+            for (unsigned x = 0; x < grid.cells.x; ++x) {
+                const glm::dvec3 center = glm::dvec3(grid.lower) + (glm::dvec3(x, y, z) + 0.5) * size;
+                reaches.push_back(static_cast<float>(safeReach(reach.about(center, halfDiagonal + rounding), rounding)));
+            }
+    return reaches;
+}
+
 } // namespace
 
-SurfaceBorders::Grid indexBorders(const SurfaceBorders& borders, float reach) {
+SurfaceBorders::Grid indexBorders(const SurfaceBorders& borders, const BorderReach& reach) {
     SurfaceBorders::Grid grid;
     if (borders.segments.empty()) {
         grid.cellStart.assign(2, 0);
         return grid;
     }
     const Box box = boundsOf(borders.segments);
-    const double safe = safeReach(box, reach);
+    const double safe = safeReach(reach.largest, rounding(box));
     grid.lower = glm::vec3(box.lower - safe);
-    chooseCells(box.upper + safe - glm::dvec3(grid.lower), reach, grid);
+    chooseCells(box.upper + safe - glm::dvec3(grid.lower), std::sqrt(reach.smallest * reach.largest), grid);
+    const std::vector<float> reaches = reachByCell(reach, rounding(box), grid);
 
     grid.cellStart.assign(size_t(grid.cells.x) * grid.cells.y * grid.cells.z + 1, 0);
     for (const shared::BorderSegment& segment : borders.segments)
-        forEachCellNear(segment, safe, grid, [&](size_t cell) { ++grid.cellStart[cell + 1]; });
+        forEachCellNear(segment, safe, reaches, grid, [&](size_t cell) { ++grid.cellStart[cell + 1]; });
     for (size_t cell = 1; cell < grid.cellStart.size(); ++cell) grid.cellStart[cell] += grid.cellStart[cell - 1];
     grid.items.resize(grid.cellStart.back());
     std::vector<unsigned> next(grid.cellStart.begin(), grid.cellStart.end() - 1);
     for (unsigned i = 0; i < borders.segments.size(); ++i)
-        forEachCellNear(borders.segments[i], safe, grid, [&](size_t cell) { grid.items[next[cell]++] = i; });
+        forEachCellNear(borders.segments[i], safe, reaches, grid, [&](size_t cell) { grid.items[next[cell]++] = i; });
     return grid;
 }
 

@@ -4,6 +4,7 @@
 
 #include "scene/scene.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -41,8 +42,16 @@ struct SurfaceBorders {
 /// noisier. A shape of a `null` bsdf is one patch without segments, and cuts nothing. Positions must be finite.
 SurfaceBorders findBorders(const Scene& scene, double creaseAngle = 0.35);
 
-/// Grid for points that look no further than `reach` (> 0, finite, scene units): a point's own cell lists every segment
-/// within `reach` of it, and a point outside the grid has none. At most about 2e6 cells, of at least `reach`.
-SurfaceBorders::Grid indexBorders(const SurfaceBorders& borders, float reach);
+/// How far density estimates look (> 0, finite, scene units).
+struct BorderReach {
+    explicit BorderReach(double reach) : largest(reach), smallest(reach) {}
+    double largest, smallest;
+    /// Of points no farther than `radius` from `center`; empty: `largest` everywhere.
+    std::function<double(const glm::dvec3& center, double radius)> about;
+};
+
+/// Grid for points that look no further than `reach`: a point's own cell lists every segment within reach of it, and a point
+/// outside the grid has none. At most about 2e6 cells, of at least the smallest reach.
+SurfaceBorders::Grid indexBorders(const SurfaceBorders& borders, const BorderReach& reach);
 
 } // namespace quasilux

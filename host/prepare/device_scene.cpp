@@ -73,7 +73,8 @@ std::vector<float> patchRadii(const SurfaceBorders& borders) {
     return radii;
 }
 
-void appendBorders(const SurfaceBorders& borders, float reach, SceneTableWriter& tables, shared::SceneTables& offsets) {
+void appendBorders(const SurfaceBorders& borders, const BorderReach& reach, SceneTableWriter& tables,
+                   shared::SceneTables& offsets) {
     const auto grid = indexBorders(borders, reach);
     offsets.segments = tables.append(borders.segments);
     offsets.borderCells = tables.append(grid.cellStart);
@@ -123,10 +124,10 @@ void setDirectByPhotons(DeviceScene& scene, const std::vector<bool>& byPhotons) 
 
 } // namespace
 
-void setBorderReach(DeviceScene& scene, double reach) {
+void setBorderReach(DeviceScene& scene, const BorderReach& reach) {
     scene.tables.resize(scene.sceneWords);
     SceneTableWriter tables(std::move(scene.tables));
-    appendBorders(scene.borders, static_cast<float>(reach), tables, scene.offsets);
+    appendBorders(scene.borders, reach, tables, scene.offsets);
     scene.tables = tables.words();
     scene.borderWords = scene.tables.size();
 }
@@ -193,7 +194,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.meter.primitives = tables.append(meter.primitives);
     out.tables = tables.words();
     out.sceneWords = out.tables.size();
-    setBorderReach(out, settings.largestRadius(out.surfaceArea));
+    setBorderReach(out, BorderReach(settings.largestRadius(out.surfaceArea)));
     out.camera = flattenCamera(scene.sensor, placement.camera);
     LearnedTables nothing;
     nothing.guide = plainGuide(out.emitters);

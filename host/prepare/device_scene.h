@@ -63,8 +63,8 @@ struct LearnedTables {
     std::vector<uint32_t> importanceCells; ///< none: nothing is known
 };
 void setLearned(DeviceScene& scene, const LearnedTables& learned);
-/// Indexes the borders for density estimates of this radius; what was learned is to be set again.
-void setBorderReach(DeviceScene& scene, double reach);
+/// Indexes the borders for density estimates of these radii; what was learned is to be set again.
+void setBorderReach(DeviceScene& scene, const BorderReach& reach);
 
 /// Pieces of it, each a table.
 std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene);

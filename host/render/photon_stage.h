@@ -35,6 +35,9 @@ public:
     /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more.
     void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
 
+    /// From now on radii are those of `run` times the factors of the field.
+    void useField(const shared::RadiusField& field) { photons_.table().map().field = field; }
+
     /// From now on photons that cross the meter are counted; kernels are compiled with HAS_METER_PHOTONS then.
     void countAt(MeterSums& meter) { meter_ = &meter; }
 

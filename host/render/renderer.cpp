@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "learn/learning.h"
+#include "prepare/pack.h"
 #include "render/camera_map_stage.h"
 #include "render/camera_stage.h"
 #include "render/flux_unit.h"
@@ -8,11 +9,14 @@
 #include "render/method.h"
 #include "render/pilot.h"
 #include "render/radius.h"
+#include "render/radius_field.h"
 #include "render/scene_report.h"
 #include "util/process_memory.h"
 
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -131,13 +135,28 @@ struct Renderer::Stages {
     // Borders are looked up no further than density estimates reach.
     void limitBorders() {
         if (learned->density == decltype(learned->density){}) return;
-        double largest = 0;
+        double largest = 0, usual = largestRadiusByArea();
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
-            if (photonClasses(flat.features, settings) >> c & 1) largest = std::max(largest, firstRadiusOf(c));
-        setBorderReach(flat, largest * (adaptsRadius(flat.features, settings) ? largestAdaptiveRadius : 1));
+            if (photonClasses(flat.features, settings) >> c & 1) {
+                largest = std::max(largest, firstRadiusOf(c));
+                usual = std::min(usual, firstRadiusOf(c));
+            }
+        field = radiusField(*learned, usual, largestRadiusByArea() / usual);
+        setBorderReach(flat, borderReach(largest * (adaptsRadius(flat.features, settings) ? largestAdaptiveRadius : 1)));
         setLearned(flat, learned->tables);
         geometry.tables = {};
         geometry.tables = Buffer<uint32_t>(device, flat.tables, "scene tables");
+    }
+
+    BorderReach borderReach(double radius) const {
+        BorderReach reach(radius * largestFactor(field, 0, std::numeric_limits<double>::infinity()));
+        reach.smallest = radius * smallestFactor(field);
+        if (field.octaves == 0) return reach;
+        reach.about = [this, radius](const glm::dvec3& center, double extent) {
+            const double away = glm::distance(center, unpack(field.eye));
+            return radius * largestFactor(field, std::max(away - extent, 0.0), away + extent);
+        };
+        return reach;
     }
 
     void describeLearned(double seconds) {
@@ -150,6 +169,8 @@ struct Renderer::Stages {
         for (const bool byPhotons : tables.directByPhotons) row.emittersByPhotons += byPhotons;
         row.directSamples = directSamples();
         row.hasWeightWindows = learned->usualWorth > 0;
+        for (unsigned k = 0; field.octaves > 0 && k <= field.octaves; ++k)
+            row.radiusFactors.emplace_back(field.nearest * std::exp2(k), field.factor[k]);
         row.seconds = seconds;
     }
 
@@ -170,9 +191,12 @@ struct Renderer::Stages {
         program.kernel("tracePhotons")
             .launchLong(params.regions, geometry.nodes, geometry.blocks, geometry.tables, records, blocks, regions,
                         params);
-        RoundResult result{records.read(), {}};
-        for (const auto& region : regions.read())
+        RoundResult result{records.read(), {}, {}};
+        for (const auto& region : regions.read()) {
             for (unsigned c = 0; c < LIGHT_CLASSES; ++c) result.density[c] += double(region.density[c]) / params.paths;
+            for (unsigned o = 0; o < DISTANCE_OCTAVES; ++o)
+                result.densityByOctave[o] += double(region.densityByOctave[o]) / params.paths;
+        }
         return result;
     }
 
@@ -187,6 +211,7 @@ struct Renderer::Stages {
         forecast(sizes, sumOf(sizes) - sumOf(planScene(flat, settings)));
         photons.emplace(device, program, geometry, photon, classes, storesDepth(), expected.photons);
         photons->thinVolume(expected.keepProbability);
+        photons->useField(field);
         if (meterCountsPhotons(flat.features, settings)) photons->countAt(meter->counted());
     }
 
@@ -217,6 +242,7 @@ struct Renderer::Stages {
         std::optional<MeterSums> uncounted;
         if (meterCountsPhotons(flat.features, settings))
             stage.countAt(uncounted.emplace(device, classes, film.pixels(), meanRadiance(flat)));
+        stage.useField(field);
         const PhotonPassCount counted = stage.run(pilotPass, radii(0), volumeScale(0));
         stage.compile();
         if (compilesCamera && camera) camera->compile(stage);
@@ -236,10 +262,11 @@ struct Renderer::Stages {
 
     float volumeScale(unsigned pass) const { return static_cast<float>(settings.radiusScale * volumeShrink(pass)); }
 
+    double largestRadiusByArea() const { return firstRadius(flat.surfaceArea, settings, report.photonsPerPass); }
+
     // As photons lie about what the camera sees, where that is known.
     double firstRadiusOf(unsigned lightClass) const {
-        const double byArea =
-            firstRadius(flat.surfaceArea, settings, report.photonsPerPass) * classRadiusFactor(lightClass);
+        const double byArea = largestRadiusByArea() * classRadiusFactor(lightClass);
         double all = 0;
         for (const double ofClass : learned->density) all += ofClass;
         if (!(all > 0)) return byArea;
@@ -321,6 +348,7 @@ struct Renderer::Stages {
     GeometryBuffers geometry;
     std::shared_ptr<const LearnedScene> learned;
     std::unique_ptr<Learning> learning; // while it goes on
+    shared::RadiusField field{};
     Film film;
     std::optional<PhotonStage> photons;     // this and one of the next two, or
     std::optional<AdaptiveRadius> adaptive; // where the camera stage has it

@@ -53,6 +53,7 @@ struct SceneReport {
         size_t leaves = 0, openings = 0, aims = 0, emittersByPhotons = 0;
         unsigned directSamples = 1;
         bool hasWeightWindows = false;
+        std::vector<std::pair<double, double>> radiusFactors; ///< at these distances from the eye; empty: 1
         double seconds = 0;
     } learned;
     std::vector<std::string> warnings; ///< DeviceScene::warnings
