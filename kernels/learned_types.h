@@ -14,9 +14,10 @@ namespace quasilux::shared {
 /* Numbers that make a photon: which part of the emitter, two for the place, two for the direction. */
 #define EMISSION_DIMENSIONS 5
 
-/* Coordinates of an emitter's rays. Those of an emitter that shines from outside which come through an opening (a rectangle, in any
- * direction) may have coordinates of their own: place = centre + a axisU + b axisV, |a| < halfU, |b| < halfV. halfU = 0: the
- * emitter's own coordinates. A ray belongs to the first of its emitter's sources that holds it. */
+/* Coordinates of an emitter's rays. Those which come through an opening (a rectangle) may have coordinates of their own: place =
+ * centre + a axisU + b axisV, |a| < halfU, |b| < halfV, instead of the place on an emitter that shines from outside, or instead of
+ * the direction of one in the scene. halfU = 0: the emitter's own coordinates. A ray belongs to the first of its emitter's sources
+ * that holds it. */
 typedef struct {
     unsigned int emitter;
     unsigned int first;           /* source of the emitter */

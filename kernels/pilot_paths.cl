@@ -309,7 +309,7 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
     for (uint k = 0; k < sourceCount && point.source == QL_NONE; ++k) {
         if (sources[k].emitter != record.emitter) continue;
         const float3 position = load3(record.position), direction = load3(record.direction);
-        if (!holdsRay(sources + k, position, direction)) continue;
+        if (!holdsRay(sources + k, emitters + record.emitter, position, direction)) continue;
         const EmissionNumbers u = invertSource(emitters + record.emitter, triangles, sources + k, record.element,
                                                position, direction, (float3)(rngNext(&rng), spare));
         point.source = k;

@@ -17,11 +17,10 @@ constexpr double plainShare = 0.1;
 constexpr double leastGain = 1.5;
 constexpr size_t fewestRecords = 64;
 constexpr size_t mostOpenings = 16; // of an emitter
+// Of emitters in the scene: openings are theirs together, and each has those that so many of its records come through.
+constexpr size_t mostSharedOpenings = 4, fewestThroughOpening = 8;
 // A record counts at most this many times the median: a single rare one opens a box, but does not take all photons.
 constexpr double heaviest = 200;
-bool isDistant(const shared::Emitter& emitter) {
-    return emitter.type == EMITTER_CONSTANT || emitter.type == EMITTER_DIRECTIONAL;
-}
 
 // An emitter's openings, and it itself for all other rays.
 void addSources(unsigned index, const std::vector<Opening>& openings, std::vector<shared::GuideSource>& sources) {
@@ -71,6 +70,33 @@ void GuideLearner::findMoreOpenings(unsigned emitter, const std::vector<UsefulRa
         known.push_back(opening);
 }
 
+void GuideLearner::findSharedOpenings(const std::vector<std::vector<UsefulRay>>& rays) {
+    std::vector<UsefulRay> all;
+    for (size_t e = 0; e < rays.size(); ++e)
+        if (!isDistant(emitters_.emitters[e])) all.insert(all.end(), rays[e].begin(), rays[e].end());
+    if (all.size() < fewestRecords) return;
+    double radius = 0; // of the order of the scene
+    for (const auto& ray : all) radius = std::max(radius, glm::distance(ray.position, all.front().position));
+    for (const Opening& opening : findOpenings(all, radius, shared_, mostSharedOpenings - shared_.size()))
+        shared_.push_back(opening);
+    for (size_t e = 0; e < rays.size(); ++e) {
+        if (isDistant(emitters_.emitters[e])) continue;
+        openings_[e].clear();
+        for (const Opening& opening : shared_) {
+            const auto through =
+                std::count_if(rays[e].begin(), rays[e].end(), [&](const auto& ray) { return opening.holds(ray); });
+            if (static_cast<size_t>(through) >= fewestThroughOpening) openings_[e].push_back(opening);
+        }
+    }
+}
+
+std::vector<Opening> GuideLearner::openingsFromOutside() const {
+    std::vector<Opening> all;
+    for (size_t e = 0; e < openings_.size(); ++e)
+        if (isDistant(emitters_.emitters[e])) all.insert(all.end(), openings_[e].begin(), openings_[e].end());
+    return all;
+}
+
 GuideTables GuideLearner::guide() {
     openings_.resize(emitters_.emitters.size());
     std::vector<shared::EmissionRecord> records;
@@ -79,15 +105,16 @@ GuideTables GuideLearner::guide() {
     double all = 0;
     for (const auto& record : records) {
         all += record.weight;
-        if (isDistant(emitters_.emitters[record.emitter]))
-            rays[record.emitter].push_back({unpack(record.position), unpack(record.direction), record.weight});
+        rays[record.emitter].push_back({unpack(record.position), unpack(record.direction), record.weight,
+                                        !isDistant(emitters_.emitters[record.emitter])});
     }
     if (!(all > 0)) return plainGuide(emitters_);
 
+    findSharedOpenings(rays);
     std::vector<shared::GuideSource> sources;
     for (unsigned e = 0; e < emitters_.emitters.size(); ++e)
         if (emitters_.emitters[e].selectionProbability > 0) {
-            findMoreOpenings(e, rays[e]);
+            if (isDistant(emitters_.emitters[e])) findMoreOpenings(e, rays[e]);
             addSources(e, openings_[e], sources);
         }
     const auto points = invert_(records, sources);

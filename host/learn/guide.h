@@ -25,6 +25,8 @@ public:
     void add(const std::vector<shared::EmissionRecord>& records);
     /// The guide that all rounds so far tell.
     GuideTables guide();
+    /// Of emitters that shine from outside, as far as known.
+    std::vector<Opening> openingsFromOutside() const;
 
 private:
     std::vector<SourceBox> boxesOf(const std::vector<shared::GuideSource>& sources,
@@ -32,8 +34,10 @@ private:
                                    const std::vector<double>& weights) const;
 
     void findMoreOpenings(unsigned emitter, const std::vector<UsefulRay>& rays);
+    void findSharedOpenings(const std::vector<std::vector<UsefulRay>>& rays);
 
     std::vector<std::vector<Opening>> openings_; ///< by emitter: those found once stay
+    std::vector<Opening> shared_;                ///< of emitters in the scene
     size_t photonsOfRound_ = 0;                  ///< the last one's
     const EmitterTables& emitters_;
     Invert invert_;

@@ -110,7 +110,7 @@ shared::ImportanceGrid importanceGrid(const DeviceScene& scene, unsigned paths) 
 }
 
 std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
-                              const std::vector<shared::GuideSource>& sources, double radius) {
+                              const std::vector<Opening>& fromOutside, double radius) {
     std::vector<UsefulRay> rays;
     double all = 0;
     for (size_t k = 0; k < paths.size(); ++k)
@@ -119,16 +119,11 @@ std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const
                 rays.push_back(*ray);
                 all += ray->weight;
             }
-    std::vector<Opening> candidates;
-    for (const auto& source : sources)
-        if (source.halfU > 0)
-            candidates.push_back(
-                {unpack(source.centre), unpack(source.axisU), unpack(source.axisV), source.halfU, source.halfV});
-    const size_t fromOutside = candidates.size();
+    std::vector<Opening> candidates = fromOutside;
     for (const Opening& found : findOpenings(rays, radius, candidates, mostAims)) candidates.push_back(found);
     std::vector<Opening> aims;
     for (size_t k = 0; k < candidates.size() && aims.size() < mostAims; ++k) {
-        if (gainOfAim(candidates[k], rays) < all * (k < fromOutside ? leastAimGain : leastFoundGain)) continue;
+        if (gainOfAim(candidates[k], rays) < all * (k < fromOutside.size() ? leastAimGain : leastFoundGain)) continue;
         aims.push_back(candidates[k]);
         std::erase_if(rays, [&](const UsefulRay& ray) { return isAimed(candidates[k], ray); });
     }

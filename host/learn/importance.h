@@ -22,6 +22,6 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& path
 /// Openings that light should come through which is scattered far from what the camera sees: those that light from outside comes
 /// through, and what the paths tell beside them.
 std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
-                              const std::vector<shared::GuideSource>& sources, double radius);
+                              const std::vector<Opening>& fromOutside, double radius);
 
 } // namespace quasilux

@@ -101,7 +101,7 @@ void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std
     const auto gathered = gatheredByOctave(paths, weights, grid);
     for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].gathered = gathered[o];
     program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, grid, count);
-    const auto aims = findAims(paths, weights, learned_.tables.guide.sources, radius);
+    const auto aims = findAims(paths, weights, guide_.openingsFromOutside(), radius);
     for (const Opening& aim : aims) learned_.tables.aims.push_back(openingSource(QL_NONE, 0, aim));
     learned_.tables.importanceCells =
         importanceCells(paths, weights, keys.read(), sizes.read(), aims, grid);

@@ -1,6 +1,7 @@
 #include "prepare/guide_tables.h"
 
 #include "prepare/device_scene.h"
+#include "prepare/pack.h"
 #include "scene/color.h"
 
 #include <cmath>
@@ -16,11 +17,20 @@ double fluxOf(const EmitterTables& emitters, const shared::GuideSource& source) 
     const double power = emitters.power[source.emitter];
     if (!(source.halfU > 0)) return power;
     const auto& emitter = emitters.emitters[source.emitter];
+    const double area = 4 * source.halfU * source.halfV;
+    if (!isDistant(emitter)) { // about: as if it lay in one point and faced the opening
+        const glm::dvec3 offset = unpack(source.centre) - unpack(emitter.origin);
+        return power * area / (area + std::numbers::pi * glm::dot(offset, offset));
+    }
     const double solidAngle = emitter.type == EMITTER_DIRECTIONAL ? 1 : 4 * std::numbers::pi;
-    return mean(emitter.radiance) * solidAngle * 4 * source.halfU * source.halfV;
+    return mean(emitter.radiance) * solidAngle * area;
 }
 
 } // namespace
+
+bool isDistant(const shared::Emitter& emitter) {
+    return emitter.type == EMITTER_CONSTANT || emitter.type == EMITTER_DIRECTIONAL;
+}
 
 double GuideBox::volume() const {
     return std::accumulate(size.begin(), size.end(), 1.0, [](double product, double s) { return product * s; });

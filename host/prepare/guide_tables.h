@@ -36,6 +36,9 @@ struct SourceBox {
 GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::GuideSource> sources,
                             const std::vector<SourceBox>& boxes);
 
+/// Shines into the scene from outside.
+bool isDistant(const shared::Emitter& emitter);
+
 /// An emitter in its own coordinates; `first`: its first source.
 shared::GuideSource plainSource(unsigned emitter, unsigned first);
 

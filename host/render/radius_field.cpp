@@ -71,7 +71,6 @@ shared::RadiusField radiusField(const LearnedScene& learned, double radius, doub
     if (!(grid.sizePerDistance > 0) || !(densityOf(sum(learned.octaves.data(), learned.octaves.data() + DISTANCE_OCTAVES)) > 0))
         return field;
     const OctaveRadii radii = octaveRadii(learned, radius, largest);
-    fprintf(stderr,"DBG nearest %g radius %g largest %g first %u\n",grid.nearest,radius,largest,radii.first); for(auto&o:learned.octaves) fprintf(stderr,"  %g %g -> %g\n",o.arrived,o.gathered,densityOf(o)); for(double f:radii.factors) fprintf(stderr,"  f %g\n",f);
     const auto [least, most] = std::minmax_element(radii.factors.begin(), radii.factors.end());
     if (radii.factors.size() < 2 || *most < even * *least) return field;
     field.octaves = static_cast<unsigned>(radii.factors.size());
