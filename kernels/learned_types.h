@@ -55,6 +55,9 @@ typedef struct {
  * brings in all; and where light that is scattered there matters, as (1 + number of the opening) << 16 | probability * 65535 of
  * aiming at it. */
 #define IMPORTANCE_WORDS 4
+/* Instead of an aim: too few pilots came to tell where scattered light matters; the coarse cell does. */
+#define IMPORTANCE_UNKNOWN 0xffffffffu
+#define IMPORTANCE_COARSE 8.0f /* size of a coarse cell to that of a fine one */
 
 /* Distances from the eye, by powers of two: nearer ones belong to the first, farther ones to the last. */
 #define DISTANCE_OCTAVES 16

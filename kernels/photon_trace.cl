@@ -233,7 +233,7 @@ inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const Phot
 #ifdef LEARNS
     const uint cell =
         world->params->usualWorth > 0 || scene->learned.aimCount > 0
-            ? importanceCell(world->tables, &scene->learned.importance, s.position, importanceFace(s.geometricNormal))
+            ? scatteringCell(world->tables, &scene->learned.importance, s.position, importanceFace(s.geometricNormal))
             : QL_NONE;
     if (!delivered && !passWindow(path, others, cell, world, count)) return 0;
     const Aim aim = aimFrom(world->tables, scene, cell);

@@ -322,7 +322,7 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
     points[index] = point;
 }
 
-/* Learning, step 3: the key of the importance grid's cell that each vertex lies in, and the cell's size. */
+/* Learning, step 3: the keys of the importance grid's cells that each vertex lies in, fine and coarse, and the fine one's size. */
 __kernel void findImportanceCells(__global const PilotPath* paths, __global uint* keys, __global float* sizes,
                                   const ImportanceGrid grid, const uint count) {
     const uint index = get_global_id(0);
@@ -330,7 +330,9 @@ __kernel void findImportanceCells(__global const PilotPath* paths, __global uint
     for (uint k = 0; k < PILOT_VERTICES; ++k) {
         const PilotVertex vertex = paths[index].vertices[k];
         const float3 position = load3(vertex.position);
-        keys[index * PILOT_VERTICES + k] = vertex.weight > 0 ? importanceKey(&grid, position, vertex.face) : 0;
-        sizes[index * PILOT_VERTICES + k] = vertex.weight > 0 ? importanceCellSize(&grid, position) : 1;
+        const uint place = index * PILOT_VERTICES + k;
+        keys[2 * place] = vertex.weight > 0 ? importanceKey(&grid, position, vertex.face, 1) : 0;
+        keys[2 * place + 1] = vertex.weight > 0 ? importanceKey(&grid, position, vertex.face, IMPORTANCE_COARSE) : 0;
+        sizes[place] = vertex.weight > 0 ? importanceCellSize(&grid, position) : 1;
     }
 }

@@ -15,6 +15,8 @@ namespace quasilux {
 namespace {
 
 constexpr double verticesOfCell = 128; // of those that the camera sees, about
+// A fine cell with fewer of those that light is scattered at leaves them to the coarse one.
+constexpr unsigned fewestScattering = 8;
 
 constexpr size_t mostAims = 8;
 constexpr double surestAim = 0.9; // probability of aiming where all that matters comes through one opening
@@ -27,6 +29,8 @@ double length(const shared::Packed3& v) { return glm::length(unpack(v)); }
 
 struct Cell {
     double gathered = 0, all = 0;
+    bool isCoarse = false;
+    unsigned scattering = 0;          // vertices
     double scattered = 0;             // weight of light that is scattered from here
     std::map<size_t, double> through; // of it by the opening that it should come through
 };
@@ -141,10 +145,19 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& path
             const size_t at = k * PILOT_VERTICES + v;
             if (!(vertex.weight > 0) || !std::isfinite(vertex.weight)) continue;
             const double value = pathWeights[k] * vertex.weight / (double(sizes[at]) * sizes[at]);
-            Cell& cell = cells[keys[at]];
-            if (v == 0) cell.gathered += value;
-            cell.all += value;
-            if (v > 0 && !aims.empty()) noteAim(paths[k], v, aims, cell);
+            Cell& fine = cells[keys[2 * at]];
+            fine.all += value;
+            if (v == 0) {
+                fine.gathered += value;
+                continue;
+            }
+            Cell& coarse = cells[keys[2 * at + 1]];
+            coarse.isCoarse = true;
+            coarse.all += value / (double(IMPORTANCE_COARSE) * IMPORTANCE_COARSE);
+            for (Cell* cell : {&fine, &coarse}) {
+                ++cell->scattering;
+                if (!aims.empty()) noteAim(paths[k], v, aims, *cell);
+            }
         }
     const size_t count = std::bit_ceil(2 * cells.size() + 1);
     grid.mask = static_cast<unsigned>(count - 1);
@@ -155,7 +168,8 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& path
         table[IMPORTANCE_WORDS * at] = key;
         table[IMPORTANCE_WORDS * at + 1] = std::bit_cast<uint32_t>(static_cast<float>(cell.gathered));
         table[IMPORTANCE_WORDS * at + 2] = std::bit_cast<uint32_t>(static_cast<float>(cell.all));
-        table[IMPORTANCE_WORDS * at + 3] = aimWord(cell);
+        const bool isKnown = cell.isCoarse || cell.scattering >= fewestScattering;
+        table[IMPORTANCE_WORDS * at + 3] = isKnown ? aimWord(cell) : IMPORTANCE_UNKNOWN;
     }
     return table;
 }

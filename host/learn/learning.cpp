@@ -93,7 +93,7 @@ void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std
                               const std::vector<double>& weights) {
     const auto count = static_cast<unsigned>(paths.size());
     const double radius = std::sqrt(scene_.surfaceArea); // of the order of the scene
-    const Buffer<uint32_t> keys(device_, size_t(PILOT_VERTICES) * count, "pilot cell keys");
+    const Buffer<uint32_t> keys(device_, 2 * size_t(PILOT_VERTICES) * count, "pilot cell keys");
     const Buffer<float> sizes(device_, size_t(PILOT_VERTICES) * count, "pilot cell sizes");
     auto& grid = learned_.tables.importance;
     grid = importanceGrid(scene_, count);
