@@ -23,6 +23,7 @@ typedef struct {
     unsigned int first;           /* source of the emitter */
     Packed3 centre, axisU, axisV; /* axes orthonormal */
     float halfU, halfV;
+    unsigned int faces; /* 1: a square that faces each place its rays begin at; axes are left out */
 } GuideSource;
 
 /* A box of emission numbers in which photons are uniform. The leaves of all sources together hold each ray exactly once. */

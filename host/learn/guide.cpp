@@ -44,6 +44,7 @@ shared::GuideSource openingSource(unsigned emitter, unsigned first, const Openin
     source.axisV = pack(opening.axisV);
     source.halfU = static_cast<float>(opening.halfU);
     source.halfV = static_cast<float>(opening.halfV);
+    source.faces = opening.faces;
     return source;
 }
 

@@ -21,6 +21,7 @@ constexpr double widestBall = 0.01;       // chance of passing it above which li
 constexpr double mostCopies = 4;          // of a ray in a sample: a single one is no opening
 constexpr int refinements = 4;            // of the best place
 constexpr double margin = 1.25;           // of an opening's region to what its rays come through
+constexpr double muchNarrower = 0.5;      // flux of a rectangle to that of a square that faces its rays
 constexpr double outliers = 0.01;         // share of the weight on either side that bounds leave out
 constexpr int turns = 16;                 // of axes in a quarter
 constexpr int normals = 48;               // tried on a hemisphere, beside the world's axes
@@ -191,8 +192,19 @@ std::vector<glm::dvec3> candidateNormals() {
     return all;
 }
 
+// The square about `centre`, facing them, that all but outliers of the rays pass.
+Opening facingOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
+    std::vector<double> distances;
+    for (const auto& ray : rays) distances.push_back(distance(ray, centre));
+    const auto last = distances.begin() + static_cast<std::ptrdiff_t>((1 - outliers) * (double(distances.size()) - 1));
+    std::nth_element(distances.begin(), last, distances.end());
+    Opening opening{centre, {1, 0, 0}, {0, 1, 0}, *last, *last};
+    opening.faces = true;
+    return opening;
+}
+
 // The rectangle that the rays have least flux through, were they as bright everywhere.
-Opening fitOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
+Opening fitRectangle(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
     Opening best;
     double least = std::numeric_limits<double>::infinity();
     const auto consider = [&](const glm::dvec3& normal, double turn, double advantage) {
@@ -210,9 +222,20 @@ Opening fitOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre)
     return best;
 }
 
+// Rays that are scattered towards a region, not through a plane opening, come from all sides: no rectangle is much narrower then.
+Opening fitOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
+    const Opening rectangle = fitRectangle(rays, centre);
+    if (!rays.front().isScattered) return rectangle;
+    const Opening facing = facingOpening(rays, centre);
+    const double flux =
+        rectangle.halfU * rectangle.halfV * meanCosine(rays, glm::cross(rectangle.axisU, rectangle.axisV));
+    return flux < muchNarrower * facing.halfU * facing.halfV ? rectangle : facing;
+}
+
 } // namespace
 
 bool Opening::holds(const UsefulRay& ray) const {
+    if (faces) return distance(ray, centre) <= halfU && glm::dot(centre - ray.position, ray.direction) > 0;
     const auto place = placeOnPlane(ray, centre, glm::cross(axisU, axisV));
     return place && std::abs(glm::dot(*place, axisU)) <= halfU && std::abs(glm::dot(*place, axisV)) <= halfV;
 }

@@ -15,10 +15,11 @@ struct UsefulRay {
         false; ///< begins at `position`, where its light is scattered into all directions; or else comes from outside
 };
 
-/// A rectangle.
+/// A rectangle, or a square that faces every place where rays begin.
 struct Opening {
     glm::dvec3 centre{}, axisU{1, 0, 0}, axisV{0, 1, 0}; ///< axes orthonormal
     double halfU = 0, halfV = 0;
+    bool faces = false; ///< axes are left out then
 
     bool holds(const UsefulRay& ray) const;
 };
