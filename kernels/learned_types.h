@@ -90,8 +90,9 @@ typedef struct {
 
 /* ---- which emitters direct light is sampled from (kernels/light_choice.clh) ---- */
 
-/* Of a block of pixels, LIGHT_CHOICES of them; the one with emitter QL_NONE is the last: all emitters, by power. */
-#define LIGHT_CHOICES 16
+/* Of a block of pixels, LIGHT_CHOICES of them. The first one stands for all emitters, by power; its `emitter` is the number of those
+ * that follow. */
+#define LIGHT_CHOICES 64
 typedef struct {
     unsigned int emitter;
     float probability;

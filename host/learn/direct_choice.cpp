@@ -10,7 +10,7 @@ namespace quasilux {
 namespace {
 
 constexpr double findsOfBlock = 256;  // paths that a block of pixels is to have
-constexpr double byPowerAlone = 0.05; // probability that an emitter is chosen by power whatever was seen
+constexpr double byPowerAlone = 0.05; // least probability that an emitter is chosen by power
 // Relative variance of a sample above which photons are the better estimate: they leave far less, but blur.
 constexpr double mostVariance = 1;
 
@@ -87,14 +87,16 @@ std::vector<shared::LightChoice> listOf(const Block& seen, const EmitterTables& 
             strengths.emplace_back(std::sqrt(values.squares * emitters.emitters[emitter].selectionProbability),
                                    emitter);
     std::sort(strengths.rbegin(), strengths.rend());
-    if (strengths.size() > LIGHT_CHOICES - 1) strengths.resize(LIGHT_CHOICES - 1);
-    double all = 0;
+    double all = 0, listed = 0;
     for (const auto& [strength, emitter] : strengths) all += strength;
+    if (strengths.size() > LIGHT_CHOICES - 1) strengths.resize(LIGHT_CHOICES - 1);
+    for (const auto& [strength, emitter] : strengths) listed += strength;
+    const double byPower = all > 0 ? std::max(byPowerAlone, 1 - listed / all) : 1;
     std::vector<shared::LightChoice> list;
     list.reserve(LIGHT_CHOICES);
+    list.push_back({static_cast<unsigned>(strengths.size()), static_cast<float>(byPower)});
     for (const auto& [strength, emitter] : strengths)
-        list.push_back({emitter, static_cast<float>((1 - byPowerAlone) * strength / all)});
-    list.push_back({QL_NONE, strengths.empty() ? 1.f : static_cast<float>(byPowerAlone)});
+        list.push_back({emitter, static_cast<float>((1 - byPower) * strength / listed)});
     list.resize(LIGHT_CHOICES, {QL_NONE, 0});
     return list;
 }
