@@ -19,6 +19,7 @@ constexpr size_t fewestRecords = 64;
 constexpr size_t mostOpenings = 16; // of an emitter
 // Of emitters in the scene: openings are theirs together, and each has those that so many of its records come through.
 constexpr size_t mostSharedOpenings = 4, fewestThroughOpening = 8;
+constexpr double leastSharedGain = 0.3;
 // A record counts at most this many times the median: a single rare one opens a box, but does not take all photons.
 constexpr double heaviest = 200;
 
@@ -78,7 +79,7 @@ void GuideLearner::findSharedOpenings(const std::vector<std::vector<UsefulRay>>&
     if (all.size() < fewestRecords) return;
     double radius = 0; // of the order of the scene
     for (const auto& ray : all) radius = std::max(radius, glm::distance(ray.position, all.front().position));
-    for (const Opening& opening : findOpenings(all, radius, shared_, mostSharedOpenings - shared_.size()))
+    for (const Opening& opening : findOpenings(all, radius, shared_, mostSharedOpenings - shared_.size(), leastSharedGain))
         shared_.push_back(opening);
     for (size_t e = 0; e < rays.size(); ++e) {
         if (isDistant(emitters_.emitters[e])) continue;

@@ -16,7 +16,6 @@ namespace {
 constexpr size_t raysLookedAt = 600;
 constexpr size_t candidates = 150;        // places that are tried for an opening's centre
 constexpr size_t fewestRays = 32;         // about a place that may be one
-constexpr double leastOpeningGain = 0.05; // of all rays' log likelihood, that an opening must bring
 constexpr double widestBall = 0.01;       // chance of passing it above which little is to be gained by aiming
 constexpr double mostCopies = 4;          // of a ray in a sample: a single one is no opening
 constexpr int refinements = 4;            // of the best place
@@ -241,7 +240,7 @@ bool Opening::holds(const UsefulRay& ray) const {
 }
 
 std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, const std::vector<Opening>& known,
-                                  size_t most) {
+                                  size_t most, double leastGain) {
     std::vector<Opening> openings;
     const double all = weightOf(rays);
     for (const Opening& opening : known) std::erase_if(rays, [&](const UsefulRay& ray) { return opening.holds(ray); });
@@ -250,7 +249,7 @@ std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, co
         if (some.size() < fewestRays) break;                        // a few of them have all the weight
         const double share = weightOf(some) * all / weightOf(rays); // of the weight of all rays that `some` stand for
         const Ball ball = bestBall(some, share, radius);
-        if (ball.gain < leastOpeningGain) break;
+        if (ball.gain < leastGain) break;
         std::vector<UsefulRay> near;
         for (const auto& ray : some)
             if (distance(ray, ball.centre) <= ball.radius) near.push_back(ray);

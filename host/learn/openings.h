@@ -26,8 +26,8 @@ struct Opening {
 
 /// At most `most`, the one first by which the rays' log likelihood grows most, were every second one aimed at it: before, rays from
 /// outside are spread evenly over a sphere of this `radius`, scattered ones over all directions. The same for the same rays.
-/// What comes through `known` ones is left out.
+/// What comes through `known` ones is left out, and openings that bring less than `leastGain` of the likelihood.
 std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, const std::vector<Opening>& known,
-                                  size_t most);
+                                  size_t most, double leastGain = 0.05);
 
 } // namespace quasilux
