@@ -60,14 +60,14 @@ typedef struct {
     unsigned int firstBlock, lastBlock; /* of its photons, where it has any */
     unsigned int cutPaths;              /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
-    float fluxCut;                  /* W, mean of R, G, B, of those paths */
-    float useful;                   /* while learning: what the path at hand brings to the image */
-    float density[LIGHT_CLASSES];   /* while learning: photons by area about what the camera sees, times a constant */
+    float fluxCut;                /* W, mean of R, G, B, of those paths */
+    float useful;                 /* while learning: what the path at hand brings to the image */
+    float density[LIGHT_CLASSES]; /* while learning: photons by area about what the camera sees, times a constant */
     float densityByOctave[DISTANCE_OCTAVES]; /* of them all, by distance from the eye */
-    unsigned int overflows;         /* sums of splats that left the range of their fixed point (camera map) */
-    unsigned int clipped;           /* photons with more flux than packed_flux.clh holds */
-    unsigned int meterCaustics;     /* caustic and quasi-caustic photons that were counted at a meter */
-    float energy[6], energyRest[6]; /* W, by ENERGY_*: unevaluated sums; 0 without ENERGY_BALANCE */
+    unsigned int overflows;                  /* sums of splats that left the range of their fixed point (camera map) */
+    unsigned int clipped;                    /* photons with more flux than packed_flux.clh holds */
+    unsigned int meterCaustics;              /* caustic and quasi-caustic photons that were counted at a meter */
+    float energy[6], energyRest[6];          /* W, by ENERGY_*: unevaluated sums; 0 without ENERGY_BALANCE */
 } RegionCount;
 
 typedef struct {
@@ -100,13 +100,13 @@ typedef struct {
 
 /* One indexed map per photon class, all in one cell table and one sorted set of photons (kernels/photon_grid.clh). */
 typedef struct {
-    float
-        radius[LIGHT_CLASSES]; /* density radius of this pass on surfaces, before any factor of the place or the pixel */
+    float radius
+        [LIGHT_CLASSES]; /* density radius of this pass on surfaces, before any factor of the place or the pixel */
     RadiusField field;
-    float volumeScale;         /* of this pass's kernels in media to those of pass 0 (Medium) */
-    unsigned int media;        /* SceneTables::media */
-    unsigned int cellMask;     /* cells of one class - 1, a power of two - 1 */
-    unsigned int chunks;       /* stable counting sort: each chunk counts and scatters in order */
+    float volumeScale;     /* of this pass's kernels in media to those of pass 0 (Medium) */
+    unsigned int media;    /* SceneTables::media */
+    unsigned int cellMask; /* cells of one class - 1, a power of two - 1 */
+    unsigned int chunks;   /* stable counting sort: each chunk counts and scatters in order */
     unsigned int regions;
     unsigned int regionCapacity; /* of camera points */
     unsigned int photonStride;   /* of the sorted arrays: records from one field to the next */

@@ -147,10 +147,13 @@ TEST(AutoImage, IsThatOfTheSettingsChosen) {
     settings.photonsPerPass = 2000;
     settings.seed = 5;
     StopRule stop;
-    stop.seconds = 6;
-    const std::atomic<bool> interrupted = false;
+    stop.seconds = 200; // time enough to try others, however long kernels take to compile; the render is then cut short
+    std::atomic<bool> interrupted = false;
+    const auto onProgress = [&](const Progress& progress) {
+        interrupted = progress.phase != "pilot passes" && progress.passes >= 8;
+    };
     const AutoRender render = renderAuto(device, scene, settings, std::make_unique<Renderer>(device, scene, settings),
-                                         {true, false, false, true, true}, stop, nullptr, nullptr, interrupted);
+                                         {true, false, false, true, true}, stop, onProgress, nullptr, interrupted);
     EXPECT_GT(render.search.rows.size(), 1u) << "nothing was tried";
     EXPECT_EQ(render.settings.seed, 5u);
     const auto alone = [&](uint64_t seed) {

@@ -209,14 +209,17 @@ double distanceToSegment(const dvec3& p, const shared::BorderSegment& s) {
 
 /// Points near the segments for which the grid does not list a segment within `reach`; the cell is found as a kernel
 /// would.
-size_t countMissed(const SurfaceBorders& borders, const SurfaceBorders::Grid& grid, float reach, size_t& near) {
+size_t countMissed(const SurfaceBorders& borders, const SurfaceBorders::Grid& grid,
+                   const std::function<double(const glm::dvec3&)>& reachAt, size_t& near) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> uniform(-1, 1), share(0, 1);
     size_t missed = 0;
     for (int trial = 0; trial < 5000; ++trial) {
         const auto& s = borders.segments[random() % borders.segments.size()];
-        const glm::vec3 p = glm::vec3(glm::mix(point(s.a), point(s.b), share(random))) +
-                            1.5f * reach * glm::vec3(uniform(random), uniform(random), uniform(random));
+        const glm::dvec3 about = glm::mix(point(s.a), point(s.b), share(random));
+        const glm::vec3 p = glm::vec3(about) + 1.5f * static_cast<float>(reachAt(about)) *
+                                                   glm::vec3(uniform(random), uniform(random), uniform(random));
+        const double reach = reachAt(p);
         std::set<unsigned> listed;
         const glm::vec3 cell = glm::floor((p - grid.lower) / grid.cellSize);
         if (glm::all(glm::greaterThanEqual(cell, glm::vec3(0))) &&
@@ -233,6 +236,29 @@ size_t countMissed(const SurfaceBorders& borders, const SurfaceBorders::Grid& gr
     return missed;
 }
 
+size_t countMissed(const SurfaceBorders& borders, const SurfaceBorders::Grid& grid, float reach, size_t& near) {
+    return countMissed(
+        borders, grid, [reach](const glm::dvec3&) { return reach; }, near);
+}
+
+// Density radii grow with the distance from an eye; control: what the cell's extent adds is left out, and half of the rest.
+TEST(Borders, GridListsAllSegmentsWithinAReachThatGrows) {
+    Scene scene = cornellBox();
+    addSphere(scene, {2, 0.3, 2}, 1);
+    const SurfaceBorders borders = findBorders(scene);
+    const auto reachAt = [](const glm::dvec3& p) { return 0.01 + 0.2 * glm::distance(p, {2, 0, 2}); };
+    BorderReach reach(3);
+    reach.smallest = 0.01;
+    reach.about = [&](const glm::dvec3& center, double radius) { return reachAt(center) + 0.2 * radius; };
+    size_t near = 0;
+    const auto grid = indexBorders(borders, reach);
+    EXPECT_EQ(countMissed(borders, grid, reachAt, near), 0u);
+    EXPECT_GT(near, 1000u);
+    EXPECT_LT(grid.items.size(), indexBorders(borders, BorderReach(3)).items.size()) << "nothing is gained";
+    reach.about = [&](const glm::dvec3& center, double) { return reachAt(center) / 2; };
+    EXPECT_GT(countMissed(borders, indexBorders(borders, reach), reachAt, near), 0u) << "negative control";
+}
+
 TEST(Borders, GridListsAllSegmentsWithinReach) {
     for (const double offset : {0.0, 1e4}) {
         Scene scene = cornellBox();
@@ -247,7 +273,8 @@ TEST(Borders, GridListsAllSegmentsWithinReach) {
             EXPECT_GT(near, 1000u);
             EXPECT_LE(double(grid.cells.x) * grid.cells.y * grid.cells.z, 2e6);
             if (reach == 0.3f) { // negative control: a grid for half the reach misses some
-                EXPECT_GT(countMissed(borders, indexBorders(borders, BorderReach(reach / 2)), reach, nearHalved), 0u) << reach;
+                EXPECT_GT(countMissed(borders, indexBorders(borders, BorderReach(reach / 2)), reach, nearHalved), 0u)
+                    << reach;
             }
         }
     }

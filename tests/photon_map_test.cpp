@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <glm/glm.hpp>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <random>
@@ -189,19 +190,23 @@ std::string testKernel(const std::string& file) {
 
 struct GatherSettings {
     unsigned lightClass = LIGHT_DIFFUSE, patchSide = 0, depthMax = QL_NONE;
-    bool joinsRuns = true; ///< false: the negative control, where photons in cells that rows share are met twice
+    bool joinsRuns = true;   ///< false: the negative control, where photons in cells that rows share are met twice
+    bool bothOctaves = true; ///< false: that where cells of the second octave are left out
 };
+
+void replaceAll(std::string& text, const std::string& from, const std::string& to) {
+    EXPECT_NE(text.find(from), std::string::npos) << "the negative control must follow density.clh";
+    for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
 
 std::vector<Sum> gather(const PhotonIndex& index, const std::vector<Query>& queries,
                         const PhotonIndexSettings& settings, const GatherSettings& what = {}) {
     std::map<std::string, std::string> files{{"photon_gather.cl", testKernel("photon_gather.cl")}};
-    if (!what.joinsRuns) {
-        std::string text = kernelSources().at("density.clh");
-        const std::string check = "    joinRuns(runs);";
-        EXPECT_NE(text.find(check), std::string::npos) << "the negative control must follow density.clh";
-        if (const size_t place = text.find(check); place != std::string::npos) text.erase(place, check.size());
-        files["density.clh"] = text;
-    }
+    std::string text = kernelSources().at("density.clh");
+    if (!what.joinsRuns) replaceAll(text, "    joinRuns(runs);", "");
+    if (!what.bothOctaves) replaceAll(text, "octave <= octaves.y", "octave == octaves.x");
+    if (!what.joinsRuns || !what.bothOctaves) files["density.clh"] = text;
     Program program(testDevice(), "photon_gather.cl", photonIndexOptions(settings), files);
     Buffer<Query> queryBuffer(testDevice(), queries, "queries");
     Buffer<Sum> sums(testDevice(), queries.size(), "sums");
@@ -259,7 +264,7 @@ TEST(PhotonSearch, SumsAreThoseOfAllPhotons) {
                 const auto photons = awkwardPhotons(6007, center, 0.25f, {LIGHT_DIFFUSE, LIGHT_CAUSTIC});
                 const PhotonIndex index = indexPhotons(photons, settings);
                 for (const unsigned lightClass : {LIGHT_CAUSTIC, LIGHT_DIFFUSE}) {
-                    const GatherSettings what{lightClass, 2, QL_NONE, true};
+                    const GatherSettings what{lightClass, 2};
                     const auto queries = queriesAbout(photons, 200, settings.radius[lightClass] * share);
                     const auto sums = gather(index, queries, settings, what);
                     unsigned crowded = 0;
@@ -281,7 +286,7 @@ unsigned faultsOfSingles(const PhotonIndexSettings& settings, unsigned& singles,
     auto photons = awkwardPhotons(4001, 0, 0.25f, {LIGHT_DIFFUSE});
     for (Photon& photon : photons) photon.patchSide = 0;
     const auto queries = queriesAbout(photons, 400, settings.radius[LIGHT_DIFFUSE]);
-    const GatherSettings what{LIGHT_DIFFUSE, 0, QL_NONE, joinsRuns};
+    const GatherSettings what{LIGHT_DIFFUSE, 0, QL_NONE, joinsRuns, true};
     unsigned faults = 0;
     for (unsigned lit = 0; lit < 12; ++lit) {
         for (size_t k = 0; k < photons.size(); ++k) {
@@ -315,6 +320,77 @@ TEST(PhotonSearch, RowsThatShareCellsFailWithoutTheCheck) {
     settings.radius[LIGHT_DIFFUSE] = 0.25f;
     settings.cells = 8;
     EXPECT_GT(faultsOfSingles(settings, singles, false), 100u);
+}
+
+// ---- cells by distance (kernels/radius_field.clh) ----
+
+constexpr unsigned octaves = 6;
+
+shared::RadiusField fieldAboutEye() {
+    const float factors[octaves + 1] = {0.1f, 0.15f, 0.3f, 0.6f, 0.7f, 0.5f, 1};
+    shared::RadiusField field{octaves, {0.5f, -1, 2}, 1, {}};
+    std::copy(std::begin(factors), std::end(factors), field.factor);
+    return field;
+}
+
+// Of the cells that a distance lies in.
+float cellFactor(const shared::RadiusField& field, double distance) {
+    const double octave =
+        std::clamp(std::floor(std::log2(std::max(distance, 1e-9) / field.nearest)), 0.0, octaves - 1.0);
+    return std::max(field.factor[size_t(octave)], field.factor[size_t(octave) + 1]);
+}
+
+/// As many at every distance from a tenth of the nearest to twice the farthest octave, a dozen in each place.
+std::vector<Photon> photonsAboutEye(const shared::RadiusField& field, float radius) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    std::vector<Photon> photons;
+    for (unsigned id = 0; id < 12000; ++id) {
+        static glm::vec3 place;
+        static float distance;
+        if (id % 12 == 0) {
+            distance = 0.1f * std::exp2(5.2f * (1 + uniform(random)));
+            place = distance * glm::normalize(glm::vec3(uniform(random), uniform(random), uniform(random)));
+        }
+        const float r = radius * cellFactor(field, distance);
+        const auto at = [&](float middle, float eye) { return middle + eye + r * uniform(random); };
+        photons.push_back(
+            photonAt(at(place.x, field.eye.x), at(place.y, field.eye.y), at(place.z, field.eye.z), LIGHT_DIFFUSE, id));
+        photons.back().patchSide = 0;
+    }
+    return photons;
+}
+
+/// Searches with the largest radii that are allowed; returns how many answers are wrong, `lit` how many photons were met.
+unsigned faultsAboutEye(bool bothOctaves, size_t& lit) {
+    PhotonIndexSettings settings = settingsOfFlux();
+    settings.field = fieldAboutEye();
+    settings.radius[LIGHT_DIFFUSE] = 2;
+    const auto photons = photonsAboutEye(settings.field, settings.radius[LIGHT_DIFFUSE]);
+    auto queries = queriesAbout(photons, 2000, 0.1f);
+    for (Query& query : queries) {
+        const auto& eye = settings.field.eye;
+        const float away = std::hypot(query.x - eye.x, query.y - eye.y, query.z - eye.z);
+        query.radius = std::min(0.33f * std::max(away, 1.5f), 2 * cellFactor(settings.field, away));
+        for (const float sign : {-1.f, 1.f})
+            query.radius = std::min(query.radius, 2 * cellFactor(settings.field, away + sign * 1.01f * query.radius));
+    }
+    const GatherSettings what{LIGHT_DIFFUSE, 0, QL_NONE, true, bothOctaves};
+    const auto sums = gather(indexPhotons(photons, settings), queries, settings, what);
+    unsigned faults = 0;
+    for (size_t k = 0; k < queries.size(); ++k) {
+        const ExactSum exact = searchAll(photons, queries[k], what);
+        lit += exact.lit;
+        faults += std::abs(sums[k].b - exact.b) > relative * exact.b + each * exact.lit;
+    }
+    return faults;
+}
+
+TEST(PhotonSearch, FindsPhotonsInCellsOfTwoOctaves) {
+    size_t lit = 0;
+    EXPECT_EQ(faultsAboutEye(true, lit), 0u);
+    EXPECT_GT(lit, 10'000u);
+    EXPECT_GT(faultsAboutEye(false, lit), 50u) << "negative control";
 }
 
 TEST(PhotonSearch, EndsExactlyAtTheRadius) {

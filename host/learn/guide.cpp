@@ -79,7 +79,8 @@ void GuideLearner::findSharedOpenings(const std::vector<std::vector<UsefulRay>>&
     if (all.size() < fewestRecords) return;
     double radius = 0; // of the order of the scene
     for (const auto& ray : all) radius = std::max(radius, glm::distance(ray.position, all.front().position));
-    for (const Opening& opening : findOpenings(all, radius, shared_, mostSharedOpenings - shared_.size(), leastSharedGain))
+    for (const Opening& opening :
+         findOpenings(all, radius, shared_, mostSharedOpenings - shared_.size(), leastSharedGain))
         shared_.push_back(opening);
     for (size_t e = 0; e < rays.size(); ++e) {
         if (isDistant(emitters_.emitters[e])) continue;

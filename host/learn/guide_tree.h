@@ -25,7 +25,7 @@ struct GuideLeafBox {
 
 struct GuideTreeSettings {
     size_t leaves = 2048; ///< at most
-    /// Share of a box's probability that its halves get by volume, not by weight, at every cut: what no sample told stays
+    /// Share of a box's probability that its halves get by volume, not by weight, at every cut: what no sample showed stays
     /// possible, and near what is known its weight stays moderate.
     double smoothing = 0.05;
 };

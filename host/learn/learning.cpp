@@ -103,8 +103,7 @@ void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std
     program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, grid, count);
     const auto aims = findAims(paths, weights, guide_.openingsFromOutside(), radius);
     for (const Opening& aim : aims) learned_.tables.aims.push_back(openingSource(QL_NONE, 0, aim));
-    learned_.tables.importanceCells =
-        importanceCells(paths, weights, keys.read(), sizes.read(), aims, grid);
+    learned_.tables.importanceCells = importanceCells(paths, weights, keys.read(), sizes.read(), aims, grid);
 }
 
 void Learning::upload() {

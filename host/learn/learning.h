@@ -19,8 +19,8 @@ struct SceneBuffers {
 
 /// What a round of photons found.
 struct RoundResult {
-    std::vector<shared::EmissionRecord> records; ///< what each would bring to the image
-    std::array<double, LIGHT_CLASSES> density{}; ///< sum of RegionCount::density over photons / their number
+    std::vector<shared::EmissionRecord> records;            ///< what each would bring to the image
+    std::array<double, LIGHT_CLASSES> density{};            ///< sum of RegionCount::density over photons / their number
     std::array<double, DISTANCE_OCTAVES> densityByOctave{}; ///< likewise
 };
 /// Traces photons, numbered as a round, guided by what `scene` has learned so far.

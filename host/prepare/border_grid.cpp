@@ -106,7 +106,8 @@ void forEachCellNear(const shared::BorderSegment& segment, double reach, const s
                     const size_t cell = (size_t(z) * grid.cells.y + y) * grid.cells.x + x;
                     const double own = reachOfCell.empty() ? reach : reachOfCell[cell];
                     const glm::dvec3 center = lower + (glm::dvec3(x, y, z) + 0.5) * size;
-                    if (meetsBox(a, b, center, 0.5 * size + own) && distanceToSegment(center, a, b) <= halfDiagonal + own)
+                    if (meetsBox(a, b, center, 0.5 * size + own) &&
+                        distanceToSegment(center, a, b) <= halfDiagonal + own)
                         visit(cell);
                 }
     }
@@ -121,7 +122,8 @@ std::vector<float> reachByCell(const BorderReach& reach, double rounding, const 
         for (unsigned y = 0; y < grid.cells.y; ++y)
             for (unsigned x = 0; x < grid.cells.x; ++x) {
                 const glm::dvec3 center = glm::dvec3(grid.lower) + (glm::dvec3(x, y, z) + 0.5) * size;
-                reaches.push_back(static_cast<float>(safeReach(reach.about(center, halfDiagonal + rounding), rounding)));
+                reaches.push_back(
+                    static_cast<float>(safeReach(reach.about(center, halfDiagonal + rounding), rounding)));
             }
     return reaches;
 }

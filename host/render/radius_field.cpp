@@ -1,6 +1,5 @@
 #include "render/radius_field.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -56,7 +55,7 @@ OctaveRadii octaveRadii(const LearnedScene& learned, double radius, double large
     if (first > 0) radii.factors.push_back(factorOf(sum(begin, begin + first)));
     for (unsigned k = first; k < last; ++k) radii.factors.push_back(factorOf(begin[k]));
     if (first > 0) --radii.first; // its end is where the octave before begins
-    double before = 0; // where nothing is known of an octave, that of the one before
+    double before = 0;            // where nothing is known of an octave, that of the one before
     for (double& factor : radii.factors) before = factor = factor > 0 ? factor : before;
     for (size_t k = radii.factors.size(); k-- > 1;)
         if (!(radii.factors[k - 1] > 0)) radii.factors[k - 1] = radii.factors[k];
@@ -68,7 +67,8 @@ OctaveRadii octaveRadii(const LearnedScene& learned, double radius, double large
 shared::RadiusField radiusField(const LearnedScene& learned, double radius, double largest) {
     shared::RadiusField field{};
     const auto& grid = learned.tables.importance;
-    if (!(grid.sizePerDistance > 0) || !(densityOf(sum(learned.octaves.data(), learned.octaves.data() + DISTANCE_OCTAVES)) > 0))
+    if (!(grid.sizePerDistance > 0) ||
+        !(densityOf(sum(learned.octaves.data(), learned.octaves.data() + DISTANCE_OCTAVES)) > 0))
         return field;
     const OctaveRadii radii = octaveRadii(learned, radius, largest);
     const auto [least, most] = std::minmax_element(radii.factors.begin(), radii.factors.end());

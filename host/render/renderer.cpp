@@ -142,7 +142,8 @@ struct Renderer::Stages {
                 usual = std::min(usual, firstRadiusOf(c));
             }
         field = radiusField(*learned, usual, largestRadiusByArea() / usual);
-        setBorderReach(flat, borderReach(largest * (adaptsRadius(flat.features, settings) ? largestAdaptiveRadius : 1)));
+        setBorderReach(flat,
+                       borderReach(largest * (adaptsRadius(flat.features, settings) ? largestAdaptiveRadius : 1)));
         setLearned(flat, learned->tables);
         geometry.tables = {};
         geometry.tables = Buffer<uint32_t>(device, flat.tables, "scene tables");

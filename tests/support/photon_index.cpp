@@ -26,8 +26,8 @@ std::vector<size_t> regionEnds(size_t photons, unsigned regions) {
 } // namespace
 
 std::string photonIndexOptions(const PhotonIndexSettings& settings) {
-    return fmt::format("-DHAS_LOBE_LAMBERT -DBVH_STACK_SIZE=32 -DPHOTON_CLASSES={}u{}", settings.classes,
-                       settings.storesDepth ? " -DHAS_DEPTH_LIMIT" : "");
+    return fmt::format("-DHAS_LOBE_LAMBERT -DBVH_STACK_SIZE=32 -DPHOTON_CLASSES={}u{}{}", settings.classes,
+                       settings.storesDepth ? " -DHAS_DEPTH_LIMIT" : "", settings.field.octaves > 0 ? " -DLEARNS" : "");
 }
 
 PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonIndexSettings& settings) {
@@ -36,6 +36,7 @@ PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonI
     index.photons = photons.size();
     shared::MapParams& map = index.map;
     std::copy(settings.radius.begin(), settings.radius.end(), map.radius);
+    map.field = settings.field;
     map.cellMask = settings.cells - 1;
     map.chunks = settings.chunks;
     map.scanBlocks = settings.scanBlocks;

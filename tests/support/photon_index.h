@@ -17,6 +17,7 @@ struct PhotonIndexSettings {
     unsigned regions = 7; ///< they hold unequal numbers of photons, some none
     bool storesDepth = false;
     float fluxUnit = 1; ///< shared::MapParams::fluxUnit
+    shared::RadiusField field{};
 };
 
 struct PhotonIndex {
