@@ -100,8 +100,7 @@ typedef struct {
 
 /* One indexed map per photon class, all in one cell table and one sorted set of photons (kernels/photon_grid.clh). */
 typedef struct {
-    float radius
-        [LIGHT_CLASSES]; /* density radius of this pass on surfaces, before any factor of the place or the pixel */
+    float radius[LIGHT_CLASSES]; /* of density on surfaces, before any factor of the place or the pixel */
     RadiusField field;
     float volumeScale;     /* of this pass's kernels in media to those of pass 0 (Medium) */
     unsigned int media;    /* SceneTables::media */
