@@ -56,7 +56,7 @@ inline LobeSample aimedSample(const Surface* s, __global const Lobe* lobes, uint
     const float own = pdfSolidAngleCosineHemisphere(sample.wi.z);
     if (!(own > 0)) return sample;
     sample.pdfSolidAngle = (1 - q) * own + q * aimPdfSolidAngle(aim, openings, s->position, toWorld(frame, sample.wi));
-    *aimed = own / sample.pdfSolidAngle;
+    *aimed = PHOTON_RULE == 6 ? 1 : own / sample.pdfSolidAngle;
     sample.weight = tintedLambert(s, lobes, k) * (M_PI_F * *aimed);
     sample.valid = 1;
     return sample;

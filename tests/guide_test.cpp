@@ -220,8 +220,12 @@ TEST(GuidedMean, ARoomOfAFurnaceIsAsBrightAsItsSky) {
     const MeanAndError right = renderRoom(PhotonRule::right);
     EXPECT_NEAR(right.mean, 1, 4 * right.standardError + 0.005);
     EXPECT_LT(right.standardError, 0.01) << "too noisy to tell anything";
-    const MeanAndError wrong = renderRoom(PhotonRule::missingGuideWeight);
-    EXPECT_GT(std::abs(wrong.mean - 1), 4 * wrong.standardError + 0.005) << "negative control";
+    for (const PhotonRule rule :
+         {PhotonRule::missingGuideWeight, PhotonRule::missingAimWeight, PhotonRule::missingSplitWeight}) {
+        const MeanAndError wrong = renderRoom(rule);
+        EXPECT_GT(std::abs(wrong.mean - 1), 4 * wrong.standardError + 0.005)
+            << "negative control " << static_cast<int>(rule);
+    }
 }
 
 } // namespace

@@ -194,6 +194,7 @@ std::vector<glm::dvec3> candidateNormals() {
 // The square about `centre`, facing them, that all but outliers of the rays pass.
 Opening facingOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
     std::vector<double> distances;
+    distances.reserve(rays.size());
     for (const auto& ray : rays) distances.push_back(distance(ray, centre));
     const auto last = distances.begin() + static_cast<std::ptrdiff_t>((1 - outliers) * (double(distances.size()) - 1));
     std::nth_element(distances.begin(), last, distances.end());
