@@ -25,8 +25,8 @@ enum class MediumRule { right, missingSigmaT, missingEtaSquared, wrongSignOfG };
 
 /// The right tracing of photons, or a known mistake, as negative controls of tests: flux that escapes is not counted in the
 /// energy balance; scattering multiplies flux by 1.02; shading normals are taken for the geometry's where photons scatter,
-/// or where they are stored; guided photons do not carry the weight of their leaf, aimed ones not that of their direction, split ones
-/// not that of their share.
+/// or where they are stored; guided photons do not carry the weight of their leaf, aimed ones not that of their direction; those into
+/// which one is split are worth nearly four times their share.
 enum class PhotonRule {
     right,
     escapeNotCounted,
