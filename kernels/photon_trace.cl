@@ -1,7 +1,6 @@
 /* Stage 1 of a pass: trace photons from the emitters and store them by class.
  * From: emitters. To: photons in blocks, chained in an order that is the region's own (so the result does not depend on scheduling).
  * With MAP_CAMERA it is stage 3 and stores nothing: photons are splatted to camera points. To: sums of splats. */
-#include "aim.clh"
 #include "emitter.clh"
 #include "energy_balance.clh"
 #include "guide.clh"
@@ -10,8 +9,8 @@
 #include "law.clh"
 #include "photon_medium.clh"
 #include "photon_path.clh"
+#include "photon_scatter.clh"
 #include "photon_walk.clh"
-#include "scatter.clh"
 #include "splat_sums.clh"
 #include "weight_window.clh"
 
@@ -22,17 +21,6 @@ inline uint storableClasses(__global const Lobe* lobes, uint count) {
     return classes & PHOTON_CLASSES;
 }
 
-/* Flux reflected by a shading normal that disagrees with the geometry (Veach 1997, eq. 5.19):
- * |wo.ns| |wi.ng| / (|wo.ng| |wi.ns|), where wo points to the light side that the photon came from. */
-inline float shadingNormalCorrection(const Surface* s, float3 wo, float3 wi) {
-#if defined(HAS_CORNER_NORMALS) && PHOTON_RULE != 3
-    const float denominator = dot(wo, s->geometricNormal) * dot(wi, s->shadingNormal);
-    return denominator == 0 ? 0.f : fabs(dot(wo, s->shadingNormal) * dot(wi, s->geometricNormal) / denominator);
-#else
-    return 1.f;
-#endif
-}
-
 /* Factor on flux that is stored: photons arrive in proportion to |wi.ng|, and light is reflected in proportion to
  * |wi.ns|, none of it from below the horizon of the shading normal. */
 inline float shadingNormalArrival(const Surface* s) {
@@ -41,68 +29,6 @@ inline float shadingNormalArrival(const Surface* s) {
 #else
     return 1.f;
 #endif
-}
-
-#ifdef LEARNS
-/* tintedSample of a Lambert lobe by the mixture of its own directions and `aim`. */
-inline LobeSample aimedSample(const Surface* s, __global const Lobe* lobes, uint k, const Frame* frame, const Aim* aim,
-                              __global const GuideSource* openings, float uChoice, float2 u, float* aimed) {
-    const float q = aim->probability;
-    LobeSample sample = lobeSampleNone();
-    if (uChoice < q)
-        sample.wi = toLocal(frame, sampleAim(aim, openings, s->position, uChoice / q, u));
-    else
-        sample.wi = sampleCosineHemisphere(u);
-    const float own = pdfSolidAngleCosineHemisphere(sample.wi.z);
-    if (!(own > 0)) return sample;
-    sample.pdfSolidAngle = (1 - q) * own + q * aimPdfSolidAngle(aim, openings, s->position, toWorld(frame, sample.wi));
-    *aimed = PHOTON_RULE == 6 ? 1 : own / sample.pdfSolidAngle;
-    sample.weight = tintedLambert(s, lobes, k) * (M_PI_F * *aimed);
-    sample.valid = 1;
-    return sample;
-}
-#endif
-
-/* Scatters the photon with one lobe; 0 where it ends. *scattered is the flux that all lobes reflect in expectation. */
-inline int scatterPhoton(PhotonPath* path, const Surface* s, __global const Lobe* lobes, __global const Shape* shape,
-                         const Aim* aim, __global const GuideSource* openings, float3 u, float* scattered) {
-    const Frame frame = frameFromNormal(s->shadingNormal);
-    const float3 wo = toLocal(&frame, -path->direction);
-    LobeChoice choice;
-    *scattered = 0;
-    for (uint k = 0; k < s->lobeCount; ++k) {
-        const float3 flux = path->flux * tintedAlbedo(s, lobes, k, wo);
-        choice.probability[k] = maxComponent(flux) / path->referenceFlux;
-#ifdef ENERGY_BALANCE
-        *scattered += meanFlux(flux);
-#endif
-    }
-    choiceFromStrengths(&choice, s->lobeCount, PHOTON_ROULETTE_THRESHOLD);
-    float rest;
-    const uint k = chooseLobe(&choice, s->lobeCount, u.x, &rest);
-    if (k == s->lobeCount) return 0;
-    LobeSample sample;
-    float aimed = 1; /* density of the lobe's own direction / density of the mixture */
-#ifdef LEARNS
-    if (lobes[k].type == LOBE_LAMBERT && aim->count > 0)
-        sample = aimedSample(s, lobes, k, &frame, aim, openings, rest, u.yz, &aimed);
-    else
-#endif
-        sample = tintedSample(s, lobes, k, wo, rest, u.yz, TRANSPORT_FLUX);
-    if (!sample.valid) return 0;
-    const float3 wi = toWorld(&frame, sample.wi);
-    if (!sameSides(s, wi, sample.wi.z)) return 0;
-    path->referenceFlux *= min(aimed, 1.0f); /* or else roulette would undo it */
-    path->flux *= sample.weight * (shadingNormalCorrection(s, -path->direction, wi) / choice.probability[k]);
-    if (PHOTON_RULE == 2) path->flux *= 1.02f;
-    path->events |= lobes[k].scattering;
-    path->direction = wi;
-    const Ray ray = leavingRay(s, wi);
-    path->origin = ray.origin;
-#ifdef HAS_MEDIA
-    if (sample.wi.z < 0) path->medium = mediumBeyond(shape, !s->front, path->medium);
-#endif
-    return 1;
 }
 
 /* Shows the meter a segment of the path that ends after `length`: at a surface, at a collision, or never. */

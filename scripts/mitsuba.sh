@@ -1,12 +1,8 @@
 #!/usr/bin/env bash
 # Sourced by scripts that compare with Mitsuba 3: builds quasilux and puts Mitsuba, from PyPI, below build/; $folder/bin/python3 then
 # has both.
-bash scripts/setup.sh
 # Dr.Jit's kernels need LLVM 17 or later: older ones end with "Cannot select: fminimum".
-if ! ldconfig -p | grep -q 'libLLVM\.so\.19'; then
-    echo "mitsuba: installs libllvm19, with which Mitsuba compiles its kernels"
-    apt-get install --yes --no-install-recommends libllvm19 >/dev/null
-fi
+bash scripts/setup.sh libllvm19
 DRJIT_LIBLLVM_PATH=$(ldconfig -p | sed -nE 's/.*libLLVM\.so\.19.* => (.*)/\1/p' | head -n 1)
 export DRJIT_LIBLLVM_PATH
 cmake --preset release

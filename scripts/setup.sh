@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what quasilux needs on Debian 12, all of it from Debian's packages. Needs root or sudo; does nothing where
-# everything is there already.
+# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [PACKAGE...].
+# Needs root or sudo; does nothing where everything is there already.
 set -euo pipefail
 
 compiler=(g++ cmake ninja-build pkg-config)
@@ -8,7 +8,7 @@ opencl=(pocl-opencl-icd ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers)
 libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-dev nlohmann-json3-dev libfmt-dev)
 tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools oclgrind)
 reports=(python3 python3-numpy python3-openimageio python3-matplotlib)
-packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}" "${tests[@]}" "${reports[@]}")
+packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}" "${tests[@]}" "${reports[@]}" "$@")
 
 missing=()
 for package in "${packages[@]}"; do

@@ -26,7 +26,7 @@ Box boundsOf(const std::vector<shared::BorderSegment>& segments) {
 }
 
 /// What a point's cell may be off by if computed in floats.
-double rounding(const Box& box) {
+double coordinateRounding(const Box& box) {
     const glm::dvec3 largest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
     return 1e-6 * std::max({largest.x, largest.y, largest.z});
 }
@@ -82,6 +82,12 @@ CellRange cellsAround(const glm::dvec3& a, const glm::dvec3& b, double reach, co
             glm::uvec3(glm::clamp(glm::floor((glm::max(a, b) + reach - lower) / size), glm::dvec3(0.0), last))};
 }
 
+glm::dvec3 cellCenter(const SurfaceBorders::Grid& grid, unsigned x, unsigned y, unsigned z) {
+    return glm::dvec3(grid.lower) + (glm::dvec3(x, y, z) + 0.5) * double(grid.cellSize);
+}
+
+double halfDiagonal(const SurfaceBorders::Grid& grid) { return 0.5 * std::sqrt(3.0) * grid.cellSize; }
+
 /// Calls visit(cell index) for the cells whose box may lie within `reach` of the segment, or their own of `reachOfCell` where that is
 /// not empty: both the cell's box widened by it and the ball about it widened by it must meet the segment. Goes slab by slab along the segment's
 /// longest axis, so that a long oblique segment does not visit the whole box about it.
@@ -90,7 +96,7 @@ void forEachCellNear(const shared::BorderSegment& segment, double reach, const s
                      const SurfaceBorders::Grid& grid, const Visit& visit) {
     const glm::dvec3 a = point(segment.a), b = point(segment.b), lower(grid.lower), extent = glm::abs(b - a);
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    const double size = grid.cellSize, half = 0.5 * size + reach, halfDiagonal = 0.5 * std::sqrt(3.0) * size;
+    const double size = grid.cellSize, half = 0.5 * size + reach;
     const CellRange all = cellsAround(a, b, reach, grid);
     for (unsigned slab = all.from[axis]; slab <= all.to[axis]; ++slab) {
         const double middle = lower[axis] + (slab + 0.5) * size;
@@ -105,9 +111,9 @@ void forEachCellNear(const shared::BorderSegment& segment, double reach, const s
                 for (unsigned x = range.from.x; x <= range.to.x; ++x) {
                     const size_t cell = (size_t(z) * grid.cells.y + y) * grid.cells.x + x;
                     const double own = reachOfCell.empty() ? reach : reachOfCell[cell];
-                    const glm::dvec3 center = lower + (glm::dvec3(x, y, z) + 0.5) * size;
+                    const glm::dvec3 center = cellCenter(grid, x, y, z);
                     if (meetsBox(a, b, center, 0.5 * size + own) &&
-                        distanceToSegment(center, a, b) <= halfDiagonal + own)
+                        distanceToSegment(center, a, b) <= halfDiagonal(grid) + own)
                         visit(cell);
                 }
     }
@@ -117,13 +123,11 @@ void forEachCellNear(const shared::BorderSegment& segment, double reach, const s
 std::vector<float> reachByCell(const BorderReach& reach, double rounding, const SurfaceBorders::Grid& grid) {
     std::vector<float> reaches;
     if (!reach.about) return reaches;
-    const double size = grid.cellSize, halfDiagonal = 0.5 * std::sqrt(3.0) * size;
     for (unsigned z = 0; z < grid.cells.z; ++z)
         for (unsigned y = 0; y < grid.cells.y; ++y)
             for (unsigned x = 0; x < grid.cells.x; ++x) {
-                const glm::dvec3 center = glm::dvec3(grid.lower) + (glm::dvec3(x, y, z) + 0.5) * size;
-                reaches.push_back(
-                    static_cast<float>(safeReach(reach.about(center, halfDiagonal + rounding), rounding)));
+                const double about = reach.about(cellCenter(grid, x, y, z), halfDiagonal(grid) + rounding);
+                reaches.push_back(static_cast<float>(safeReach(about, rounding)));
             }
     return reaches;
 }
@@ -137,10 +141,10 @@ SurfaceBorders::Grid indexBorders(const SurfaceBorders& borders, const BorderRea
         return grid;
     }
     const Box box = boundsOf(borders.segments);
-    const double safe = safeReach(reach.largest, rounding(box));
+    const double rounding = coordinateRounding(box), safe = safeReach(reach.largest, rounding);
     grid.lower = glm::vec3(box.lower - safe);
     chooseCells(box.upper + safe - glm::dvec3(grid.lower), std::sqrt(reach.smallest * reach.largest), grid);
-    const std::vector<float> reaches = reachByCell(reach, rounding(box), grid);
+    const std::vector<float> reaches = reachByCell(reach, rounding, grid);
 
     grid.cellStart.assign(size_t(grid.cells.x) * grid.cells.y * grid.cells.z + 1, 0);
     for (const shared::BorderSegment& segment : borders.segments)

@@ -1,5 +1,7 @@
 #include "render/radius_field.h"
 
+#include "prepare/pack.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -62,14 +64,29 @@ OctaveRadii octaveRadii(const LearnedScene& learned, double radius, double large
     return radii;
 }
 
+// Between two distances from the eye.
+double largestFactor(const shared::RadiusField& field, double from, double to) {
+    const auto factorAt = [&](double distance) {
+        const double ratio = std::max(distance / field.nearest, 1.0);
+        const double octave = std::min(std::floor(std::log2(ratio)), field.octaves - 1.0);
+        const double within = std::min(ratio / std::exp2(octave) - 1, 1.0);
+        const auto k = static_cast<size_t>(octave);
+        return (1 - within) * field.factor[k] + within * field.factor[k + 1];
+    };
+    double largest = std::max(factorAt(from), factorAt(to));
+    for (unsigned k = 0; k <= field.octaves; ++k) {
+        const double distance = field.nearest * std::exp2(k);
+        if (distance > from && distance < to) largest = std::max(largest, double(field.factor[k]));
+    }
+    return largest;
+}
+
 } // namespace
 
 shared::RadiusField radiusField(const LearnedScene& learned, double radius, double largest) {
     shared::RadiusField field{};
     const auto& grid = learned.tables.importance;
-    if (!(grid.sizePerDistance > 0) ||
-        !(densityOf(sum(learned.octaves.data(), learned.octaves.data() + DISTANCE_OCTAVES)) > 0))
-        return field;
+    if (!(grid.sizePerDistance > 0)) return field;
     const OctaveRadii radii = octaveRadii(learned, radius, largest);
     const auto [least, most] = std::minmax_element(radii.factors.begin(), radii.factors.end());
     if (radii.factors.size() < 2 || *most < even * *least) return field;
@@ -86,25 +103,16 @@ shared::RadiusField radiusField(const LearnedScene& learned, double radius, doub
     return field;
 }
 
-double largestFactor(const shared::RadiusField& field, double from, double to) {
-    if (field.octaves == 0) return 1;
-    const auto factorAt = [&](double distance) {
-        const double ratio = std::max(distance / field.nearest, 1.0);
-        const double octave = std::min(std::floor(std::log2(ratio)), field.octaves - 1.0);
-        const double within = std::min(ratio / std::exp2(octave) - 1, 1.0);
-        const auto k = static_cast<size_t>(octave);
-        return (1 - within) * field.factor[k] + within * field.factor[k + 1];
+BorderReach borderReach(const shared::RadiusField& field, double radius) {
+    if (field.octaves == 0) return BorderReach(radius);
+    const auto [least, most] = std::minmax_element(field.factor, field.factor + field.octaves + 1);
+    BorderReach reach(radius * *most);
+    reach.smallest = radius * *least;
+    reach.about = [field, radius](const glm::dvec3& center, double extent) {
+        const double away = glm::distance(center, unpack(field.eye));
+        return radius * largestFactor(field, std::max(away - extent, 0.0), away + extent);
     };
-    double largest = std::max(factorAt(from), factorAt(to));
-    for (unsigned k = 0; k <= field.octaves; ++k) {
-        const double distance = field.nearest * std::exp2(k);
-        if (distance > from && distance < to) largest = std::max(largest, double(field.factor[k]));
-    }
-    return largest;
-}
-
-double smallestFactor(const shared::RadiusField& field) {
-    return field.octaves == 0 ? 1 : *std::min_element(field.factor, field.factor + field.octaves + 1);
+    return reach;
 }
 
 } // namespace quasilux

@@ -9,10 +9,7 @@ namespace quasilux {
 /// as far from it; at most `largest`. None where photons lie evenly, or nothing is known of them.
 shared::RadiusField radiusField(const LearnedScene& learned, double radius, double largest);
 
-/// The largest factor between two distances from the eye; 1 where the field has none.
-double largestFactor(const shared::RadiusField& field, double from, double to);
-
-/// Of all places.
-double smallestFactor(const shared::RadiusField& field);
+/// How far discs reach that have at most `radius` where the field's factor is 1.
+BorderReach borderReach(const shared::RadiusField& field, double radius);
 
 } // namespace quasilux

@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include "learn/learning.h"
-#include "prepare/pack.h"
 #include "render/camera_map_stage.h"
 #include "render/camera_stage.h"
 #include "render/flux_unit.h"
@@ -16,7 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -142,22 +140,11 @@ struct Renderer::Stages {
                 usual = std::min(usual, firstRadiusOf(c));
             }
         field = radiusField(*learned, usual, largestRadiusByArea() / usual);
-        setBorderReach(flat,
-                       borderReach(largest * (adaptsRadius(flat.features, settings) ? largestAdaptiveRadius : 1)));
+        if (adaptsRadius(flat.features, settings)) largest *= largestAdaptiveRadius;
+        setBorderReach(flat, borderReach(field, largest));
         setLearned(flat, learned->tables);
         geometry.tables = {};
         geometry.tables = Buffer<uint32_t>(device, flat.tables, "scene tables");
-    }
-
-    BorderReach borderReach(double radius) const {
-        BorderReach reach(radius * largestFactor(field, 0, std::numeric_limits<double>::infinity()));
-        reach.smallest = radius * smallestFactor(field);
-        if (field.octaves == 0) return reach;
-        reach.about = [this, radius](const glm::dvec3& center, double extent) {
-            const double away = glm::distance(center, unpack(field.eye));
-            return radius * largestFactor(field, std::max(away - extent, 0.0), away + extent);
-        };
-        return reach;
     }
 
     void describeLearned(double seconds) {
