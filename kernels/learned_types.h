@@ -40,7 +40,9 @@ typedef struct {
     unsigned int element;        /* triangle of a mesh */
     Packed3 position, direction; /* of the ray, away from the emitter */
     float weight;                /* estimate of what it brings to the image, over all photons */
-    float inverseDensity;        /* of a photon: 1 / density of the numbers that it was made from */
+    float
+        inverseDensity; /* of a photon: 1 / density of the numbers that it was made from; of direct light: 1 / probability of
+                                    the emitter */
     unsigned int pixel;
 } EmissionRecord;
 
@@ -90,11 +92,12 @@ typedef struct {
 
 /* ---- which emitters direct light is sampled from (kernels/light_choice.clh) ---- */
 
-/* Of a block of pixels, LIGHT_CHOICES of them. The first one stands for all emitters, by power; its `emitter` is the number of those
- * that follow. */
+/* Of a block of pixels, LIGHT_CHOICES of them. The first one stands for all emitters, as if nothing were learned; its `first` is the
+ * number of those that follow. No emitter is in two of these. */
 #define LIGHT_CHOICES 64
 typedef struct {
-    unsigned int emitter;
+    unsigned int first, count; /* emitters */
+    unsigned int node;         /* of the light tree, where there are several */
     float probability;
 } LightChoice;
 

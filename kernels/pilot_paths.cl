@@ -8,6 +8,7 @@
 #include "guide.clh"
 #include "importance.clh"
 #include "law.clh"
+#include "light_tree.clh"
 #include "medium_flight.clh"
 #include "visibility.clh"
 #ifdef HAS_METER
@@ -35,11 +36,12 @@ typedef struct {
 inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
 
 /* Keeps one of the records that a path finds, in proportion to their weights, with the sum of all. */
-inline void keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float3 position,
-                       float3 direction, Rng* rng) {
+inline void keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float inverseDensity,
+                       float3 position, float3 direction, Rng* rng) {
     if (!(weight > 0) || !isfinite(weight)) return;
     kept->weight += weight;
     if (rngNext(rng) * kept->weight >= weight) return;
+    kept->inverseDensity = inverseDensity;
     kept->emitter = emitter;
     kept->element = element;
     kept->position.x = position.x;
@@ -50,12 +52,14 @@ inline void keepRecord(EmissionRecord* kept, float weight, uint emitter, uint el
     kept->direction.z = direction.z;
 }
 
-/* Light from an emitter at the end of a segment along `direction`, where `weight` of it comes to the image. */
-inline void foundEmission(PilotPath* path, const PilotState* state, int isDirect, float weight, uint emitter,
-                          uint element, float3 position, float3 direction, Rng* rng) {
+/* Light from an emitter, chosen with this probability, at the end of a segment along `direction`, where `weight` of it comes to the
+ * image. */
+inline void foundEmission(PilotPath* path, const PilotState* state, int isDirect, float weight, float probability,
+                          uint emitter, uint element, float3 position, float3 direction, Rng* rng) {
     path->radiance += weight;
     if (!state->gathers && !isDirect) return;
-    keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element, position, -direction, rng);
+    keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element, isDirect ? 1 / probability : 0,
+               position, -direction, rng);
 }
 
 inline void storeVertex(PilotPath* path, PilotState* state, float3 position, uint face) {
@@ -93,8 +97,8 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
                              const Frame* frame, float3 wo, __global const Lobe* lobes, const LobeChoice* choice) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
-    float uSelect = rngNext(&state->rng);
-    const uint index = emitterSelect(emitters, scene->emitterCount, &uSelect);
+    float uSelect = rngNext(&state->rng), probability;
+    const uint index = unlearnedLight(world->tables, scene, s->position, &uSelect, &probability);
     EmitterSample light =
         emitterSampleDirection(emitters + index, SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles),
                                s->position, uSelect, rngNext2(&state->rng));
@@ -106,8 +110,8 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
                                   SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles), uSelect) -
                   emitters[index].firstTriangle;
 #endif
-    light.radianceOverPdf /= emitters[index].selectionProbability;
-    light.pdfSolidAngle *= emitters[index].selectionProbability;
+    light.radianceOverPdf /= probability;
+    light.pdfSolidAngle *= probability;
     const int gathersHere = !state->gathers && state->d == world->params->bdd;
     uint mask = 0; /* of lobes whose light photons might bring */
     for (uint k = 0; k < s->lobeCount; ++k)
@@ -121,8 +125,8 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
     if (!any(visible > 0)) return;
     const float3 end = isinf(light.distance) ? s->position : s->position + light.distance * light.direction;
     path->radiance += meanOf(state->throughput * other * visible);
-    foundEmission(path, state, !state->gathers, meanOf(state->throughput * wanted * visible), index, element, end,
-                  light.direction, &state->rng);
+    foundEmission(path, state, !state->gathers, meanOf(state->throughput * wanted * visible), probability, index,
+                  element, end, light.direction, &state->rng);
 }
 
 /* Emission that the path runs into. */
@@ -130,14 +134,14 @@ inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, 
                         float distance, float3 normal, float3 end) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
+    const float probability = unlearnedLightProbability(world->tables, scene, state->from, index);
     float share = 1;
     if (state->lobePdf > 0)
-        share = shareOf(state->lobePdf,
-                        emitter->selectionProbability * emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
-                                                                             state->passed + distance, normal));
+        share = shareOf(state->lobePdf, probability * emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
+                                                                           state->passed + distance, normal));
     const int isDirect = state->gathers && state->events == 0;
-    foundEmission(path, state, isDirect, share * meanOf(state->throughput * loadRgb(emitter->radiance)), index, element,
-                  end, state->ray.direction, &state->rng);
+    foundEmission(path, state, isDirect, share * meanOf(state->throughput * loadRgb(emitter->radiance)), probability,
+                  index, element, end, state->ray.direction, &state->rng);
 }
 
 inline void noteScattering(PilotState* state, uint scattering, uint bdd) {
@@ -293,6 +297,19 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     paths[index] = path;
 }
 
+/* The first source of an emitter; sources are in the order of their emitters. */
+inline uint firstSource(__global const GuideSource* sources, uint count, uint emitter) {
+    uint first = 0, last = count;
+    while (first < last) {
+        const uint middle = first + (last - first) / 2;
+        if (sources[middle].emitter < emitter)
+            first = middle + 1;
+        else
+            last = middle;
+    }
+    return first;
+}
+
 /* Learning, step 2: the numbers of the rays that pilots found, in the coordinates of the source that is to emit them. */
 __kernel void invertEmission(__global const uint* tables, __global const EmissionRecord* records,
                              __global const GuideSource* sources, const uint sourceCount,
@@ -306,8 +323,8 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
     const float2 spare = rngNext2(&rng);
     __global const Emitter* emitters = SCENE_TABLE(tables, &scene, Emitter, emitters);
     __global const EmitterTriangle* triangles = SCENE_TABLE(tables, &scene, EmitterTriangle, emitterTriangles);
-    for (uint k = 0; k < sourceCount && point.source == QL_NONE; ++k) {
-        if (sources[k].emitter != record.emitter) continue;
+    for (uint k = firstSource(sources, sourceCount, record.emitter);
+         k < sourceCount && sources[k].emitter == record.emitter && point.source == QL_NONE; ++k) {
         const float3 position = load3(record.position), direction = load3(record.direction);
         if (!holdsRay(sources + k, emitters + record.emitter, position, direction)) continue;
         const EmissionNumbers u = invertSource(emitters + record.emitter, triangles, sources + k, record.element,

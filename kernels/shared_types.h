@@ -189,6 +189,15 @@ typedef struct {
     float areaCdf;      /* share of the emitter's area up to and including this triangle; last = 1 */
 } EmitterTriangle;
 
+/* Of a tree over emitters (kernels/light_tree.clh), which lie in its order: of a node of n of them the first child has the first n / 2
+ * and follows it, the second one comes 2 (n / 2) nodes after it. */
+typedef struct {
+    Packed3 lower, upper;       /* box about the emitters */
+    Packed3 axis;               /* of a cone that holds the normals of their emitting sides */
+    float cosSpread, sinSpread; /* of its half angle */
+    float power;
+} LightNode;
+
 /* ---- sensor ---------------------------------------------------------------------------------------------------- */
 
 #define FILTER_BOX 0u

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
 #include <utility>
 
 namespace quasilux {
 
 namespace {
 
-constexpr double findsOfBlock = 256;  // paths that a block of pixels is to have
-constexpr double byPowerAlone = 0.05; // least probability that an emitter is chosen by power
+constexpr double findsOfBlock = 256;    // paths that a block of pixels is to have
+constexpr double fewestFinds = 8;       // that tell how strong the halves of a group of emitters are
+constexpr double leastUnlearned = 0.05; // least probability that an emitter is chosen as if nothing were known
 // Relative variance of a sample above which photons are the better estimate: they leave far less, but blur.
 constexpr double mostVariance = 1;
 
@@ -19,17 +20,34 @@ unsigned blockSize(const shared::Camera& camera, size_t paths) {
     return static_cast<unsigned>(std::max(1.0, std::round(std::sqrt(pixels * findsOfBlock / double(paths)))));
 }
 
-// Finds by block, then emitter.
+// What a block found of an emitter.
 struct Seen {
+    unsigned emitter = 0;
     double sum = 0, squares = 0;
+    double alone = 0; // squares as if no other emitter could have been chosen
+    double finds = 0;
 };
-using Block = std::map<unsigned, Seen>;
+using Block = std::vector<Seen>; // by emitter
 
 struct Blocks {
     unsigned size = 1, columns = 1, rows = 1;
     std::vector<Block> seen;
     std::vector<double> paths;
 };
+
+// One for each emitter, in their order.
+Block merged(Block all) {
+    std::sort(all.begin(), all.end(), [](const Seen& a, const Seen& b) { return a.emitter < b.emitter; });
+    Block sums;
+    for (const Seen& seen : all) {
+        if (sums.empty() || sums.back().emitter != seen.emitter) sums.push_back({seen.emitter});
+        sums.back().sum += seen.sum;
+        sums.back().squares += seen.squares;
+        sums.back().alone += seen.alone;
+        sums.back().finds += seen.finds;
+    }
+    return sums;
+}
 
 Blocks sortedByBlock(const std::vector<DirectFind>& finds, const shared::Camera& camera) {
     Blocks blocks;
@@ -43,21 +61,21 @@ Blocks sortedByBlock(const std::vector<DirectFind>& finds, const shared::Camera&
             find.pixel / camera.width / blocks.size * blocks.columns + find.pixel % camera.width / blocks.size;
         blocks.paths[at] += 1;
         if (find.emitter == QL_NONE || !(find.value > 0)) continue;
-        Seen& seen = blocks.seen[at][find.emitter];
-        seen.sum += find.value;
-        seen.squares += find.value * find.value;
+        const double square = find.value * find.value;
+        blocks.seen[at].push_back({find.emitter, find.value, square, square * find.probability, 1});
     }
+    for (Block& block : blocks.seen) block = merged(std::move(block));
     return blocks;
 }
 
-// Variance of one sample of each emitter, chosen by power.
+// Variance of one sample of each emitter, chosen as if nothing were known.
 std::vector<double> variances(const Blocks& blocks, size_t emitters) {
     std::vector<double> sum(emitters);
     double paths = 0;
     for (size_t b = 0; b < blocks.seen.size(); ++b) {
         const double n = std::max(blocks.paths[b], 1.0);
         paths += blocks.paths[b];
-        for (const auto& [emitter, seen] : blocks.seen[b]) sum[emitter] += seen.squares - seen.sum * seen.sum / n;
+        for (const Seen& seen : blocks.seen[b]) sum[seen.emitter] += seen.squares - seen.sum * seen.sum / n;
     }
     for (double& s : sum) s /= std::max(paths, 1.0);
     return sum;
@@ -69,35 +87,86 @@ Block about(const Blocks& blocks, size_t b) {
     Block all;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, static_cast<int>(blocks.rows) - 1); ++v)
         for (int u = std::max(x - 1, 0); u <= std::min(x + 1, static_cast<int>(blocks.columns) - 1); ++u) {
-            const size_t at = static_cast<size_t>(v) * blocks.columns + static_cast<size_t>(u);
-            for (const auto& [emitter, seen] : blocks.seen[at]) {
-                all[emitter].sum += seen.sum;
-                all[emitter].squares += seen.squares;
-            }
+            const Block& near = blocks.seen[static_cast<size_t>(v) * blocks.columns + static_cast<size_t>(u)];
+            all.insert(all.end(), near.begin(), near.end());
         }
-    return all;
+    return merged(std::move(all));
 }
 
-// In proportion to the root of what samples of each emitter have as second moment, which leaves the least variance.
+// Emitters between which the light tree chooses, or a single one. A block's list begins with the whole tree and all others; the strongest
+// group is replaced by its children as long as there is room and pilots can tell these apart.
+struct Group {
+    unsigned first = 0, count = 1, node = 0;
+    double strength = 0, finds = 0;
+
+    bool canSplit() const { return count > 1 && finds >= fewestFinds; }
+};
+
+// Running sums over what a block saw, to ask groups of. The root of what samples have as second moment leaves the least variance.
+class Strengths {
+public:
+    Strengths(const Block& seen, const std::vector<bool>& byPhotons) {
+        for (const Seen& one : seen) {
+            if (byPhotons[one.emitter]) continue;
+            emitters_.push_back(one.emitter);
+            sums_.push_back(sums_.back() + std::sqrt(one.alone));
+            finds_.push_back(finds_.back() + one.finds);
+        }
+    }
+
+    Group group(unsigned first, unsigned count, unsigned node) const {
+        const size_t from = indexOf(first), to = indexOf(first + count);
+        return {first, count, node, sums_[to] - sums_[from], finds_[to] - finds_[from]};
+    }
+
+private:
+    size_t indexOf(unsigned emitter) const {
+        return static_cast<size_t>(std::lower_bound(emitters_.begin(), emitters_.end(), emitter) - emitters_.begin());
+    }
+
+    std::vector<unsigned> emitters_;
+    std::vector<double> sums_{0}, finds_{0};
+};
+
+std::vector<Group> groupsOf(const Strengths& seen, const EmitterTables& emitters) {
+    const auto inTree = static_cast<unsigned>((emitters.lightTree.size() + 1) / 2);
+    const auto lessUseful = [](const Group& a, const Group& b) {
+        return std::tuple(a.canSplit(), a.strength, a.first) < std::tuple(b.canSplit(), b.strength, b.first);
+    };
+    std::vector<Group> groups;
+    const auto add = [&](const Group& group) {
+        if (group.finds > 0) groups.push_back(group);
+    };
+    if (inTree > 0) add(seen.group(0, inTree, 0));
+    for (unsigned e = inTree; e < emitters.emitters.size(); ++e) add(seen.group(e, 1, 0));
+    while (!groups.empty() && groups.size() < LIGHT_CHOICES - 1) {
+        const auto most = std::max_element(groups.begin(), groups.end(), lessUseful);
+        if (!most->canSplit()) break;
+        const Group parent = *most;
+        groups.erase(most);
+        const unsigned half = parent.count / 2;
+        add(seen.group(parent.first, half, parent.node + 1));
+        add(seen.group(parent.first + half, parent.count - half, parent.node + 2 * half));
+    }
+    return groups;
+}
+
 std::vector<shared::LightChoice> listOf(const Block& seen, const EmitterTables& emitters,
                                         const std::vector<bool>& byPhotons) {
-    std::vector<std::pair<double, unsigned>> strengths;
-    for (const auto& [emitter, values] : seen)
-        if (!byPhotons[emitter])
-            strengths.emplace_back(std::sqrt(values.squares * emitters.emitters[emitter].selectionProbability),
-                                   emitter);
-    std::sort(strengths.rbegin(), strengths.rend());
-    double all = 0, listed = 0;
-    for (const auto& [strength, emitter] : strengths) all += strength;
-    if (strengths.size() > LIGHT_CHOICES - 1) strengths.resize(LIGHT_CHOICES - 1);
-    for (const auto& [strength, emitter] : strengths) listed += strength;
-    const double byPower = all > 0 ? std::max(byPowerAlone, 1 - listed / all) : 1;
+    auto groups = groupsOf(Strengths(seen, byPhotons), emitters);
+    std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+        return std::tuple(-a.strength, a.first) < std::tuple(-b.strength, b.first);
+    });
+    double all = 0;
+    for (const Group& group : groups) all += group.strength;
+    const double unlearned = groups.empty() ? 1 : leastUnlearned;
     std::vector<shared::LightChoice> list;
     list.reserve(LIGHT_CHOICES);
-    list.push_back({static_cast<unsigned>(strengths.size()), static_cast<float>(byPower)});
-    for (const auto& [strength, emitter] : strengths)
-        list.push_back({emitter, static_cast<float>((1 - byPower) * strength / listed)});
-    list.resize(LIGHT_CHOICES, {QL_NONE, 0});
+    list.push_back({static_cast<unsigned>(groups.size()), 0, 0, static_cast<float>(unlearned)});
+    for (const Group& group : groups)
+        list.push_back(
+            {group.first, group.count, group.node, static_cast<float>((1 - unlearned) * group.strength / all)});
+    list.resize(LIGHT_CHOICES, {QL_NONE, 0, 0, 0});
     return list;
 }
 

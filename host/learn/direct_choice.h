@@ -11,7 +11,8 @@ namespace quasilux {
 struct DirectFind {
     unsigned emitter = QL_NONE; ///< QL_NONE: none
     unsigned pixel = 0;
-    double value = 0; ///< relative to the brightness of its part of the image
+    double value = 0;       ///< relative to the brightness of its part of the image
+    double probability = 1; ///< with which the emitter was chosen
 };
 
 struct DirectChoice {

@@ -126,7 +126,8 @@ void Learning::followPilots(bool directMayUsePhotons) {
         records.back().weight *= static_cast<float>(weights[k]);
         gathered_ += weights[k] * paths[k].vertices[0].weight;
         const auto& direct = paths[k].direct;
-        finds.push_back({direct.emitter, paths[k].pixel, weights[k] * double(count) * direct.weight});
+        finds.push_back({direct.emitter, paths[k].pixel, weights[k] * double(count) * direct.weight,
+                         direct.inverseDensity > 0 ? 1 / double(direct.inverseDensity) : 1});
     }
     guide_.add(records);
     learned_.tables.guide = guide_.guide();

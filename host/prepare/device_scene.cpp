@@ -39,6 +39,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0;
     }
     for (const auto& emitter : emitters.emitters) features.emitterTypes.insert(emitter.type);
+    features.lightTree = !emitters.lightTree.empty();
     findMediumFeatures(scene, media, emitters, features);
     for (const auto& shape : scene.shapes) {
         features.spheres |= shape.sphere.has_value();
@@ -188,6 +189,8 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.emitters = tables.append(out.emitters.emitters);
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
     out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
+    out.offsets.lightTree = tables.append(out.emitters.lightTree);
+    out.offsets.lightTreeCount = static_cast<unsigned>((out.emitters.lightTree.size() + 1) / 2);
     const auto meter = flattenMeter(scene, placement.camera);
     out.offsets.meter = meter.meter;
     out.offsets.meter.lobe = meterLobe;

@@ -16,8 +16,9 @@ namespace quasilux {
 struct EmitterTables {
     std::vector<shared::Emitter> emitters;
     std::vector<shared::EmitterTriangle> triangles;
-    std::vector<unsigned> emitterOfShape; ///< by shape, QL_NONE for none
-    std::vector<double> power;            ///< W, mean of R, G, B
+    std::vector<shared::LightNode> lightTree; ///< over all but distant ones (light_tree.h); empty: there are few
+    std::vector<unsigned> emitterOfShape;     ///< by shape, QL_NONE for none
+    std::vector<double> power;                ///< W, mean of R, G, B
     std::vector<std::string> ids;
 };
 

@@ -1,6 +1,7 @@
 // Emitting shapes, points and surroundings into the emitter table, with selection in proportion to power.
 #include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
+#include "prepare/light_tree.h"
 #include "prepare/pack.h"
 #include "scene/color.h"
 
@@ -89,6 +90,28 @@ void addDistantEmitters(const Scene& scene, EmitterTables& tables) {
     }
 }
 
+// Of fewer emitters all can be listed by what was learned.
+constexpr size_t manyEmitters = LIGHT_CHOICES;
+
+template <typename T>
+void reorder(std::vector<T>& values, const std::vector<unsigned>& order) {
+    std::vector<T> sorted;
+    sorted.reserve(order.size());
+    for (const unsigned k : order) sorted.push_back(values[k]);
+    values = std::move(sorted);
+}
+
+void sortIntoTree(EmitterTables& tables) {
+    if (tables.emitters.size() < manyEmitters) return;
+    LightTree tree = buildLightTree(tables);
+    reorder(tables.emitters, tree.order);
+    reorder(tables.power, tree.order);
+    reorder(tables.ids, tree.order);
+    for (unsigned k = 0; k < tables.emitters.size(); ++k)
+        if (tables.emitters[k].shape != QL_NONE) tables.emitterOfShape[tables.emitters[k].shape] = k;
+    tables.lightTree = std::move(tree.nodes);
+}
+
 void setSelection(EmitterTables& tables) {
     double total = 0;
     for (const double power : tables.power) total += power;
@@ -126,6 +149,7 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
         tables.power.push_back(4 * pi * mean(point.intensity));
         tables.ids.push_back(point.id);
     }
+    sortIntoTree(tables);
     addDistantEmitters(scene, tables);
     setSelection(tables);
     return tables;
