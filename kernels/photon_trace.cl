@@ -301,7 +301,7 @@ inline void learnFromPaths(uint first, uint last, const Lattice* lattice, const 
 /* The paths of one region. */
 inline void traceRegion(uint region, const PhotonWorld* world, const PhotonSink* sink, __global RegionCount* counts) {
     const PhotonParams* params = world->params;
-    RegionCount count = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {0}, {0}, {0}};
+    RegionCount count = {0};
     const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
     const uint first = region * params->pathsPerRegion, last = min(first + params->pathsPerRegion, params->paths);
 #ifndef MAP_CAMERA
