@@ -2,6 +2,7 @@
 // keep their means.
 //
 // False alarms: 1e-4 for the chi-squared tests together; the furnace is held to 4 standard errors of 10 batches (Student t: 0.3 %).
+#include "learn/direct_choice.h"
 #include "learn/learning.h"
 #include "prepare/light_tree.h"
 #include "prepare/pack.h"
@@ -220,6 +221,26 @@ TEST(ManyEmitters, FurnaceIsAsBrightAsItsWalls) {
     });
     EXPECT_GT(std::abs(wrong.mean - 1), 4 * wrong.standardError + 0.003)
         << "negative control: probabilities that are no choice's";
+}
+
+// 100 parallel lights, which are in no tree: as many as fit are listed, and the others keep their share.
+TEST(ManyEmitters, ListsOfDistantEmittersEnd) {
+    EmitterTables tables;
+    std::vector<DirectFind> finds;
+    shared::Camera camera{};
+    camera.width = camera.height = 8;
+    for (unsigned k = 0; k < 100; ++k) {
+        tables.emitters.push_back(makeDirectional({0, 0, -1}, {0, 0, 0}, 1));
+        finds.push_back({k, k % 64, 1.0 + k, 0.01});
+    }
+    const auto choice = chooseDirect(finds, tables, camera, false);
+    ASSERT_EQ(choice.lights.size(), size_t(LIGHT_CHOICES));
+    EXPECT_EQ(choice.lights[0].first, LIGHT_CHOICES - 1u);
+    double sum = 0;
+    for (const auto& light : choice.lights) sum += light.probability;
+    EXPECT_NEAR(sum, 1, 1e-5);
+    EXPECT_GT(choice.lights[0].probability, 0.1) << "of the 37 that are not listed";
+    EXPECT_EQ(choice.lights[1].first, 99u) << "the strongest first";
 }
 
 TEST(ManyEmitters, GroupsOfEmittersAreLearnedByBlock) {

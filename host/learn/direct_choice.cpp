@@ -129,7 +129,7 @@ private:
 };
 
 std::vector<Group> groupsOf(const Strengths& seen, const EmitterTables& emitters) {
-    const auto inTree = static_cast<unsigned>((emitters.lightTree.size() + 1) / 2);
+    const unsigned inTree = emitters.countInTree();
     const auto lessUseful = [](const Group& a, const Group& b) {
         return std::tuple(a.canSplit(), a.strength, a.first) < std::tuple(b.canSplit(), b.strength, b.first);
     };
@@ -157,15 +157,18 @@ std::vector<shared::LightChoice> listOf(const Block& seen, const EmitterTables& 
     std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
         return std::tuple(-a.strength, a.first) < std::tuple(-b.strength, b.first);
     });
-    double all = 0;
+    double all = 0, listed = 0;
     for (const Group& group : groups) all += group.strength;
-    const double unlearned = groups.empty() ? 1 : leastUnlearned;
+    // Distant emitters are in no tree, so there may be more groups than room.
+    groups.resize(all > 0 ? std::min<size_t>(groups.size(), LIGHT_CHOICES - 1) : 0);
+    for (const Group& group : groups) listed += group.strength;
+    const double unlearned = all > 0 ? std::max(leastUnlearned, 1 - listed / all) : 1;
     std::vector<shared::LightChoice> list;
     list.reserve(LIGHT_CHOICES);
     list.push_back({static_cast<unsigned>(groups.size()), 0, 0, static_cast<float>(unlearned)});
     for (const Group& group : groups)
         list.push_back(
-            {group.first, group.count, group.node, static_cast<float>((1 - unlearned) * group.strength / all)});
+            {group.first, group.count, group.node, static_cast<float>((1 - unlearned) * group.strength / listed)});
     list.resize(LIGHT_CHOICES, {QL_NONE, 0, 0, 0});
     return list;
 }

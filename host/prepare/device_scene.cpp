@@ -190,7 +190,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
     out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
     out.offsets.lightTree = tables.append(out.emitters.lightTree);
-    out.offsets.lightTreeCount = static_cast<unsigned>((out.emitters.lightTree.size() + 1) / 2);
+    out.offsets.lightTreeCount = out.emitters.countInTree();
     const auto meter = flattenMeter(scene, placement.camera);
     out.offsets.meter = meter.meter;
     out.offsets.meter.lobe = meterLobe;

@@ -20,6 +20,9 @@ struct EmitterTables {
     std::vector<unsigned> emitterOfShape;     ///< by shape, QL_NONE for none
     std::vector<double> power;                ///< W, mean of R, G, B
     std::vector<std::string> ids;
+
+    /// Emitters in the tree, the first ones; 0: there is none.
+    unsigned countInTree() const { return static_cast<unsigned>((lightTree.size() + 1) / 2); }
 };
 
 struct DeviceScene {
