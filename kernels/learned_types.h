@@ -40,9 +40,7 @@ typedef struct {
     unsigned int element;        /* triangle of a mesh */
     Packed3 position, direction; /* of the ray, away from the emitter */
     float weight;                /* estimate of what it brings to the image, over all photons */
-    float
-        inverseDensity; /* of a photon: 1 / density of the numbers that it was made from; of direct light: 1 / probability of
-                                    the emitter */
+    float inverseDensity;        /* photon: 1 / density of its numbers; direct light: 1 / probability of the emitter */
     unsigned int pixel;
 } EmissionRecord;
 
