@@ -45,7 +45,9 @@ __kernel void measureRadii(__global const float* film, __global RadiusMeasure* m
     }
 }
 
-__kernel void chooseRadii(__global const RadiusMeasure* measures, __global float* scales, const RadiusParams params) {
+/* `before`: the radii chosen before, which stay where there is no such light. */
+__kernel void chooseRadii(__global const RadiusMeasure* measures, __global const float* before, __global float* scales,
+                          const RadiusParams params) {
     const uint pixel = get_global_id(0);
     if (pixel >= params.width * params.height) return;
     const int x = pixel % params.width, y = pixel / params.width;
@@ -63,7 +65,8 @@ __kernel void chooseRadii(__global const RadiusMeasure* measures, __global float
             }
         curvature = max(curvature, CURVATURE_FLOOR * noise);
         const float sixth = params.noiseToCurvature * variance / (2 * BIAS_CARE * curvature);
-        if (!(sixth > 0 && isfinite(sixth))) continue; /* no such light here */
-        scales[radiusIndex(pixel, c)] = clamp(exp2(log2(sixth) / 6), RADIUS_SCALE_MIN, params.largest);
+        const size_t i = radiusIndex(pixel, c);
+        const int isKnown = sixth > 0 && isfinite(sixth);
+        scales[i] = isKnown ? clamp(exp2(log2(sixth) / 6), RADIUS_SCALE_MIN, params.largest) : before[i];
     }
 }

@@ -42,12 +42,13 @@ std::vector<float> chooseRadii(const std::vector<float>& film, double largest = 
     Program program(testDevice(), "adaptive_radius.cl",
                     "-DPHOTON_CLASSES=8u -DBVH_STACK_SIZE=32 -DESTIMATE_BIAS=1 -DADAPTIVE_RADIUS");
     Buffer<float> sums(testDevice(), film, "film"), scales(testDevice(), size_t{width} * height, "scales");
+    Buffer<float> before(testDevice(), size_t{width} * height, "scales before");
     Buffer<shared::RadiusMeasure> measures(testDevice(), size_t{width} * height, "measures");
-    scales.fill(1);
+    before.fill(1);
     const shared::RadiusParams params{
         width, height, passes, squaredRadii, inverseSquares, noiseToCurvature, static_cast<float>(largest)};
     program.kernel("measureRadii").launch(size_t{width} * height, sums, measures, params);
-    program.kernel("chooseRadii").launch(size_t{width} * height, measures, scales, params);
+    program.kernel("chooseRadii").launch(size_t{width} * height, measures, before, scales, params);
     return scales.read();
 }
 

@@ -14,6 +14,7 @@ struct AutoRender {
     SceneReport report;      ///< of the renderer chosen
     RenderCounters counters; ///< of the passes of the image
     SearchReport search;
+    std::optional<GatheredCount> gathered; ///< by a pass that follows, where RenderSettings::countGathered asks for it
 };
 
 /// `start` was made for `settings` and has no passes yet. `onChosen` is called once, before the passes that follow.

@@ -158,6 +158,7 @@ RenderRecord makeRecord(const RenderOptions& options, Device& device, const Auto
     record.workGroupSize = device.workGroupSize();
     record.report = render.report;
     record.counters = render.counters;
+    record.gathered = render.gathered;
     record.search = render.search;
     record.error = estimateError(render.image);
     record.meter = meter;
@@ -182,7 +183,9 @@ int renderCommand(const RenderOptions& options) {
     progress.clear();
     for (const auto& warning : scene.warnings) warn(options, warning);
     const Freedom freedom = options.freedom(scene);
-    const RenderSettings settings = searchStart(options.settings(scene), scene, freedom, options.stop);
+    RenderSettings wanted = options.settings(scene);
+    wanted.countGathered = !options.stats.empty();
+    const RenderSettings settings = searchStart(wanted, scene, freedom, options.stop);
 
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();

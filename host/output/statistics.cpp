@@ -3,6 +3,7 @@
 
 #include "output/atomic_file.h"
 #include "output/meter_reading.h"
+#include "render/scene_report.h"
 
 namespace quasilux {
 
@@ -29,6 +30,17 @@ json energyJson(const std::optional<EnergyBalance>& energy) {
             {"escaped", energy->escaped},         {"cut", energy->cut},
             {"beyondDepth", energy->beyondDepth}, {"lostByChance", energy->lost},
             {"gainedByChance", energy->gained},   {"imbalance", energy->imbalance()}};
+}
+
+json gatheredJson(const std::optional<GatheredCount>& count) {
+    if (!count) return nullptr;
+    json stored = json::object(), gathered = json::object();
+    for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {
+        if (count->stored[slot] == 0) continue;
+        stored[slotName(slot)] = count->stored[slot];
+        gathered[slotName(slot)] = count->gathered[slot];
+    }
+    return {{"share", count->share()}, {"stored", stored}, {"gathered", gathered}};
 }
 
 json phasesJson(const RenderRecord& record) {
@@ -193,6 +205,7 @@ json statisticsJson(const RenderRecord& record, const FilmImage& image) {
             {"device", device},
             {"sceneReport", sceneReportJson(record.report)},
             {"counters", countersJson(record.counters)},
+            {"gatheredPhotons", gatheredJson(record.gathered)},
             {"error", errorJson(record.error)},
             {"kernels", kernelsJson(record.kernels)},
             {"phases", phasesJson(record)},

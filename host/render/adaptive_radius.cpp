@@ -3,6 +3,7 @@
 #include "render/radius.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -10,7 +11,8 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned pilotPasses = 16;
+// The radii are chosen anew after so many passes of the pilot, which ends with the last choice.
+constexpr std::array<unsigned, 3> choices{passesOfEqualRadius, 8, 16};
 constexpr double pilotSide = 128; // of the pilot's image, about: it is to cost little, whatever the size of the image
 constexpr unsigned foreseenPasses = 1024;
 
@@ -43,6 +45,11 @@ shared::Camera coarseCamera(shared::Camera camera, unsigned block) {
     return camera;
 }
 
+// How many choices are made from so many passes.
+size_t choicesWithin(unsigned passes) {
+    return std::upper_bound(choices.begin(), choices.end(), passes) - choices.begin();
+}
+
 size_t scaleCount(const shared::Camera& pilot, unsigned classes) {
     return size_t(pilot.width) * pilot.height * size_t(std::popcount(classes));
 }
@@ -53,9 +60,10 @@ AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared
     : block_(blockSize(camera)), camera_(coarseCamera(camera, block_)),
       film_(std::in_place, device, camera_.width, camera_.height, true, "pilot's "),
       measureRadii_(pass.kernel("measureRadii")), chooseRadii_(pass.kernel("chooseRadii")),
-      scales_(device, scaleCount(camera_, classes), "radii"), pilotScales_(device, scales_.size(), "pilot's radii"),
-      measures_(device, scales_.size(), "pilot's measures") {
-    scales_.fill(1);
+      pilotScales_(device, scaleCount(camera_, classes), "pilot's radii"),
+      measures_(device, pilotScales_.size(), "pilot's measures") {
+    for (size_t choice = 0; choice <= choices.size(); ++choice)
+        scales_.emplace_back(device, pilotScales_.size(), "radii").fill(1);
     pilotScales_.fill(largestAdaptiveRadius);
 }
 
@@ -64,7 +72,7 @@ std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camer
     const uint64_t scales = scaleCount(pilot, classes);
     return {{"pilot's film", uint64_t(pilot.width) * pilot.height * Film::floatsPerPixel(true) * sizeof(float)},
             {"pilot's camera counters", sizeof(shared::CameraCounters)},
-            {"radii", scales * sizeof(float)},
+            {"radii", (1 + choices.size()) * scales * sizeof(float)},
             {"pilot's radii", scales * sizeof(float)},
             {"pilot's measures", scales * sizeof(shared::RadiusMeasure)}};
 }
@@ -72,14 +80,23 @@ std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camer
 void AdaptiveRadius::compile() {
     const shared::RadiusParams nothing{};
     measureRadii_.launch(film_->pixels(), film_->sums(), measures_, nothing);
-    chooseRadii_.launch(film_->pixels(), measures_, scales_, nothing);
+    chooseRadii_.launch(film_->pixels(), measures_, scales_[0], scales_[1], nothing);
 }
 
-void AdaptiveRadius::endPilotPass(unsigned pass) {
-    squaredRadii_ += squaredShrink(pass) * largestAdaptiveRadius * largestAdaptiveRadius;
-    inverseSquares_ += 1 / (squaredShrink(pass) * largestAdaptiveRadius * largestAdaptiveRadius);
+unsigned AdaptiveRadius::pilotPassesBefore(unsigned pass) {
+    const size_t made = choicesWithin(pass);
+    return made > 0 ? choices[made - 1] : 0;
+}
+
+const Buffer<float>& AdaptiveRadius::scales(unsigned pass) const { return scales_[choicesWithin(pass)]; }
+
+void AdaptiveRadius::endPilotPass() {
+    const double square = squaredShrink(passes_) * largestAdaptiveRadius * largestAdaptiveRadius;
+    squaredRadii_ += square;
+    inverseSquares_ += 1 / square;
     ++passes_;
-    if (passes_ < passesOfEqualRadius || !std::has_single_bit(passes_)) return;
+    const size_t made = choicesWithin(passes_);
+    if (made == choicesWithin(passes_ - 1)) return;
     const shared::RadiusParams params{camera_.width,
                                       camera_.height,
                                       passes_,
@@ -88,8 +105,8 @@ void AdaptiveRadius::endPilotPass(unsigned pass) {
                                       static_cast<float>(noiseToCurvature()),
                                       largestAdaptiveRadius};
     measureRadii_.launch(film_->pixels(), film_->sums(), measures_, params);
-    chooseRadii_.launch(film_->pixels(), measures_, scales_, params);
-    if (passes_ < pilotPasses) return;
+    chooseRadii_.launch(film_->pixels(), measures_, scales_[made - 1], scales_[made], params);
+    if (passes_ < choices.back()) return;
     film_.reset();
     pilotScales_ = {};
     measures_ = {};

@@ -1,4 +1,6 @@
-// Density radius by block of pixels and class of light, chosen from a pilot (docs/density.md, "Radius by pixel").
+// Density radius by block of pixels and class of light, chosen from a pilot (docs/density.md, "Radius by pixel"). The pilot's passes
+// follow each other from 0 on, with the photons of the passes of these numbers. So the radii of a pass are a function of scene,
+// settings and seed, whichever passes have been rendered.
 #pragma once
 
 #include "device/program.h"
@@ -7,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace quasilux {
 
@@ -25,17 +28,21 @@ public:
     /// Has the runtime compile the kernels.
     void compile();
 
-    /// Is the next pass one of the pilot's: is the bias of coarse pixels to be estimated, at the largest radius, with its
-    /// photons?
-    bool pilotIsDue() const { return film_.has_value(); }
+    /// How many passes of the pilot the radii of `pass` are chosen from.
+    static unsigned pilotPassesBefore(unsigned pass);
+    /// So many passes of the pilot have ended.
+    unsigned pilotPasses() const { return passes_; }
+    /// Is the pilot's next pass this one: is the bias of coarse pixels to be estimated, at the largest radius, with its photons?
+    bool pilotIsDue(unsigned pass) const { return film_ && passes_ == pass; }
     const shared::Camera& pilotCamera() const { return camera_; }
     Film& pilotFilm() { return *film_; }
     const Buffer<float>& pilotScales() const { return pilotScales_; }
-    /// To be called when the pilot's film has taken `pass`. Chooses the radii anew after 4, 8 and 16 passes, and ends the pilot.
-    void endPilotPass(unsigned pass);
+    /// To be called when the pilot's film has taken its next pass. Chooses the radii anew after 4, 8 and 16, and ends the pilot.
+    void endPilotPass();
 
-    /// Radius of each block by that of the map, radiusIndex() in kernels/adaptive_radius.clh; 1 until radii are chosen.
-    const Buffer<float>& scales() const { return scales_; }
+    /// Radius of each block in a pass by that of the map, radiusIndex() in kernels/adaptive_radius.clh; 1 in the first passes. The
+    /// pilot passes before it must have ended.
+    const Buffer<float>& scales(unsigned pass) const;
     /// Pixels of a row and column that share a radius.
     unsigned block() const { return block_; }
 
@@ -44,7 +51,8 @@ private:
     shared::Camera camera_;
     std::optional<Film> film_; ///< until the pilot has ended
     Kernel measureRadii_, chooseRadii_;
-    Buffer<float> scales_, pilotScales_;
+    std::vector<Buffer<float>> scales_; ///< as chosen: not at all, the first time, …
+    Buffer<float> pilotScales_;
     Buffer<shared::RadiusMeasure> measures_;
     unsigned passes_ = 0;
     double squaredRadii_ = 0, inverseSquares_ = 0; ///< shared::RadiusParams

@@ -9,7 +9,7 @@ CameraStage::CameraStage(const Program& pass, const GeometryBuffers& geometry, F
 void CameraStage::compile(const PhotonStage& photons) {
     shared::CameraParams nothing = params_;
     nothing.camera.width = nothing.camera.height = 0;
-    trace(film_, nothing, radii_ ? &radii_->scales() : nullptr, photons);
+    trace(film_, nothing, radii_ ? &radii_->scales(0) : nullptr, photons);
     if (radii_) radii_->compile();
 }
 
@@ -33,24 +33,30 @@ void CameraStage::runOn(Film& film, const Buffer<float>* radiusScales, const Pho
     trace(film, params_, radiusScales, photons);
 }
 
-void CameraStage::run(unsigned pass, const PhotonStage& photons) {
+const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage& photons) {
     params_.pass = pass;
     params_.map = photons.table().map();
     params_.radiusBlock = radii_ ? radii_->block() : 1;
-    runOn(film_, radii_ ? &radii_->scales() : nullptr, photons);
+    return params_;
 }
 
-bool CameraStage::radiusIsDue() const { return radii_ && radii_->pilotIsDue(); }
+void CameraStage::run(unsigned pass, const PhotonStage& photons) {
+    params(pass, photons);
+    runOn(film_, radii_ ? &radii_->scales(pass) : nullptr, photons);
+}
+
+bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->pilotIsDue(pass); }
 
 // With the same photons: passes to come, whose radii this decides, have others.
-size_t CameraStage::chooseRadius(const PhotonStage& photons) {
+size_t CameraStage::chooseRadius(unsigned pass, const PhotonStage& photons) {
+    params(pass, photons);
     const size_t paths = radii_->pilotFilm().pixels();
     const shared::Camera camera = params_.camera;
     params_.camera = radii_->pilotCamera();
     params_.radiusBlock = 1;
     runOn(radii_->pilotFilm(), &radii_->pilotScales(), photons);
     params_.camera = camera;
-    radii_->endPilotPass(params_.pass);
+    radii_->endPilotPass();
     return paths;
 }
 

@@ -18,13 +18,16 @@ public:
     /// Has the runtime compile the kernels, by a launch of as many work-items as a pass has, which do nothing.
     void compile(const PhotonStage& photons);
 
+    /// Of a pass's camera paths, with its photons.
+    const shared::CameraParams& params(unsigned pass, const PhotonStage& photons);
+
     /// One path per pixel.
     void run(unsigned pass, const PhotonStage& photons);
 
-    /// Are the radii by pixel still to be chosen? Then chooseRadius() is to follow run().
-    bool radiusIsDue() const;
-    /// Returns how many camera paths it traced.
-    size_t chooseRadius(const PhotonStage& photons);
+    /// Are radii by pixel to be chosen with the photons of this pass? Then chooseRadius() is to follow run().
+    bool radiusIsDue(unsigned pass) const;
+    /// Returns how many camera paths it traced. `photons` are those of `pass`.
+    size_t chooseRadius(unsigned pass, const PhotonStage& photons);
 
 private:
     void trace(Film& film, const shared::CameraParams& params, const Buffer<float>* radiusScales,

@@ -3,9 +3,9 @@
 #include "learn/learning.h"
 #include "render/camera_map_stage.h"
 #include "render/camera_stage.h"
-#include "render/flux_unit.h"
 #include "render/meter_stage.h"
 #include "render/method.h"
+#include "render/pass_params.h"
 #include "render/pilot.h"
 #include "render/radius.h"
 #include "render/radius_field.h"
@@ -15,7 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 #include <optional>
 
 namespace quasilux {
@@ -32,51 +31,6 @@ constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-double firstRadius(double area, const RenderSettings& settings, unsigned photons) {
-    return settings.radiusScale * initialRadius(area, photons);
-}
-
-DeviceScene flatten(const Scene& scene, const RenderSettings& settings) {
-    const unsigned photons = photonsPerPass(settings, flattenCamera(scene.sensor));
-    FlattenSettings flattening;
-    flattening.quasiSpecular = settings.quasiSpecular;
-    flattening.photons = photons;
-    flattening.overridesScene = settings.quasiSpecularFromCommandLine;
-    flattening.largestRadius = [&](double area) {
-        return firstRadius(area, settings, photons) * (mayAdaptRadius(scene, settings) ? largestAdaptiveRadius : 1);
-    };
-    return flattenScene(scene, flattening);
-}
-
-shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
-    shared::PhotonParams params{};
-    params.seedLow = static_cast<unsigned>(settings.seed);
-    params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
-    params.paths = photonsPerPass(settings, flat.camera);
-    params.perFluxUnit = 1 / fluxUnit(flat, params.paths);
-    params.maxDepth = scene.maxDepth < 0 ? QL_NONE : static_cast<unsigned>(scene.maxDepth);
-    params.scene = flat.offsets;
-    return params;
-}
-
-shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth) {
-    shared::CameraParams params{};
-    params.seedLow = static_cast<unsigned>(settings.seed);
-    params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
-    // The meter's own scattering does not count (kernels/meter.clh).
-    params.bdd = settings.bdd + (meterIsGenuineDiffuse(flat.features, settings) ? 1 : 0);
-    params.maxDepth = maxDepth;
-    params.directSamples = 1;
-    params.camera = flat.camera;
-    params.scene = flat.offsets;
-    return params;
-}
-
-// Of the order of what the scene shows: the unit of splats need be no better.
-double meanRadiance(const DeviceScene& flat) {
-    return flat.surfaceArea > 0 ? flat.emittedFlux / (std::numbers::pi * flat.surfaceArea) : flat.emittedFlux;
-}
 
 } // namespace
 
@@ -250,7 +204,7 @@ struct Renderer::Stages {
 
     float volumeScale(unsigned pass) const { return static_cast<float>(settings.radiusScale * volumeShrink(pass)); }
 
-    double largestRadiusByArea() const { return firstRadius(flat.surfaceArea, settings, report.photonsPerPass); }
+    double largestRadiusByArea() const { return firstRadiusByArea(flat.surfaceArea, settings, report.photonsPerPass); }
 
     // As photons lie about what the camera sees, where that is known.
     double firstRadiusOf(unsigned lightClass) const {
@@ -290,7 +244,18 @@ struct Renderer::Stages {
         *counters.energy += ofPass.energy;
     }
 
+    // Radii of this pass are chosen with the photons of earlier ones; where these were not rendered here, they are traced for that
+    // alone.
+    void catchUpRadii(unsigned pass) {
+        while (adaptive && adaptive->pilotPasses() < AdaptiveRadius::pilotPassesBefore(pass)) {
+            const unsigned earlier = adaptive->pilotPasses();
+            photons->run(earlier, radii(earlier), volumeScale(earlier));
+            chooseRadius(earlier);
+        }
+    }
+
     void runPhotonMap(unsigned pass) {
+        catchUpRadii(pass);
         const auto count = photons->run(pass, radii(pass), volumeScale(pass));
         noteTraced(count);
         if (meter)
@@ -308,12 +273,30 @@ struct Renderer::Stages {
 
     void runCamera(unsigned pass) {
         camera->run(pass, *photons);
-        if (!camera->radiusIsDue()) return;
+        if (!camera->radiusIsDue(pass)) return;
         device.finish();
+        chooseRadius(pass);
+    }
+
+    void chooseRadius(unsigned pass) {
         const auto start = Clock::now();
-        counters.radiusPaths += camera->chooseRadius(*photons);
+        counters.radiusPaths += camera->chooseRadius(pass, *photons);
         device.finish();
         counters.radiusSeconds += since(start);
+    }
+
+    // Of the pass after the last one.
+    std::optional<GatheredCount> countGathered() {
+        if (!camera) return std::nullopt;
+        const auto pass = static_cast<unsigned>(counters.passes);
+        auto timingsOfPasses = device.timings();
+        catchUpRadii(pass);
+        photons->run(pass, radii(pass), volumeScale(pass));
+        const auto count =
+            quasilux::countGathered(device, kernelOptions(flat, settings), geometry, *photons,
+                                    camera->params(pass, *photons), adaptive ? &adaptive->scales(pass) : nullptr);
+        device.resetTimings(std::move(timingsOfPasses));
+        return count;
     }
 
     void runCameraMap(unsigned pass) {
@@ -351,7 +334,7 @@ struct Renderer::Stages {
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
                    std::shared_ptr<const LearnedScene> known) {
     const auto start = Clock::now();
-    DeviceScene flat = flatten(scene, settings);
+    DeviceScene flat = flattenFor(scene, settings);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
     if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
     const double prepareSeconds = since(start);
@@ -394,6 +377,8 @@ const SceneReport& Renderer::report() const {
     stages_->report.bufferBytes = stages_->device.allocations();
     return stages_->report;
 }
+
+std::optional<GatheredCount> Renderer::countGathered() { return stages_->countGathered(); }
 
 const RenderCounters& Renderer::counters() const { return stages_->counters; }
 

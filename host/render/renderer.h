@@ -3,6 +3,7 @@
 
 #include "render/energy_balance.h"
 #include "render/film_image.h"
+#include "render/gathered_photons.h"
 #include "render/settings.h"
 
 #include <atomic>
@@ -14,7 +15,6 @@
 
 namespace quasilux {
 
-class Device;
 struct LearnedScene;
 
 /// Memory that the whole render takes at most, told before its first pass.
@@ -104,6 +104,9 @@ public:
     const SceneReport& report() const;
     const RenderCounters& counters() const;
     std::shared_ptr<const LearnedScene> learned() const;
+    /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for meters and
+    /// --map camera. Compiles kernels for it.
+    std::optional<GatheredCount> countGathered();
 
 private:
     struct Stages;

@@ -54,6 +54,7 @@ struct RenderSettings {
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
     bool estimateBias = true;    ///< beside the image; see estimatesBias() in method.h
     bool energyBalance = false;  ///< count what becomes of the photons' flux
+    bool countGathered = false;  ///< after the image: which photons of one more pass camera paths gather
     LawRule lawRule = LawRule::right;
     MediumRule mediumRule = MediumRule::right;
     PhotonRule photonRule = PhotonRule::right;

@@ -1,0 +1,57 @@
+#include "render/pass_params.h"
+
+#include "render/adaptive_radius.h"
+#include "render/flux_unit.h"
+#include "render/method.h"
+#include "render/radius.h"
+
+#include <numbers>
+
+namespace quasilux {
+
+double firstRadiusByArea(double area, const RenderSettings& settings, unsigned photons) {
+    return settings.radiusScale * initialRadius(area, photons);
+}
+
+DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings) {
+    const unsigned photons = photonsPerPass(settings, flattenCamera(scene.sensor));
+    FlattenSettings flattening;
+    flattening.quasiSpecular = settings.quasiSpecular;
+    flattening.photons = photons;
+    flattening.overridesScene = settings.quasiSpecularFromCommandLine;
+    flattening.largestRadius = [&](double area) {
+        return firstRadiusByArea(area, settings, photons) *
+               (mayAdaptRadius(scene, settings) ? largestAdaptiveRadius : 1);
+    };
+    return flattenScene(scene, flattening);
+}
+
+shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
+    shared::PhotonParams params{};
+    params.seedLow = static_cast<unsigned>(settings.seed);
+    params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
+    params.paths = photonsPerPass(settings, flat.camera);
+    params.perFluxUnit = 1 / fluxUnit(flat, params.paths);
+    params.maxDepth = scene.maxDepth < 0 ? QL_NONE : static_cast<unsigned>(scene.maxDepth);
+    params.scene = flat.offsets;
+    return params;
+}
+
+shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth) {
+    shared::CameraParams params{};
+    params.seedLow = static_cast<unsigned>(settings.seed);
+    params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
+    // The meter's own scattering does not count (kernels/meter.clh).
+    params.bdd = settings.bdd + (meterIsGenuineDiffuse(flat.features, settings) ? 1 : 0);
+    params.maxDepth = maxDepth;
+    params.directSamples = 1;
+    params.camera = flat.camera;
+    params.scene = flat.offsets;
+    return params;
+}
+
+double meanRadiance(const DeviceScene& flat) {
+    return flat.surfaceArea > 0 ? flat.emittedFlux / (std::numbers::pi * flat.surfaceArea) : flat.emittedFlux;
+}
+
+} // namespace quasilux

@@ -1,0 +1,22 @@
+// What the kernels of a pass are told, but for what changes from pass to pass.
+#pragma once
+
+#include "pass_types.h"
+#include "prepare/device_scene.h"
+#include "render/settings.h"
+
+namespace quasilux {
+
+/// Of density estimates in pass 0, for photons spread evenly over this area. Scene units.
+double firstRadiusByArea(double area, const RenderSettings& settings, unsigned photons);
+
+/// The scene as this render needs it.
+DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings);
+
+shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
+shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth);
+
+/// Of the order of what the scene shows: the unit of splats need be no better.
+double meanRadiance(const DeviceScene& flat);
+
+} // namespace quasilux

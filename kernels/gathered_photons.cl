@@ -1,0 +1,23 @@
+/* Marks the photons that the camera paths of a pass gather: what share of the map serves the image (docs/learning.md). A program of its
+ * own, with MARKS_GATHERED, which a render runs once, after its passes, if it is asked to.
+ * From: camera rays, photon map. To: a bit for each photon. */
+#include "camera_paths.cl"
+
+__kernel void markGathered(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                           __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
+                           __global uint* marks, const CameraParams params
+#ifdef ADAPTIVE_RADIUS
+                           ,
+                           __global const float* radiusScales
+#endif
+) {
+    const uint index = get_global_id(0);
+    if (index >= pathCount(&params)) return;
+    const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map, marks},
+#ifdef ADAPTIVE_RADIUS
+                         radiusScales,
+#endif
+                         &params};
+    float3 components[FILM_SAMPLES];
+    traceCameraPath(&world, index, components);
+}
