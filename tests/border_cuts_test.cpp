@@ -133,8 +133,8 @@ TEST(BorderCuts, RandomTrianglesCutWhereTheirEdgesHit) {
 TEST(BorderCuts, OverlappingPairsAreThoseOfBruteForce) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
-    std::vector<BorderBox> boxes(2000);
-    for (BorderBox& box : boxes) { // sizes over three decades
+    std::vector<Box> boxes(2000);
+    for (Box& box : boxes) { // sizes over three decades
         box.lower = {uniform(random), uniform(random), uniform(random)};
         box.upper = box.lower +
                     std::pow(10, -3 * uniform(random)) * 0.3 * dvec3(uniform(random), uniform(random), uniform(random));

@@ -1,6 +1,8 @@
 // Uniform grid over the border segments: count, prefix sum, scatter.
 #include "prepare/borders.h"
 
+#include "prepare/box.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,17 +12,13 @@ namespace {
 
 constexpr double maximumCells = 2e6;
 
-struct Box {
-    glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
-};
-
 glm::dvec3 point(const shared::Packed3& p) { return {p.x, p.y, p.z}; }
 
 Box boundsOf(const std::vector<shared::BorderSegment>& segments) {
     Box box;
     for (const shared::BorderSegment& segment : segments) {
-        box.lower = glm::min(box.lower, glm::min(point(segment.a), point(segment.b)));
-        box.upper = glm::max(box.upper, glm::max(point(segment.a), point(segment.b)));
+        box.add(point(segment.a));
+        box.add(point(segment.b));
     }
     return box;
 }
@@ -95,7 +93,7 @@ template <typename Visit>
 void forEachCellNear(const shared::BorderSegment& segment, double reach, const std::vector<float>& reachOfCell,
                      const SurfaceBorders::Grid& grid, const Visit& visit) {
     const glm::dvec3 a = point(segment.a), b = point(segment.b), lower(grid.lower), extent = glm::abs(b - a);
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const int axis = longestAxis(extent);
     const double size = grid.cellSize, half = 0.5 * size + reach;
     const CellRange all = cellsAround(a, b, reach, grid);
     for (unsigned slab = all.from[axis]; slab <= all.to[axis]; ++slab) {

@@ -15,14 +15,14 @@ namespace {
 struct Candidates {
     std::vector<const SurfaceTriangle*> triangles;
     std::vector<const SurfaceSphere*> spheres;
-    std::vector<BorderBox> boxes;
+    std::vector<Box> boxes;
 };
 
 Candidates collectCandidates(const Surface& surface) {
     Candidates candidates;
     for (const SurfaceTriangle& triangle : surface.triangles) {
         if (triangle.kind != SurfaceTriangle::Kind::regular) continue;
-        BorderBox box;
+        Box box;
         for (int i = 0; i < 3; ++i) box.add(surface.vertices[triangle.corner[i]]);
         candidates.triangles.push_back(&triangle);
         candidates.boxes.push_back({box.lower - triangle.rounding, box.upper + triangle.rounding});

@@ -11,14 +11,14 @@ namespace {
 constexpr unsigned leafSize = 4;
 
 struct Node {
-    BorderBox box;
+    Box box;
     unsigned first = 0, count = 0; ///< leaf: a range of `order`
     unsigned left = 0, right = 0;  ///< inner (count 0): nodes
 };
 
 class BoxTree {
 public:
-    BoxTree(const std::vector<BorderBox>& boxes, const std::function<void(unsigned, unsigned)>& visit)
+    BoxTree(const std::vector<Box>& boxes, const std::function<void(unsigned, unsigned)>& visit)
         : boxes_(boxes), visit_(visit), order_(boxes.size()) {
         std::iota(order_.begin(), order_.end(), 0u);
         if (!order_.empty()) build(0, unsigned(order_.size()));
@@ -32,7 +32,7 @@ private:
     unsigned build(unsigned first, unsigned last) {
         const auto index = unsigned(nodes_.size());
         nodes_.emplace_back();
-        BorderBox box, centers;
+        Box box, centers;
         for (unsigned i = first; i < last; ++i) {
             box.add(boxes_[order_[i]]);
             centers.add(doubleCenter(order_[i]));
@@ -43,8 +43,7 @@ private:
             nodes_[index].count = last - first;
             return index;
         }
-        const glm::dvec3 extent = centers.upper - centers.lower;
-        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+        const int axis = longestAxis(centers.extent());
         const unsigned middle = first + (last - first) / 2;
         std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
                          [&](unsigned a, unsigned b) {
@@ -74,7 +73,7 @@ private:
         if (a.count > 0 && b.count > 0) {
             for (unsigned i = a.first; i < a.first + a.count; ++i)
                 for (unsigned j = b.first; j < b.first + b.count; ++j) visitIfOverlapping(order_[i], order_[j]);
-        } else if (b.count > 0 || (a.count == 0 && size(a) >= size(b))) {
+        } else if (b.count > 0 || (a.count == 0 && a.box.diagonal() >= b.box.diagonal())) {
             visitBetween(nodes_[a.left], b);
             visitBetween(nodes_[a.right], b);
         } else {
@@ -83,13 +82,11 @@ private:
         }
     }
 
-    static double size(const Node& node) { return glm::distance(node.box.lower, node.box.upper); }
-
     void visitIfOverlapping(unsigned i, unsigned j) const {
         if (boxes_[i].overlaps(boxes_[j])) visit_(std::min(i, j), std::max(i, j));
     }
 
-    const std::vector<BorderBox>& boxes_;
+    const std::vector<Box>& boxes_;
     const std::function<void(unsigned, unsigned)>& visit_;
     std::vector<unsigned> order_;
     std::vector<Node> nodes_;
@@ -97,7 +94,7 @@ private:
 
 } // namespace
 
-void forEachOverlappingPair(const std::vector<BorderBox>& boxes, const std::function<void(unsigned, unsigned)>& visit) {
+void forEachOverlappingPair(const std::vector<Box>& boxes, const std::function<void(unsigned, unsigned)>& visit) {
     BoxTree(boxes, visit).visitPairs();
 }
 

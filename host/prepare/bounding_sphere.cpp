@@ -1,7 +1,8 @@
 #include "prepare/bounding_sphere.h"
 
+#include "prepare/box.h"
+
 #include <algorithm>
-#include <limits>
 
 namespace quasilux {
 
@@ -18,13 +19,12 @@ void forEachBall(const Scene& scene, Visit visit) {
 } // namespace
 
 Sphere boundingSphere(const Scene& scene) {
-    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+    Box box;
     forEachBall(scene, [&](const glm::dvec3& center, double radius) {
-        lower = glm::min(lower, center - radius);
-        upper = glm::max(upper, center + radius);
+        box.add(Box{center - radius, center + radius});
     });
-    if (!(lower.x <= upper.x)) return {glm::vec3(0), 1};
-    Sphere sphere{glm::vec3(0.5 * (lower + upper)), 0};
+    if (!(box.lower.x <= box.upper.x)) return {glm::vec3(0), 1};
+    Sphere sphere{glm::vec3(box.center()), 0};
     double reach = 0;
     forEachBall(scene, [&](const glm::dvec3& center, double radius) {
         reach = std::max(reach, glm::length(center - glm::dvec3(sphere.center)) + radius);

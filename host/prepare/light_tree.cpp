@@ -1,10 +1,10 @@
 #include "prepare/light_tree.h"
 
+#include "prepare/box.h"
 #include "prepare/pack.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -12,19 +12,9 @@ namespace quasilux {
 
 namespace {
 
-struct EmitterBounds {
-    glm::dvec3 lower = glm::dvec3(std::numeric_limits<double>::infinity()), upper = -lower;
-
-    void add(const glm::dvec3& point) {
-        lower = glm::min(lower, point);
-        upper = glm::max(upper, point);
-    }
-    glm::dvec3 centre() const { return 0.5 * (lower + upper); }
-};
-
 // What one emitter has of a node.
 struct Light {
-    EmitterBounds bounds;
+    Box bounds;
     glm::dvec3 axis{0, 0, 1};
     double spread = 0, power = 0;
 };
@@ -88,13 +78,12 @@ private:
     void build(At first, At end) {
         nodes_.push_back(nodeOf(first, end));
         if (end - first == 1) return;
-        EmitterBounds centres;
-        for (At k = first; k != end; ++k) centres.add(lights_[*k].bounds.centre());
-        const glm::dvec3 extent = centres.upper - centres.lower;
-        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+        Box centres;
+        for (At k = first; k != end; ++k) centres.add(lights_[*k].bounds.center());
+        const int axis = longestAxis(centres.extent());
         const At middle = first + (end - first) / 2;
         std::nth_element(first, middle, end, [&](unsigned a, unsigned b) {
-            return std::pair(lights_[a].bounds.centre()[axis], a) < std::pair(lights_[b].bounds.centre()[axis], b);
+            return std::pair(lights_[a].bounds.center()[axis], a) < std::pair(lights_[b].bounds.center()[axis], b);
         });
         build(first, middle);
         build(middle, end);
@@ -105,8 +94,7 @@ private:
         glm::dvec3 axes(0);
         for (At k = first; k != end; ++k) {
             const Light& light = lights_[*k];
-            all.bounds.add(light.bounds.lower);
-            all.bounds.add(light.bounds.upper);
+            all.bounds.add(light.bounds);
             all.power += light.power;
             axes += light.power * light.axis;
         }

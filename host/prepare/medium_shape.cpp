@@ -1,11 +1,11 @@
 #include "prepare/medium_shape.h"
 
 #include "prepare/bounding_sphere.h"
+#include "prepare/box.h"
 #include "prepare/pack.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace quasilux {
@@ -16,15 +16,6 @@ using std::numbers::pi;
 constexpr double sameDirection = 1e-5; // sine between normals of one plane
 constexpr double plateShare = 0.6;     // of the surface, in two parallel faces
 constexpr size_t planesMax = 12;
-
-struct Box {
-    glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
-    void add(const glm::dvec3& p) {
-        lower = glm::min(lower, p);
-        upper = glm::max(upper, p);
-    }
-    double diagonal() const { return glm::length(upper - lower); }
-};
 
 Box boxOf(const ShapeDescription& shape) {
     Box box;
@@ -130,9 +121,7 @@ MediumShape findMediumShape(const Scene& scene, unsigned medium) {
     for (const auto& candidate : scene.shapes) {
         boundaries += candidate.interior == medium || candidate.exterior == medium;
         if (candidate.interior != medium) continue;
-        const Box its = boxOf(candidate);
-        box.add(its.lower);
-        box.add(its.upper);
+        box.add(boxOf(candidate));
         only = &candidate;
         shape.volume += candidate.sphere ? 4.0 / 3 * pi * std::pow(double(candidate.sphere->radius), 3)
                                          : std::abs(enclosedVolume(candidate.mesh));
@@ -143,7 +132,7 @@ MediumShape findMediumShape(const Scene& scene, unsigned medium) {
         shape.extent = 2 * double(bounds.radius);
         return shape;
     }
-    const glm::dvec3 sides = box.upper - box.lower;
+    const glm::dvec3 sides = box.extent();
     shape.extent = std::max({sides.x, sides.y, sides.z});
     if (boundaries != 1 || only->sphere) return shape;
     const auto faces = facesOf(only->mesh, shape.extent);
