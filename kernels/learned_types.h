@@ -44,6 +44,15 @@ typedef struct {
     unsigned int pixel;
 } EmissionRecord;
 
+/* A photon of a round while learning. */
+typedef struct {
+    EmissionRecord emission;
+    float flux; /* that it began with, W, mean of R, G, B, times the photons of the round */
+    float
+        squares; /* of what it brings to the image wherever it is stored, summed: in proportion to its part of the noise */
+    float events; /* of its path: in proportion to the time that it takes */
+} PhotonRecord;
+
 /* The numbers of such a ray. */
 typedef struct {
     unsigned int source; /* QL_NONE: none has it */

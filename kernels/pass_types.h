@@ -63,7 +63,7 @@ typedef struct {
     unsigned int cutPaths;              /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
     float fluxCut;                /* W, mean of R, G, B, of those paths */
-    float useful;                 /* while learning: what the path at hand brings to the image */
+    float useful, usefulSquares;  /* while learning: what the path at hand brings to the image; PhotonRecord::squares */
     float density[LIGHT_CLASSES]; /* while learning: photons by area about what the camera sees, times a constant */
     float densityByOctave[DISTANCE_OCTAVES]; /* of them all, by distance from the eye */
     unsigned int overflows;                  /* sums of splats that left the range of their fixed point (camera map) */
@@ -81,7 +81,7 @@ typedef struct {
     unsigned int photonBlocks, photonStride; /* room for photons; stride as in MapParams */
     float perFluxUnit;                       /* 1 / MapParams::fluxUnit */
     unsigned int maxDepth;                   /* segments of the whole path, QL_NONE = no limit */
-    unsigned int learns;                     /* 1: no photon is stored; an EmissionRecord of each path is */
+    unsigned int learns;                     /* 1: no photon is stored; a PhotonRecord of each path is */
     float usualWorth; /* of a photon to the image, flux * importance: weight windows aim at it; 0: none */
     float keepProbability[LIGHT_CLASSES]; /* of photons in media, by class: they are thinned where there are many */
     SceneTables scene;

@@ -286,13 +286,16 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
 /* The same, but only what they would bring to the image is noted, by path. */
 inline void learnFromPaths(uint first, uint last, const Lattice* lattice, const PhotonWorld* world,
                            const PhotonSink* sink, RegionCount* count) {
-    __global EmissionRecord* records = (__global EmissionRecord*)sink->store.arrays;
+    __global PhotonRecord* records = (__global PhotonRecord*)sink->store.arrays;
     for (uint index = first; index < last; ++index) {
-        EmissionRecord record;
-        count->useful = 0;
-        PhotonPath path = emitPhoton(world, lattice, index, count, &record);
+        PhotonRecord record;
+        count->useful = count->usefulSquares = 0;
+        PhotonPath path = emitPhoton(world, lattice, index, count, &record.emission);
+        record.flux = meanFlux(path.flux) * world->params->paths;
         while (photonEvent(&path, 0, world, sink, count)) continue;
-        record.weight = count->useful;
+        record.emission.weight = count->useful;
+        record.squares = count->usefulSquares;
+        record.events = path.steps;
         records[index] = record;
     }
 }

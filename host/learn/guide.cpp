@@ -161,7 +161,7 @@ std::vector<SourceBox> GuideLearner::boxesOf(const std::vector<shared::GuideSour
     for (size_t k = 0; k < boxes.size(); ++k) {
         const unsigned emitter = sources[boxes[k].source].emitter;
         const double plain =
-            emitters_.emitters[emitter].selectionProbability / sourcesOfEmitter[emitter] * boxes[k].box.probability;
+            emitters_.emitters[emitter].selectionProbability / sourcesOfEmitter[emitter] * boxes[k].box.volume();
         boxes[k].box.probability = (1 - plainShare) * (all > 0 ? wanted[k] / all : 0) + plainShare * plain;
     }
     return boxes;

@@ -2,6 +2,7 @@
 
 #include "learn/direct_choice.h"
 #include "learn/distance_octaves.h"
+#include "learn/emission_gain.h"
 #include "learn/importance.h"
 
 #include <algorithm>
@@ -14,6 +15,8 @@ namespace {
 constexpr uint64_t shareOfMemory = 4; // one part in so many
 constexpr unsigned pathsPerPixel = 16, fewestPaths = 8192, mostPaths = 262144;
 constexpr unsigned photonRounds = 3;
+// Below, photons are not guided: plain ones are spread more evenly than chance would (kernels/lattice.clh).
+constexpr double leastGuidingGain = 10;
 constexpr unsigned block = 16; // pixels of a row and column whose mean brightness weighs their errors
 
 // Fewer where the device has little memory: their buffer is to be no part worth mentioning.
@@ -55,18 +58,19 @@ bool isHidden(const LearnedTables& learned) {
 }
 
 // The median over what is brought to the image: half of it comes from photons worth more.
-double usualWorthOf(const std::vector<shared::EmissionRecord>& records) {
+double usualWorthOf(const std::vector<shared::PhotonRecord>& photons) {
     std::vector<double> worths;
     double all = 0, below = 0;
-    for (const auto& record : records) {
-        if (!(record.weight > 0)) continue;
-        worths.push_back(record.weight);
-        all += record.weight;
+    for (const auto& photon : photons) {
+        const double worth = photon.emission.weight;
+        if (!(worth > 0)) continue;
+        worths.push_back(worth);
+        all += worth;
     }
     std::sort(worths.begin(), worths.end());
     for (const double worth : worths) {
         below += worth;
-        if (below >= all / 2) return worth * static_cast<double>(records.size());
+        if (below >= all / 2) return worth * static_cast<double>(photons.size());
     }
     return 0;
 }
@@ -140,16 +144,42 @@ void Learning::followPilots(bool directMayUsePhotons) {
 }
 
 void Learning::traceRounds(const PhotonRound& round) {
+    EmissionGain gain;
+    bool pays = true;
     for (unsigned k = 0; k < photonRounds; ++k) {
         const RoundResult result = round(k);
-        for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].arrived = result.densityByOctave[o];
-        guide_.add(result.records);
-        learned_.tables.guide = guide_.guide();
-        learned_.usualWorth = isHidden(learned_.tables) ? usualWorthOf(result.records) : 0;
-        for (size_t c = 0; c < LIGHT_CLASSES; ++c)
-            learned_.density[c] = gathered_ > 0 ? result.density[c] / gathered_ : 0;
-        upload();
+        noteDensity(result);
+        if (!pays) continue;
+        gain.add(result.photons, scene_.emitters);
+        learnFrom(result.photons);
+        pays = k + 2 != photonRounds || gain.ratio() >= leastGuidingGain; // what is left tells the densities then
+        if (!pays) forget();
     }
+}
+
+void Learning::learnFrom(const std::vector<shared::PhotonRecord>& photons) {
+    std::vector<shared::EmissionRecord> records;
+    for (const auto& photon : photons) records.push_back(photon.emission);
+    guide_.add(records);
+    learned_.tables.guide = guide_.guide();
+    learned_.usualWorth = windowsHold() && isHidden(learned_.tables) ? usualWorthOf(photons) : 0;
+    upload();
+}
+
+// Where guided photons do not pay, none of what leads them does.
+void Learning::forget() {
+    learned_.tables.guide = plainGuide(scene_.emitters);
+    learned_.tables.aims.clear();
+    learned_.usualWorth = 0;
+    upload();
+}
+
+// In media pilots meet more than they can note (PILOT_VERTICES): what their cells say of importance there is too little.
+bool Learning::windowsHold() const { return !scene_.features.media; }
+
+void Learning::noteDensity(const RoundResult& result) {
+    for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].arrived = result.densityByOctave[o];
+    for (size_t c = 0; c < LIGHT_CLASSES; ++c) learned_.density[c] = gathered_ > 0 ? result.density[c] / gathered_ : 0;
 }
 
 } // namespace quasilux

@@ -19,7 +19,7 @@ struct SceneBuffers {
 
 /// What a round of photons found.
 struct RoundResult {
-    std::vector<shared::EmissionRecord> records;            ///< what each would bring to the image
+    std::vector<shared::PhotonRecord> photons;              ///< what each would bring to the image
     std::array<double, LIGHT_CLASSES> density{};            ///< sum of RegionCount::density over photons / their number
     std::array<double, DISTANCE_OCTAVES> densityByOctave{}; ///< likewise
 };
@@ -61,6 +61,10 @@ private:
                                               const std::vector<shared::GuideSource>& sources);
     void makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
                         const std::vector<double>& weights);
+    void noteDensity(const RoundResult& result);
+    void learnFrom(const std::vector<shared::PhotonRecord>& photons);
+    void forget();
+    bool windowsHold() const;
     void upload();
 
     Device& device_;

@@ -127,7 +127,7 @@ struct Renderer::Stages {
         params.pass = firstRoundPass + round;
         params.learns = 1;
         std::fill(std::begin(params.keepProbability), std::end(params.keepProbability), 1.f);
-        const Buffer<shared::EmissionRecord> records(device, params.paths, "learned photons");
+        const Buffer<shared::PhotonRecord> records(device, params.paths, "learned photons");
         const Buffer<uint32_t> blocks(device, 1, "photon blocks");
         const Buffer<shared::RegionCount> regions(device, params.regions, "photon regions");
         program.kernel("tracePhotons")
