@@ -68,6 +68,8 @@ typedef struct {
 /* Instead of an aim: too few pilots came to tell where scattered light matters; the coarse cell does. */
 #define IMPORTANCE_UNKNOWN 0xffffffffu
 #define IMPORTANCE_COARSE 8.0f /* size of a coarse cell to that of a fine one */
+/* The same of the cells that tell where pilots gathered at all: wide enough for discs that reach in from beside. */
+#define SEEN_COARSE 4.0f
 
 /* Distances from the eye, by powers of two: nearer ones belong to the first, farther ones to the last. */
 #define DISTANCE_OCTAVES 16
@@ -78,7 +80,9 @@ typedef struct {
     unsigned int mask;  /* cells - 1, a power of two - 1; at least half of them are empty */
     Packed3 eye;
     float sizePerDistance, smallestSize;
-    float nearest; /* distance from the eye where the first of DISTANCE_OCTAVES begins */
+    float nearest;         /* distance from the eye where the first of DISTANCE_OCTAVES begins */
+    unsigned int seen;     /* offset of the bits of cells where pilots gathered; QL_NONE: nothing is known */
+    unsigned int seenMask; /* bits - 1, a power of two - 1; a cell may share its bit */
 } ImportanceGrid;
 
 /* Vertex of a pilot path. */

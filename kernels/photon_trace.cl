@@ -125,6 +125,18 @@ inline int arrivalCounts(const PhotonPath* path, uint lightClass) {
 #endif
 }
 
+/* Share of the photons that are stored where no pilot gathered any: hardly any path of the camera will, and sorting them takes time. */
+#define UNSEEN_SHARE 0.125f
+
+inline float storedShare(const PhotonWorld* world, const Surface* s) {
+#if defined(LEARNS) && !defined(MAP_CAMERA)
+    const ImportanceGrid* grid = &world->params->scene.learned.importance;
+    return pilotsGathered(world->tables, grid, s->position, importanceFace(s->geometricNormal)) ? 1.0f : UNSEEN_SHARE;
+#else
+    return 1;
+#endif
+}
+
 /* A surface that the path has come to; 0 where it ends. `others` as passWindow has it. */
 inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const PhotonWorld* world, const PhotonSink* sink,
                        RegionCount* count) {
@@ -147,9 +159,12 @@ inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const Phot
         const float3 arriving = path->flux * shadingNormalArrival(&s);
         if (all(isfinite(arriving)) && world->params->learns)
             learnArrival(count, world, s.position, importanceFace(s.geometricNormal), arriving, lightClass);
-        else if (all(isfinite(arriving)))
-            deliverPhoton(sink, count, path, s.position, arriving, s.patch << 1 | s.front, lightClass);
-        else
+        else if (all(isfinite(arriving))) {
+            const float share = storedShare(world, &s);
+            if (share == 1 || rngNext(&path->rng) < share)
+                deliverPhoton(sink, count, path, s.position, arriving / (PHOTON_RULE == 8 ? 1.0f : share),
+                              s.patch << 1 | s.front, lightClass);
+        } else
             ++count->nonFinite;
     }
     const float2 uDirection = rngNext2(&path->rng);

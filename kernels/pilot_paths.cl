@@ -339,9 +339,10 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
     points[index] = point;
 }
 
-/* Learning, step 3: the keys of the importance grid's cells that each vertex lies in, fine and coarse, and the fine one's size. */
+/* Learning, step 3: the keys of the importance grid's cells that each vertex lies in, fine and coarse, and the fine one's size; and of the
+ * cell where each path gathers. */
 __kernel void findImportanceCells(__global const PilotPath* paths, __global uint* keys, __global float* sizes,
-                                  const ImportanceGrid grid, const uint count) {
+                                  __global uint* seenKeys, const ImportanceGrid grid, const uint count) {
     const uint index = get_global_id(0);
     if (index >= count) return;
     for (uint k = 0; k < PILOT_VERTICES; ++k) {
@@ -352,4 +353,6 @@ __kernel void findImportanceCells(__global const PilotPath* paths, __global uint
         keys[2 * place + 1] = vertex.weight > 0 ? importanceKey(&grid, position, vertex.face, IMPORTANCE_COARSE) : 0;
         sizes[place] = vertex.weight > 0 ? importanceCellSize(&grid, position) : 1;
     }
+    const PilotVertex gathers = paths[index].vertices[0];
+    seenKeys[index] = gathers.weight > 0 ? importanceKey(&grid, load3(gathers.position), gathers.face, SEEN_COARSE) : 0;
 }

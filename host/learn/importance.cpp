@@ -1,6 +1,7 @@
 #include "learn/importance.h"
 
 #include "prepare/pack.h"
+#include "util/bit_words.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,6 +18,9 @@ namespace {
 constexpr double verticesOfCell = 128; // of those that the camera sees, about
 // A fine cell with fewer of those that light is scattered at leaves them to the coarse one.
 constexpr unsigned fewestScattering = 8;
+
+// One place in so many is taken for one where pilots gathered.
+constexpr size_t bitsOfCell = 16;
 
 constexpr size_t mostAims = 8;
 constexpr double surestAim = 0.9; // probability of aiming where all that matters comes through one opening
@@ -111,6 +115,16 @@ shared::ImportanceGrid importanceGrid(const DeviceScene& scene, unsigned paths) 
                                                          : ofScene);
     if (!(grid.smallestSize > 0)) grid.smallestSize = 1e-6f;
     return grid;
+}
+
+std::vector<uint32_t> seenCells(std::vector<uint32_t> keys) {
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    if (!keys.empty() && keys.front() == 0) keys.erase(keys.begin());
+    std::vector<uint32_t> words(std::bit_ceil(bitsOfCell * keys.size() + 1) / bitsOfWord + 1);
+    words.resize(std::bit_ceil(words.size()));
+    for (const uint32_t key : keys) setBit(words, key & (bitsOfWord * words.size() - 1));
+    return words;
 }
 
 std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,

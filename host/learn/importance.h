@@ -19,6 +19,9 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& path
                                       const std::vector<float>& sizes, const std::vector<Opening>& aims,
                                       shared::ImportanceGrid& grid);
 
+/// Bits of the cells where pilots gathered, by their keys (0: none), as LearnedTables has them.
+std::vector<uint32_t> seenCells(std::vector<uint32_t> keys);
+
 /// Openings that light should come through which is scattered far from what the camera sees: those that light from outside comes
 /// through, and what the paths tell beside them.
 std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,

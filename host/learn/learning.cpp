@@ -99,14 +99,16 @@ void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std
     const double radius = std::sqrt(scene_.surfaceArea); // of the order of the scene
     const Buffer<uint32_t> keys(device_, 2 * size_t(PILOT_VERTICES) * count, "pilot cell keys");
     const Buffer<float> sizes(device_, size_t(PILOT_VERTICES) * count, "pilot cell sizes");
+    const Buffer<uint32_t> seenKeys(device_, count, "pilot gather keys");
     auto& grid = learned_.tables.importance;
     grid = importanceGrid(scene_, count);
     grid.nearest = nearestGathered(paths, weights, grid.eye);
     const auto gathered = gatheredByOctave(paths, weights, grid);
     for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].gathered = gathered[o];
-    program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, grid, count);
+    program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, seenKeys, grid, count);
     const auto aims = findAims(paths, weights, guide_.openingsFromOutside(), radius);
     for (const Opening& aim : aims) learned_.tables.aims.push_back(openingSource(QL_NONE, 0, aim));
+    learned_.tables.seenCells = seenCells(seenKeys.read());
     learned_.tables.importanceCells = importanceCells(paths, weights, keys.read(), sizes.read(), aims, grid);
 }
 

@@ -3,6 +3,7 @@
 #include "prepare/border_surface.h"
 #include "prepare/direct_sharing.h"
 #include "prepare/scene_tables.h"
+#include "util/bit_words.h"
 
 #include <cmath>
 #include <cstring>
@@ -142,6 +143,9 @@ void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     scene.offsets.learned.importance = learned.importance;
     const bool isKnown = !learned.importanceCells.empty();
     scene.offsets.learned.importance.cells = isKnown ? tables.append(learned.importanceCells) : QL_NONE;
+    auto& grid = scene.offsets.learned.importance;
+    grid.seen = learned.seenCells.empty() ? QL_NONE : tables.append(learned.seenCells);
+    grid.seenMask = static_cast<unsigned>(bitsOfWord * learned.seenCells.size() - 1);
     scene.offsets.learned.aims = tables.append(learned.aims);
     scene.offsets.learned.aimCount = static_cast<unsigned>(learned.aims.size());
     scene.offsets.learned.lights = learned.lights.empty() ? QL_NONE : tables.append(learned.lights);

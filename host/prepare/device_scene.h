@@ -65,6 +65,7 @@ struct LearnedTables {
     std::vector<shared::GuideSource> aims; ///< openings at which scattered photons are aimed
     shared::ImportanceGrid importance{};   ///< without `cells`
     std::vector<uint32_t> importanceCells; ///< none: nothing is known
+    std::vector<uint32_t> seenCells;       ///< a power of two of words; none: nothing is known
 };
 void setLearned(DeviceScene& scene, const LearnedTables& learned);
 /// Indexes the borders for density estimates of these radii; what was learned is to be set again.

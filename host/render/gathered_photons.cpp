@@ -1,14 +1,10 @@
 #include "render/gathered_photons.h"
 
+#include "util/bit_words.h"
+
 #include <numeric>
 
 namespace quasilux {
-
-namespace {
-
-constexpr uint64_t bitsOfWord = 32;
-
-} // namespace
 
 double GatheredCount::share() const {
     const auto all = std::accumulate(stored.begin(), stored.end(), uint64_t{0});
@@ -39,7 +35,7 @@ GatheredCount countGathered(Device& device, const std::string& options, const Ge
     uint64_t photon = 0; // slots follow each other in the map
     for (size_t slot = 0; slot < PHOTON_SLOTS; ++slot)
         for (const uint64_t end = photon + count.stored[slot]; photon < end; ++photon)
-            count.gathered[slot] += bits[photon / bitsOfWord] >> photon % bitsOfWord & 1;
+            count.gathered[slot] += bitAt(bits, photon) ? 1 : 0;
     return count;
 }
 

@@ -35,7 +35,8 @@ enum class PhotonRule {
     missingArrival,
     missingGuideWeight,
     missingAimWeight,
-    missingSplitWeight
+    missingSplitWeight,
+    missingStoreWeight
 };
 
 struct RenderSettings {
