@@ -43,9 +43,10 @@ Scene projectScene(const std::string& name, const std::vector<std::pair<std::str
 }
 
 std::vector<MeanAndError> renderGroups(const Scene& scene, const RenderSettings& settings,
-                                       const std::vector<int>& group, unsigned batches, unsigned passesPerBatch) {
+                                       const std::vector<int>& group, unsigned batches, unsigned passesPerBatch,
+                                       std::shared_ptr<const LearnedScene> learned) {
     const auto groups = static_cast<size_t>(*std::max_element(group.begin(), group.end()) + 1);
-    Renderer renderer(testDevice(), scene, settings);
+    Renderer renderer(testDevice(), scene, settings, std::move(learned));
     std::vector<std::vector<double>> means(groups);
     std::vector<double> before(groups);
     for (unsigned batch = 0; batch < batches; ++batch) {

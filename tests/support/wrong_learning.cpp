@@ -1,0 +1,45 @@
+#include "support/wrong_learning.h"
+
+#include "render/renderer.h"
+#include "support/test_kernels.h"
+
+#include <random>
+
+namespace quasilux {
+
+std::vector<GuideSample> samplesWithin(double side, size_t count) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> number;
+    std::vector<GuideSample> samples(count);
+    for (auto& sample : samples) {
+        for (float& u : sample.u) u = number(random);
+        for (size_t d = 1; d < 3; ++d) sample.u[d] = 0.3f + static_cast<float>(side) * sample.u[d];
+        sample.weight = 1;
+    }
+    return samples;
+}
+
+GuideTables cornerGuide(const EmitterTables& emitters) {
+    std::vector<shared::GuideSource> sources;
+    std::vector<SourceBox> boxes;
+    for (unsigned e = 0; e < emitters.emitters.size(); ++e) {
+        for (const auto& leaf : buildGuideTree(samplesWithin(0.1, 3000), {})) boxes.push_back({e, leaf.box});
+        sources.push_back(plainSource(e, e));
+    }
+    GuideTables guide = makeGuideTables(emitters, std::move(sources), boxes);
+    guide.isGuided = true;
+    return guide;
+}
+
+std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSettings& settings) {
+    auto learned = std::make_shared<LearnedScene>(*Renderer(testDevice(), scene, settings).learned());
+    FlattenSettings flattening;
+    flattening.largestRadius = [](double) { return 1; };
+    learned->tables.guide = cornerGuide(flattenScene(scene, flattening).emitters);
+    learned->tables.aims.clear();
+    learned->tables.seenCells = {0};
+    learned->usualWorth = 0;
+    return learned;
+}
+
+} // namespace quasilux

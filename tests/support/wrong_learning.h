@@ -1,0 +1,22 @@
+// What is learned about a scene, turned against it: means must not depend on it.
+#pragma once
+
+#include "learn/guide_tree.h"
+#include "learn/learning.h"
+#include "render/settings.h"
+
+#include <memory>
+#include <vector>
+
+namespace quasilux {
+
+/// Emission numbers, even but for two of them, which lie within an interval of this length.
+std::vector<GuideSample> samplesWithin(double side, size_t count);
+
+/// Photons begin nearly all in a hundredth of each emitter's numbers, which serves nothing.
+GuideTables cornerGuide(const EmitterTables& emitters);
+
+/// That guide; and no place is said to be gathered from, so that most photons are not stored.
+std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSettings& settings);
+
+} // namespace quasilux
