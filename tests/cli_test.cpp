@@ -208,6 +208,18 @@ TEST(Names, OfComponentsAndSettings) {
     }
 }
 
+// Some fifth of the photons tell of this box's light: 200 are too few for a render to know its noise, 5000 are not.
+TEST_F(CommandLineTest, RareLightIsWarnedOf) {
+    const auto errors = [&](const char* photons, const char* passes) {
+        const Outcome outcome = run({"render", QUASILUX_SOURCE_DIR "/scenes/cornell_phong.xml", "--fixed", "--photons",
+                                     photons, "--passes", passes, "-D", "resolution=32", "-o", "box.exr"});
+        EXPECT_EQ(outcome.exitCode, 0);
+        return outcome.errors;
+    };
+    EXPECT_THAT(errors("200", "1"), HasSubstr("that light is not known, nor its error; render longer"));
+    EXPECT_EQ(errors("5000", "1"), "");
+}
+
 TEST(Names, NearestIsNearOrEmpty) {
     EXPECT_EQ(nearestName("--sed", {"--seed", "--error"}), "--seed");
     EXPECT_EQ(nearestName("Mian", {"main", "alternative"}), "main");

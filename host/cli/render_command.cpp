@@ -149,6 +149,23 @@ void warnOfCounters(const RenderOptions& options, const RenderCounters& counters
                                           : 0.0));
 }
 
+// Light that so few photons have brought is not known, nor its noise; less than this share of the image hardly matters.
+constexpr double fewestEffectivePhotons = 100, lightThatMatters = 0.01;
+
+void warnOfRarePhotons(const RenderOptions& options, const RenderRecord& record) {
+    const auto& learned = record.report.learned;
+    if (!learned.effectivePhotons || learned.lightOfPhotons < lightThatMatters) return;
+    const double effective = *learned.effectivePhotons * static_cast<double>(record.counters.passes);
+    if (effective >= fewestEffectivePhotons) return;
+    warn(
+        options,
+        fmt::format(
+            "{:.2g} % of the image's light comes by photons, and only about {:.2g} have brought any: that light is not "
+            "known, nor its error; render longer, take more --photons, or follow such paths from the camera (--bdd 1, "
+            "or --quasi-specular all --variant alternative)",
+            100 * learned.lightOfPhotons, effective));
+}
+
 RenderRecord makeRecord(const RenderOptions& options, Device& device, const AutoRender& render, MeterKind meter) {
     RenderRecord record;
     record.scene = std::filesystem::path(options.scene).filename().string();
@@ -218,6 +235,7 @@ int renderCommand(const RenderOptions& options) {
     const WrittenFiles written = writeFiles(options, scene, image, record);
     progress.clear();
     warnOfCounters(options, record.counters, uint64_t(image.width) * image.height);
+    warnOfRarePhotons(options, record);
     if (options.json)
         printJsonSummary(record, image, written);
     else if (!options.quiet)

@@ -75,6 +75,16 @@ double usualWorthOf(const std::vector<shared::PhotonRecord>& photons) {
     return 0;
 }
 
+// (sum w)^2 / sum w^2 over the number of photons (Kish 1965).
+double effectiveShare(const std::vector<shared::PhotonRecord>& photons) {
+    double sum = 0, squares = 0;
+    for (const auto& photon : photons) {
+        sum += photon.emission.weight;
+        squares += double(photon.emission.weight) * photon.emission.weight;
+    }
+    return squares > 0 ? sum * sum / squares / static_cast<double>(photons.size()) : 0;
+}
+
 } // namespace
 
 Learning::Learning(Device& device, const Program& program, DeviceScene& scene, SceneBuffers buffers,
@@ -130,6 +140,7 @@ void Learning::followPilots(bool directMayUsePhotons) {
     for (size_t k = 0; k < paths.size(); ++k) {
         records.push_back(paths[k].indirect);
         records.back().weight *= static_cast<float>(weights[k]);
+        if (std::isfinite(records.back().weight)) learned_.lightOfPhotons += records.back().weight;
         gathered_ += weights[k] * paths[k].vertices[0].weight;
         const auto& direct = paths[k].direct;
         finds.push_back({direct.emitter, paths[k].pixel, weights[k] * double(count) * direct.weight,
@@ -150,7 +161,7 @@ void Learning::traceRounds(const PhotonRound& round) {
     bool pays = true;
     for (unsigned k = 0; k < photonRounds; ++k) {
         const RoundResult result = round(k);
-        noteDensity(result);
+        note(result);
         if (!pays) continue;
         gain.add(result.photons, scene_.emitters);
         learnFrom(result.photons);
@@ -161,6 +172,7 @@ void Learning::traceRounds(const PhotonRound& round) {
 
 void Learning::learnFrom(const std::vector<shared::PhotonRecord>& photons) {
     std::vector<shared::EmissionRecord> records;
+    records.reserve(photons.size());
     for (const auto& photon : photons) records.push_back(photon.emission);
     guide_.add(records);
     learned_.tables.guide = guide_.guide();
@@ -179,7 +191,8 @@ void Learning::forget() {
 // In media pilots meet more than they can note (PILOT_VERTICES): what their cells say of importance there is too little.
 bool Learning::windowsHold() const { return !scene_.features.media; }
 
-void Learning::noteDensity(const RoundResult& result) {
+void Learning::note(const RoundResult& result) {
+    learned_.effectiveShare = effectiveShare(result.photons);
     for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].arrived = result.densityByOctave[o];
     for (size_t c = 0; c < LIGHT_CLASSES; ++c) learned_.density[c] = gathered_ > 0 ? result.density[c] / gathered_ : 0;
 }

@@ -40,6 +40,10 @@ struct LearnedScene {
     /// What a photon of the last round was worth to the image, times the number of photons; 0: photons are worth much the same, or
     /// it is not known.
     double usualWorth = 0;
+    /// Share of the image's light that photons are to bring, as camera paths saw it: each pixel's relative to its brightness.
+    double lightOfPhotons = 0;
+    /// As many equal ones as tell as much of that light, over the photons of the last round; below 0: not known.
+    double effectiveShare = -1;
 };
 
 class Learning {
@@ -61,7 +65,7 @@ private:
                                               const std::vector<shared::GuideSource>& sources);
     void makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
                         const std::vector<double>& weights);
-    void noteDensity(const RoundResult& result);
+    void note(const RoundResult& result);
     void learnFrom(const std::vector<shared::PhotonRecord>& photons);
     void forget();
     bool windowsHold() const;

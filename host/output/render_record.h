@@ -21,7 +21,7 @@ struct RenderRecord {
     SceneReport report;
     RenderCounters counters;
     std::optional<GatheredCount> gathered; ///< which photons of a pass camera paths gather
-    SearchReport search; ///< which settings were searched, and why these were chosen
+    SearchReport search;                   ///< which settings were searched, and why these were chosen
     ErrorEstimate error;
     MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
     std::map<std::string, KernelTiming> kernels;

@@ -181,6 +181,8 @@ json sceneReportJson(const SceneReport& report) {
           {"emittersByPhotons", report.learned.emittersByPhotons},
           {"directSamples", report.learned.directSamples},
           {"weightWindows", report.learned.hasWeightWindows},
+          {"lightOfPhotons", report.learned.lightOfPhotons},
+          {"effectivePhotons", orNull(report.learned.effectivePhotons)},
           {"radiusFactors", report.learned.radiusFactors},
           {"seconds", report.learned.seconds}}},
         {"warnings", report.warnings}};

@@ -111,6 +111,8 @@ struct Renderer::Stages {
         for (const bool byPhotons : tables.directByPhotons) row.emittersByPhotons += byPhotons;
         row.directSamples = directSamples();
         row.hasWeightWindows = learned->usualWorth > 0;
+        row.lightOfPhotons = learned->lightOfPhotons;
+        if (learned->effectiveShare >= 0) row.effectivePhotons = learned->effectiveShare * report.photonsPerPass;
         for (unsigned k = 0; field.octaves > 0 && k <= field.octaves; ++k)
             row.radiusFactors.emplace_back(field.nearest * std::exp2(k), field.factor[k]);
         row.seconds = seconds;

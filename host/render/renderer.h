@@ -53,6 +53,9 @@ struct SceneReport {
         size_t leaves = 0, openings = 0, aims = 0, emittersByPhotons = 0;
         unsigned directSamples = 1;
         bool hasWeightWindows = false;
+        double lightOfPhotons = 0; ///< LearnedScene
+        /// As many equal photons as tell as much of it, of a pass; where known.
+        std::optional<double> effectivePhotons;
         std::vector<std::pair<double, double>> radiusFactors; ///< at these distances from the eye; empty: 1
         double seconds = 0;
     } learned;
