@@ -62,8 +62,9 @@ typedef struct {
     unsigned int firstBlock, lastBlock; /* of its photons, where it has any */
     unsigned int cutPaths;              /* paths ended by PATH_EVENTS_MAX */
     unsigned int nonFinite;
-    float fluxCut;                /* W, mean of R, G, B, of those paths */
-    float useful, usefulSquares;  /* while learning: what the path at hand brings to the image; PhotonRecord::squares */
+    float fluxCut;               /* W, mean of R, G, B, of those paths */
+    float useful, usefulSquares; /* while learning: what the path at hand brings to the image; PhotonRecord::squares */
+    unsigned int arrivals, seenArrivals; /* while learning: photons on surfaces, and those where pilots gathered */
     float density[LIGHT_CLASSES]; /* while learning: photons by area about what the camera sees, times a constant */
     float densityByOctave[DISTANCE_OCTAVES]; /* of them all, by distance from the eye */
     unsigned int overflows;                  /* sums of splats that left the range of their fixed point (camera map) */

@@ -15,6 +15,8 @@ namespace {
 constexpr uint64_t shareOfMemory = 4; // one part in so many
 constexpr unsigned pathsPerPixel = 16, fewestPaths = 8192, mostPaths = 262144;
 constexpr unsigned photonRounds = 3;
+// Where more of the photons lie about what is gathered, all are stored: the noise of those few that stand for others would not pay.
+constexpr double mostSeenShare = 0.5;
 // Below, photons are not guided: plain ones are spread more evenly than chance would (kernels/lattice.clh).
 constexpr double leastGuidingGain = 10;
 constexpr unsigned block = 16; // pixels of a row and column whose mean brightness weighs their errors
@@ -118,7 +120,7 @@ void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std
     program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, seenKeys, grid, count);
     const auto aims = findAims(paths, weights, guide_.openingsFromOutside(), radius);
     for (const Opening& aim : aims) learned_.tables.aims.push_back(openingSource(QL_NONE, 0, aim));
-    learned_.tables.seenCells = seenCells(seenKeys.read());
+    seenCells_ = seenCells(seenKeys.read());
     learned_.tables.importanceCells = importanceCells(paths, weights, keys.read(), sizes.read(), aims, grid);
 }
 
@@ -157,17 +159,24 @@ void Learning::followPilots(bool directMayUsePhotons) {
 }
 
 void Learning::traceRounds(const PhotonRound& round) {
+    learned_.tables.seenCells = seenCells_;
+    upload();
     EmissionGain gain;
     bool pays = true;
+    double seenShare = 1;
     for (unsigned k = 0; k < photonRounds; ++k) {
         const RoundResult result = round(k);
         note(result);
+        seenShare = result.seenShare;
         if (!pays) continue;
         gain.add(result.photons, scene_.emitters);
         learnFrom(result.photons);
         pays = k + 2 != photonRounds || gain.ratio() >= leastGuidingGain; // what is left tells the densities then
         if (!pays) forget();
     }
+    if (seenShare < mostSeenShare) return;
+    learned_.tables.seenCells.clear();
+    upload();
 }
 
 void Learning::learnFrom(const std::vector<shared::PhotonRecord>& photons) {

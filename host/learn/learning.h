@@ -22,6 +22,7 @@ struct RoundResult {
     std::vector<shared::PhotonRecord> photons;              ///< what each would bring to the image
     std::array<double, LIGHT_CLASSES> density{};            ///< sum of RegionCount::density over photons / their number
     std::array<double, DISTANCE_OCTAVES> densityByOctave{}; ///< likewise
+    double seenShare = 1;                                   ///< of photons on surfaces: where pilots gathered
 };
 /// Traces photons, numbered as a round, guided by what `scene` has learned so far.
 using PhotonRound = std::function<RoundResult(unsigned round)>;
@@ -78,6 +79,7 @@ private:
     shared::CameraParams params_;
     GuideLearner guide_;
     LearnedScene learned_;
+    std::vector<uint32_t> seenCells_;
     double gathered_ = 0; ///< sum of what makes up ImportanceGrid's first values, times the cells' areas
 };
 

@@ -136,11 +136,15 @@ struct Renderer::Stages {
             .launchLong(params.regions, geometry.nodes, geometry.blocks, geometry.tables, records, blocks, regions,
                         params);
         RoundResult result{records.read(), {}, {}};
+        double arrivals = 0, seen = 0;
         for (const auto& region : regions.read()) {
+            arrivals += region.arrivals;
+            seen += region.seenArrivals;
             for (unsigned c = 0; c < LIGHT_CLASSES; ++c) result.density[c] += double(region.density[c]) / params.paths;
             for (unsigned o = 0; o < DISTANCE_OCTAVES; ++o)
                 result.densityByOctave[o] += double(region.densityByOctave[o]) / params.paths;
         }
+        if (arrivals > 0) result.seenShare = seen / arrivals;
         return result;
     }
 
