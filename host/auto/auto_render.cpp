@@ -55,6 +55,7 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     result.image = renderUntil(*start, stop, onProgress, interrupted, {world.clock()});
     result.report = start->report();
     result.counters = start->counters();
+    result.peakBufferBytes = device.peakBytes();
     if (settings.countGathered && !interrupted) result.gathered = start->countGathered();
     return result;
 }

@@ -180,7 +180,7 @@ RenderRecord makeRecord(const RenderOptions& options, Device& device, const Auto
     record.error = estimateError(render.image);
     record.meter = meter;
     record.kernels = device.timings();
-    record.peakBufferBytes = device.peakBytes();
+    record.peakBufferBytes = render.peakBufferBytes;
     record.peakHostBytes = peakResidentBytes();
     record.interrupted = interruptFlag();
     return record;
