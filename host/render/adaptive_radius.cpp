@@ -50,6 +50,8 @@ size_t choicesWithin(unsigned passes) {
     return std::upper_bound(choices.begin(), choices.end(), passes) - choices.begin();
 }
 
+std::string scalesLabel(size_t choice) { return "radii " + std::to_string(choice); }
+
 size_t scaleCount(const shared::Camera& pilot, unsigned classes) {
     return size_t(pilot.width) * pilot.height * size_t(std::popcount(classes));
 }
@@ -63,18 +65,20 @@ AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared
       pilotScales_(device, scaleCount(camera_, classes), "pilot's radii"),
       measures_(device, pilotScales_.size(), "pilot's measures") {
     for (size_t choice = 0; choice <= choices.size(); ++choice)
-        scales_.emplace_back(device, pilotScales_.size(), "radii").fill(1);
+        scales_.emplace_back(device, pilotScales_.size(), scalesLabel(choice)).fill(1);
     pilotScales_.fill(largestAdaptiveRadius);
 }
 
 std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
     const shared::Camera pilot = coarseCamera(camera, blockSize(camera));
     const uint64_t scales = scaleCount(pilot, classes);
-    return {{"pilot's film", uint64_t(pilot.width) * pilot.height * Film::floatsPerPixel(true) * sizeof(float)},
-            {"pilot's camera counters", sizeof(shared::CameraCounters)},
-            {"radii", (1 + choices.size()) * scales * sizeof(float)},
-            {"pilot's radii", scales * sizeof(float)},
-            {"pilot's measures", scales * sizeof(shared::RadiusMeasure)}};
+    std::map<std::string, uint64_t> bytes{
+        {"pilot's film", uint64_t(pilot.width) * pilot.height * Film::floatsPerPixel(true) * sizeof(float)},
+        {"pilot's camera counters", sizeof(shared::CameraCounters)},
+        {"pilot's radii", scales * sizeof(float)},
+        {"pilot's measures", scales * sizeof(shared::RadiusMeasure)}};
+    for (size_t choice = 0; choice <= choices.size(); ++choice) bytes[scalesLabel(choice)] = scales * sizeof(float);
+    return bytes;
 }
 
 void AdaptiveRadius::compile() {
