@@ -59,7 +59,7 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
     const float3 wo = toLocal(&frame, -path->ray.direction);
     uint directMask = 0;
     for (uint k = 0; k < s.lobeCount; ++k)
-        directMask |= (lawLightTaken(lobes[k].scattering, path->d, path->q, params->bdd) >> LIGHT_DIRECT & 1) << k;
+        directMask |= (lightTaken(lobes[k].scattering, path, params) >> LIGHT_DIRECT & 1) << k;
     const LobeChoice choice = chooseProbabilities(path, &s, lobes, wo, params->bdd, directMask, &params->scene);
     takeLight(world, path, &s, &frame, wo, lobes, &choice, rng, components);
     if (path->depth >= params->maxDepth) return 0;

@@ -27,6 +27,7 @@ typedef struct {
     unsigned int emitters, emitterTriangles, emitterCount;
     unsigned int lightTree,
         lightTreeCount;           /* LightNode; number of emitters in it, the first of the table; 0: there is none */
+    unsigned int variant;         /* of the law: VARIANT_* */
     unsigned int directSharing;   /* DIRECT_SHARING_* */
     unsigned int emittersSampled; /* by genuine diffuse lobes, for direct light: all but those with directByPhotons */
     unsigned int segments, borderCells, borderItems;

@@ -15,9 +15,9 @@
 #include "weight_window.clh"
 
 /* Classes of light that the lobes met here can ever take, restricted to those the kernels store. */
-inline uint storableClasses(__global const Lobe* lobes, uint count) {
+inline uint storableClasses(__global const Lobe* lobes, uint count, uint variant) {
     uint classes = 0;
-    for (uint k = 0; k < count; ++k) classes |= lawLightPossible(lobes[k].scattering);
+    for (uint k = 0; k < count; ++k) classes |= lawLightPossible(lobes[k].scattering, variant);
     return classes & PHOTON_CLASSES;
 }
 
@@ -155,7 +155,8 @@ inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const Phot
     const uint lightClass = lawPhotonClass(path->events);
     const int delivered = path->arrived;
     path->arrived = 0;
-    if (!delivered && storableClasses(lobes, s.lobeCount) & (1u << lightClass) && arrivalCounts(path, lightClass)) {
+    if (!delivered && storableClasses(lobes, s.lobeCount, world->params->scene.variant) & (1u << lightClass) &&
+        arrivalCounts(path, lightClass)) {
         const float3 arriving = path->flux * shadingNormalArrival(&s);
         if (all(isfinite(arriving)) && world->params->learns)
             learnArrival(count, world, s.position, importanceFace(s.geometricNormal), arriving, lightClass);

@@ -74,7 +74,9 @@ typedef struct {
 
 /* ---- scattering ---------------------------------------------------------------------------------------------- */
 
-/* How a lobe scatters, by the law (kernels/law.clh). */
+/* Variants of the law (kernels/law.clh), and how a lobe scatters by it. */
+#define VARIANT_MAIN 0u
+#define VARIANT_ALTERNATIVE 1u
 #define SCATTER_GENUINE_DIFFUSE 1u
 #define SCATTER_QUASI_SPECULAR 2u
 #define SCATTER_SPECULAR 4u /* delta */

@@ -26,6 +26,12 @@ SearchWorld worldOf(Device& device, const Scene& scene, const std::shared_ptr<co
     return world;
 }
 
+// Some of the device's memory is for others, and buffers grow with what is stored.
+size_t pilotsInMemory(Device& device, const Renderer& renderer) {
+    const uint64_t each = sumOf(renderer.report().bufferBytes);
+    return std::max<uint64_t>(2, device.info().globalMemory / 4 / std::max<uint64_t>(1, each));
+}
+
 } // namespace
 
 AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& settings,
@@ -37,19 +43,16 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     result.search.notSearched = whyNotSearched(scene, settings, stop);
     result.search.freedom = freedom;
     const auto learned = start->learned();
-    const SearchWorld world = worldOf(device, scene, learned, onProgress, interrupted);
+    SearchWorld world = worldOf(device, scene, learned, onProgress, interrupted);
     if (freedom.any() && result.search.notSearched.empty()) {
+        world.mostOpen = pilotsInMemory(device, *start);
         auto first = std::make_unique<RendererPilot>(device, std::move(start), !scene.media.empty());
         SearchResult found = Search(world, scene, freedom, stop).run(settings, std::move(first));
         result.search = found.report;
         result.settings = found.settings;
-        result.settings.seed = settings.seed;
-        start = static_cast<RendererPilot&>(*found.best).release();
-        if (result.search.rows.size() > 1) {
-            // What pilots showed has decided which of them is the best, so their passes are no part of the image.
-            start.reset();
-            start = std::make_unique<Renderer>(device, scene, result.settings, learned);
-        }
+        // What pilots showed has decided which of them is the best, so their passes are no part of the image.
+        start = found.start ? static_cast<RendererPilot&>(*found.start).release()
+                            : std::make_unique<Renderer>(device, scene, result.settings, learned);
     }
     if (onChosen) onChosen(result.search);
     result.image = renderUntil(*start, stop, onProgress, interrupted, {world.clock()});

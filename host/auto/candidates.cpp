@@ -33,21 +33,35 @@ void forEachLobe(const Split& split, const Visit& visit) {
             for (const auto& lobe : *side) visit(lobe.scattering);
 }
 
-// What the kernels are compiled for; the level itself is data to them.
+// What there is of each kind of scattering; the level itself is data to the kernels.
 struct Scatterings {
-    bool diffuseLobes = false, quasiSpecularLobes = false, diffuseMedia = false, quasiSpecularMedia = false;
+    bool diffuseLobes = false, quasiSpecularLobes = false, specularLobes = false;
+    bool diffuseMedia = false, quasiSpecularMedia = false;
 
     explicit Scatterings(const Split& split) {
         forEachLobe(split, [&](unsigned scattering) {
             diffuseLobes |= scattering == SCATTER_GENUINE_DIFFUSE;
             quasiSpecularLobes |= scattering == SCATTER_QUASI_SPECULAR;
+            specularLobes |= scattering == SCATTER_SPECULAR;
         });
         for (const auto& medium : split.media) {
             diffuseMedia |= medium.level > 0;
             quasiSpecularMedia |= !std::isinf(medium.level);
         }
     }
+    bool anyQuasiSpecular() const { return quasiSpecularLobes || quasiSpecularMedia; }
 };
+
+// Of photons that some camera path can use.
+unsigned classesOf(const Scatterings& has, const RenderSettings& settings) {
+    Features features;
+    features.genuineDiffuse = has.diffuseLobes;
+    features.quasiSpecular = has.quasiSpecularLobes;
+    features.specular = has.specularLobes;
+    features.genuineDiffuseMedia = has.diffuseMedia;
+    features.quasiSpecularMedia = has.quasiSpecularMedia;
+    return photonClasses(features, settings);
+}
 
 // With nothing genuine diffuse the main variant is the standard method with BDD 0, as if everything were
 // (docs/theory.md).
@@ -82,100 +96,108 @@ std::vector<std::string> singleLobes(const Scene& scene) {
     return names;
 }
 
-std::vector<RenderSettings> otherSplits(const RenderSettings& from, const Scene& scene, bool variantIsFree) {
+std::vector<std::string> splitsOf(const Scene& scene) {
     std::vector<std::string> splits{"auto"};
     if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.3", "level:0.03"});
     splits.insert(splits.end(), {"none", "all"});
     for (const auto& lobe : singleLobes(scene)) splits.push_back(lobe);
-    std::vector<std::string> known{splitKey(splitOf(scene, from), from.variant, from.bdd)};
-    std::vector<RenderSettings> found;
-    for (const auto& split : splits) {
-        RenderSettings next = from;
-        next.quasiSpecular = split;
-        next.quasiSpecularFromCommandLine = true;
-        const Split decided = splitOf(scene, next);
-        const Scatterings has(decided);
-        // Following everything is the alternative variant's alone: with the main one, it would be found in two steps
-        // only. With nothing followed the variants are one, and its candidate has been there before.
-        if (variantIsFree && isStandard(has, next.variant)) next.variant = Variant::alternative;
-        if (variantIsFree && !has.quasiSpecularLobes && !has.quasiSpecularMedia) next.variant = Variant::main;
-        const std::string key = splitKey(decided, next.variant, next.bdd);
-        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-        known.push_back(key);
-        found.push_back(next);
-    }
-    return found;
+    return splits;
 }
 
-bool isFree(Coordinate coordinate, const Freedom& freedom) {
-    const bool free[] = {freedom.split, freedom.bdd, freedom.variant, freedom.photons, freedom.radius};
-    return free[static_cast<size_t>(coordinate)];
-}
+// The same method may have several names; `known` has the keys of those met so far.
+class MethodList {
+public:
+    MethodList(const Scene& scene, std::vector<RenderSettings>& methods) : scene_(scene), methods_(methods) {}
+
+    void add(const RenderSettings& settings) {
+        const Split split = splitOf(scene_, settings);
+        const Scatterings has(split);
+        const bool variantsAreOne = !has.anyQuasiSpecular() || (settings.bdd == 0 && isStandard(has, settings.variant));
+        const std::string key = fmt::format("{} {} {}", settings.bdd, variantsAreOne ? "" : name(settings.variant),
+                                            splitKey(split, settings.variant, settings.bdd));
+        if (std::find(known_.begin(), known_.end(), key) != known_.end()) return;
+        known_.push_back(key);
+        methods_.push_back(settings);
+    }
+
+private:
+    const Scene& scene_;
+    std::vector<RenderSettings>& methods_;
+    std::vector<std::string> known_;
+};
 
 } // namespace
 
 RenderSettings searchStart(const RenderSettings& settings, const Scene& scene, const Freedom& freedom,
                            const StopRule& stop) {
+    if (!whyNotSearched(scene, settings, stop).empty()) return settings;
     RenderSettings start = settings;
-    if (freedom.photons && settings.photonsPerPass == 0 && whyNotSearched(scene, settings, stop).empty())
+    if (freedom.photons && settings.photonsPerPass == 0)
         start.photonsPerPass = photonsForPixels(flattenCamera(scene.sensor), fewestPhotonsAtStart);
+    for (const auto& method : methods(settings, scene, freedom))
+        start.furtherClasses |= classesOf(Scatterings(splitOf(scene, method)), method);
     return start;
 }
 
-std::vector<RenderSettings> neighbours(Coordinate coordinate, const RenderSettings& from, unsigned photons,
-                                       const Scene& scene, const Freedom& freedom) {
-    if (!isFree(coordinate, freedom)) return {};
-    RenderSettings next = from;
-    switch (coordinate) {
-    case Coordinate::bdd:
-        next.bdd = from.bdd == 0 ? 1 : 0;
-        return {next};
-    case Coordinate::split:
-        return otherSplits(from, scene, freedom.variant);
-    case Coordinate::variant: {
-        const Scatterings has(splitOf(scene, from));
-        if (!has.quasiSpecularLobes && !has.quasiSpecularMedia) return {}; // the variants are one
-        next.variant = from.variant == Variant::main ? Variant::alternative : Variant::main;
-        // With nothing genuine diffuse, the other variant is a candidate of splits.
-        if (freedom.split && (isStandard(has, from.variant) || isStandard(has, next.variant))) return {};
-        return {next};
+std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& scene, const Freedom& freedom) {
+    std::vector<RenderSettings> found;
+    MethodList list(scene, found);
+    list.add(start);
+    for (const unsigned bdd : {0u, 1u}) {
+        if (!freedom.bdd && bdd != start.bdd) continue;
+        std::vector<RenderSettings> ofBdd{start};
+        if (freedom.split)
+            for (const auto& split : splitsOf(scene)) {
+                ofBdd.push_back(start);
+                ofBdd.back().quasiSpecular = split;
+                ofBdd.back().quasiSpecularFromCommandLine = true;
+            }
+        for (auto& method : ofBdd) {
+            method.bdd = freedom.bdd ? bdd : start.bdd;
+            list.add(method);
+            if (!freedom.variant) continue;
+            method.variant = start.variant == Variant::main ? Variant::alternative : Variant::main;
+            list.add(method);
+        }
     }
-    case Coordinate::photons: {
-        RenderSettings fewer = from;
-        next.photonsPerPass = static_cast<unsigned>(photonsStep * photons);
-        fewer.photonsPerPass = std::max(1u, static_cast<unsigned>(photons / photonsStep));
-        return {next, fewer};
-    }
-    case Coordinate::radius: {
-        RenderSettings smaller = from;
-        next.radiusScale = from.radiusScale * radiusStep;
-        smaller.radiusScale = from.radiusScale / radiusStep;
-        return {next, smaller};
-    }
-    }
-    return {};
+    const auto first = found.begin() + 1;
+    std::stable_partition(first, found.end(),
+                          [&](const RenderSettings& method) { return shareKernels(method, start, scene); });
+    return found;
 }
 
-std::array<Coordinate, 5> searchOrder(const RenderSettings& start) {
-    using enum Coordinate;
-    return start.bdd > 0 ? std::array{bdd, split, variant, photons, radius}
-                         : std::array{split, variant, photons, radius, bdd};
+bool shareKernels(const RenderSettings& a, const RenderSettings& b, const Scene& scene) {
+    const auto hasPhotons = [&](const RenderSettings& method) {
+        return classesOf(Scatterings(splitOf(scene, method)), method) != 0;
+    };
+    return hasPhotons(a) == hasPhotons(b);
+}
+
+std::vector<RenderSettings> numbersBeside(const RenderSettings& from, unsigned photons, const Freedom& freedom) {
+    std::vector<RenderSettings> found;
+    const auto add = [&](double photonsFactor, double radiusFactor) {
+        RenderSettings next = from;
+        if (photonsFactor != 1) next.photonsPerPass = std::max(1u, static_cast<unsigned>(photonsFactor * photons));
+        next.radiusScale *= radiusFactor;
+        found.push_back(next);
+    };
+    if (freedom.photons)
+        for (const double factor : {1 / photonsStep, photonsStep}) add(factor, 1);
+    if (freedom.radius)
+        for (const double factor : {1 / radiusStep, radiusStep}) add(1, factor);
+    return found;
 }
 
 std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSettings& start, unsigned photons,
                                          const Scene& scene) {
+    auto candidates = methods(start, scene, freedom);
+    candidates.erase(candidates.begin());
+    const auto numbers = numbersBeside(start, photons, freedom);
+    candidates.insert(candidates.end(), numbers.begin(), numbers.end());
     std::vector<std::string> texts;
-    for (const Coordinate coordinate : searchOrder(start)) {
-        for (const auto& next : neighbours(coordinate, start, photons, scene, freedom))
-            texts.push_back(text(next, next.photonsPerPass > 0 ? next.photonsPerPass : photons));
-    }
+    for (const auto& next : candidates)
+        texts.push_back(text(next, next.photonsPerPass > 0 ? next.photonsPerPass : photons));
     return texts;
-}
-
-std::string kernelKey(const RenderSettings& settings, const Scene& scene) {
-    const Scatterings has(splitOf(scene, settings));
-    return fmt::format("{} {} {} {} {}", name(settings.variant), has.diffuseLobes, has.quasiSpecularLobes,
-                       has.diffuseMedia, has.quasiSpecularMedia);
 }
 
 std::string text(const RenderSettings& settings, unsigned photons) {

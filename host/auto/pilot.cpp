@@ -44,7 +44,6 @@ void RendererPilot::renderPass() {
 PilotMeasure RendererPilot::measure() const {
     const double photons = lateMedian(&PassSeconds::photons), camera = lateMedian(&PassSeconds::camera);
     PilotMeasure pilot = measurePilot(renderer_->develop(), hasMedia_, photons + camera);
-    if (pilot.secondsPerPass > 0) pilot.photonShare = photons / pilot.secondsPerPass;
     pilot.radius = radiusOf(renderer_->report());
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());
     return pilot;

@@ -81,47 +81,46 @@ struct Estimate {
 
 Estimate biasOf(const PilotMeasure& pilot) { return {sum(pilot.bias), leastBias(pilot)}; }
 
-// Mean of two estimates of one thing, weights inverse to their variance.
-Estimate pooled(const Estimate& a, const Estimate& b) {
-    const double weightA = 1 / (a.standardError * a.standardError), weightB = 1 / (b.standardError * b.standardError);
-    return {(weightA * a.value + weightB * b.value) / (weightA + weightB), 1 / std::sqrt(weightA + weightB)};
-}
+// Several estimates of one thing, or of things that differ by `spread` (a variance) as far as their noise does not explain it (DerSimonian & Laird 1986).
+struct Common {
+    double mean = 0, standardError = 0, spread = 0;
 
-Estimate between(const Estimate& a, const Estimate& b, double shareOfB) {
-    return {(1 - shareOfB) * a.value + shareOfB * b.value,
-            (1 - shareOfB) * a.standardError + shareOfB * b.standardError};
-}
-
-// One of two that are compared, as it will be at the end.
-struct Side {
-    const PilotMeasure& pilot;
-    Growth growth;
-    Estimate bias;
-
-    // Without the noise and bias of a tile.
-    double error(double noiseLeftOut, double biasLeftOut) const {
-        const double noise = sum(pilot.noise), least = 1e-12 * growth.noise * noise; // a tile may hold all of it
-        const Estimate left{bias.value - biasLeftOut, bias.standardError};
-        return std::max(least, growth.noise * (noise - noiseLeftOut) + growth.bias * left.counted()) + 1e-300;
+    explicit Common(const std::vector<Estimate>& estimates) {
+        double weights = 0, squaredWeights = 0, squares = 0;
+        for (const auto& e : estimates) {
+            const double weight = 1 / (e.standardError * e.standardError);
+            weights += weight;
+            squaredWeights += weight * weight;
+            mean += weight * e.value;
+        }
+        mean /= weights;
+        standardError = 1 / std::sqrt(weights);
+        for (const auto& e : estimates) squares += std::pow((e.value - mean) / e.standardError, 2);
+        const double free = static_cast<double>(estimates.size()) - 1;
+        if (free > 0) spread = std::max(0.0, (squares - free) / (weights - squaredWeights / weights));
     }
-    // Standard error of error() by that of the bias.
-    double byBias() const { return growth.bias * bias.standardError; }
-    double hiddenBias() const { return bias.value < bias.standardError ? byBias() : 0; }
+
+    // The estimate, drawn to the mean by as much of its distance as is noise.
+    Estimate shrunk(const Estimate& e) const {
+        const double variance = e.standardError * e.standardError, own = spread / (spread + variance);
+        return {mean + own * (e.value - mean), standardError + own * (e.standardError - standardError)};
+    }
 };
 
-// Biases of two are taken to be one, but for what their radii explain, as far as noise explains their difference d of
-// standard error s: each keeps the share 1 - s^2 / d^2 of its distance from the mean of both (James & Stein 1961), which
-// is returned.
-double shrinkBias(Side& a, Side& b) {
-    const double byRadius = std::pow(a.pilot.radius / b.pilot.radius, 2 * biasByRadius);
-    const Estimate ofB{byRadius * b.bias.value, byRadius * b.bias.standardError};
-    if (a.bias.standardError == 0 || ofB.standardError == 0) return 1;
-    const double apart = (a.bias.value - ofB.value) / std::hypot(a.bias.standardError, ofB.standardError);
-    const double own = std::max(0.0, 1 - 1 / (apart * apart));
-    const Estimate mean = pooled(a.bias, ofB);
-    a.bias = between(mean, a.bias, own);
-    b.bias = between({mean.value / byRadius, mean.standardError / byRadius}, b.bias, own);
-    return own;
+// Biases of radius 1.
+std::vector<Estimate> biasesOf(const std::vector<const PilotMeasure*>& pilots) {
+    std::vector<Estimate> biases;
+    bool allKnown = true;
+    for (const auto* pilot : pilots) {
+        const double ofRadius = std::pow(pilot->radius, 2 * biasByRadius);
+        const Estimate told = biasOf(*pilot);
+        biases.push_back({told.value / ofRadius, told.standardError / ofRadius});
+        allKnown &= told.standardError > 0;
+    }
+    if (!allKnown) return biases;
+    const Common common(biases);
+    for (auto& bias : biases) bias = common.shrunk(bias);
+    return biases;
 }
 
 } // namespace
@@ -139,12 +138,6 @@ PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsP
     return pilot;
 }
 
-bool tellsBias(const PilotMeasure& pilot) {
-    constexpr double surely = 2; // standard errors
-    const Estimate bias = biasOf(pilot);
-    return bias.value > surely * bias.standardError;
-}
-
 double Prediction::relativeError() const { return std::sqrt(relativeMse()); }
 
 Prediction predictAfterPasses(const PilotMeasure& pilot, double passes) {
@@ -156,30 +149,16 @@ Prediction predictAfter(const PilotMeasure& pilot, double seconds) {
     return predictAfterPasses(pilot, passesAfter(pilot, seconds));
 }
 
-ErrorRatio errorRatio(const PilotMeasure& a, const PilotMeasure& b, double seconds) {
-    Side sideA{a, growthTo(a, passesAfter(a, seconds)), biasOf(a)};
-    Side sideB{b, growthTo(b, passesAfter(b, seconds)), biasOf(b)};
-    const double own = shrinkBias(sideA, sideB);
-    const double errorA = sideA.error(0, 0), errorB = sideB.error(0, 0);
-    ErrorRatio result;
-    result.logRatio = std::log(errorA / errorB);
-    const size_t tiles = std::min(a.noise.size(), b.noise.size());
-    double mean = 0, squares = 0;
-    for (size_t t = 0; t < tiles; ++t) {
-        const double left =
-            std::log(sideA.error(a.noise[t], own * a.bias[t]) / sideB.error(b.noise[t], own * b.bias[t]));
-        mean += left;
-        squares += left * left;
+std::vector<double> predictedErrors(const std::vector<const PilotMeasure*>& pilots, double seconds) {
+    const auto biases = biasesOf(pilots);
+    std::vector<double> errors;
+    for (size_t k = 0; k < pilots.size(); ++k) {
+        const PilotMeasure& pilot = *pilots[k];
+        const Growth growth = growthTo(pilot, passesAfter(pilot, seconds));
+        const double ofRadius = std::pow(pilot.radius, 2 * biasByRadius);
+        errors.push_back(growth.noise * sum(pilot.noise) + growth.bias * ofRadius * biases[k].counted());
     }
-    const double n = static_cast<double>(tiles);
-    mean /= std::max(1.0, n);
-    if (tiles > 1) result.standardError = std::sqrt((n - 1) / n * std::max(0.0, squares - n * mean * mean));
-    // What noise may hide of the common bias moves both; of a bias that counts as the least, tiles do not tell it.
-    const double ofCommon = sideA.byBias() / errorA - sideB.byBias() / errorB;
-    const double ofOwn = std::hypot(sideA.hiddenBias() / errorA, sideB.hiddenBias() / errorB);
-    const double hidden = (1 - own) * std::abs(ofCommon) + own * ofOwn;
-    result.standardError = std::hypot(result.standardError, hidden);
-    return result;
+    return errors;
 }
 
 double secondsToError(const PilotMeasure& pilot, double relativeError, double limit) {

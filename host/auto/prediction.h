@@ -16,14 +16,10 @@ struct PilotMeasure {
     double biasNoise = 0;            ///< relMSE that the estimate of the bias has as noise
     double radius = 1;               ///< of the first pass's density estimate, in any unit
     bool inVolume = false;           ///< kernels shrink in three dimensions
-    double photonShare = 0.5;        ///< of a pass's time that goes into tracing photons and building their map
 };
 
 /// `image` of passes 0, 1, ….
 PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass);
-
-/// Does it tell a bias, or what may be none?
-bool tellsBias(const PilotMeasure& pilot);
 
 struct Prediction {
     double passes = 0;
@@ -39,15 +35,9 @@ Prediction predictAfterPasses(const PilotMeasure& pilot, double passes);
 /// After `seconds` more on the clock.
 Prediction predictAfter(const PilotMeasure& pilot, double seconds);
 
-/// log of the ratio of two predicted relMSE, and its standard error. Biases that differ by less than what can be told, but for
-/// what their radii explain, count as one. Tiles are left out one after the other
-/// (the jackknife), so what is hard in both counts for neither, and a few bright pixels that carry the noise of one of
-/// them make its standard error large.
-struct ErrorRatio {
-    double logRatio = 0; ///< below 0: `a` is better
-    double standardError = 0;
-};
-ErrorRatio errorRatio(const PilotMeasure& a, const PilotMeasure& b, double seconds);
+/// relMSE of each after `seconds` more on the clock. Biases that differ by less than what can be told, but for what their radii
+/// explain, count as one.
+std::vector<double> predictedErrors(const std::vector<const PilotMeasure*>& pilots, double seconds);
 
 /// Seconds until relMSE falls to the square of `relativeError`; never above `limit`.
 double secondsToError(const PilotMeasure& pilot, double relativeError, double limit);

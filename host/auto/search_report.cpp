@@ -11,7 +11,7 @@ std::string SearchReport::line() const {
     if (!freedom.any()) return "auto: nothing searched: all is given";
     const PilotRow& row = rows.at(chosen);
     std::string line = "auto: " + text(row.settings, row.photonsPerPass);
-    const auto count = fmt::format("{} {}, {} passes of others, {:.1f} s", rows.size(),
+    const auto count = fmt::format("{} {}, {} passes, {:.1f} s", rows.size(),
                                    rows.size() == 1 ? "candidate" : "candidates", passes, seconds);
     if (!(row.predictedError > 0)) return line + " (" + count + ": no time to try others)";
     line += fmt::format(": predicted {:.3g} % after {:.3g} s (", 100 * row.predictedError, horizon);

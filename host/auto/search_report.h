@@ -14,7 +14,7 @@ struct PilotRow {
     unsigned photonsPerPass = 0, passes = 0;
     double secondsPerPass = 0, openingSeconds = 0;
     double predictedError = 0; ///< root of relMSE at the end, as predicted when it was judged
-    std::string outcome;       ///< "start", "better", "worse", "undecided"
+    std::string outcome;       ///< "chosen", "given up"
 };
 
 struct SearchReport {
@@ -22,7 +22,7 @@ struct SearchReport {
     std::string notSearched;    ///< why; empty where candidates were sought
     std::vector<PilotRow> rows; ///< in the order of their pilots; the first one is where the search started
     size_t chosen = 0;          ///< row
-    unsigned passes = 0;        ///< of the candidates that were not chosen
+    unsigned passes = 0;        ///< of all candidates
     double seconds = 0;         ///< on the clock, for opening candidates and for their passes
     double horizon = 0;         ///< seconds for which errors were predicted
     bool outOfTime = false;     ///< candidates were left when the pilots' share of the time was used up

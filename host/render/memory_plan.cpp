@@ -62,7 +62,7 @@ BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings) 
 BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, uint64_t photons,
                      const DeviceInfo& device) {
     BufferSizes sizes = planScene(scene, settings);
-    const unsigned classes = photonClasses(scene.features, settings);
+    const unsigned classes = compiledClasses(scene.features, settings);
     const unsigned regions = PhotonStage::regionCount(photonsPerPass(settings, scene.camera));
     sizes["photon regions"] = regions * sizeof(shared::RegionCount);
     sizes.merge(PhotonArrays::plan(classes, photons, regions, compiledFeatures(scene, settings).depthLimit, device));

@@ -41,6 +41,11 @@ unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& sett
     return surfaces | media << LIGHT_CLASSES;
 }
 
+unsigned compiledClasses(const Features& features, const RenderSettings& settings) {
+    const unsigned taken = photonClasses(features, settings);
+    return taken == 0 ? 0 : taken | settings.furtherClasses;
+}
+
 namespace {
 
 // Classes of photons that are counted at an irradiance meter.
@@ -108,10 +113,9 @@ Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settin
 
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings) {
     std::string options = compiledFeatures(scene, settings).options() + ' ' + bvhOptions(scene.bvh);
-    options += fmt::format(" -DPHOTON_CLASSES={}u", photonClasses(scene.features, settings));
+    options += fmt::format(" -DPHOTON_CLASSES={}u", compiledClasses(scene.features, settings));
     options += meterOptions(scene.features, settings);
     if (settings.direct == DirectLight::emitters) options += " -DDIRECT_BY_EMITTERS";
-    if (settings.variant == Variant::alternative) options += " -DLAW_ALTERNATIVE";
     if (estimatesBias(scene.features, settings)) options += " -DESTIMATE_BIAS=1";
     if (learns(scene.features, settings)) options += " -DLEARNS";
     if (adaptsRadius(scene.features, settings)) options += " -DADAPTIVE_RADIUS";

@@ -11,6 +11,10 @@ namespace quasilux {
 /// Bits 1 << LIGHT_* of the photons that some camera path can use; the others are not stored (kernels/law.clh).
 unsigned photonClasses(const Features& features, const RenderSettings& settings);
 
+/// The same and those of other splits and variants that share these kernels, RenderSettings::furtherClasses; still none where no photons
+/// are needed, as paths alone are much faster without.
+unsigned compiledClasses(const Features& features, const RenderSettings& settings);
+
 /// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
 bool estimatesBias(const Features& features, const RenderSettings& settings);
 /// Whether the density radius may be chosen by pixel, so that borders must be known for the largest one: told before the
@@ -24,7 +28,7 @@ bool learns(const Features& features, const RenderSettings& settings);
 /// Whether direct light of some emitters may be taken from photons, that of others by sampling them.
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings);
 
-/// An irradiance meter scatters by its variant: genuine diffuse in the main one, else quasi-specular (METER_SCATTERING).
+/// An irradiance meter scatters by its variant: genuine diffuse in the main one, else quasi-specular (meterScattering, kernels/law.clh).
 bool meterIsGenuineDiffuse(const Features& features, const RenderSettings& settings);
 
 /// Whether photons that cross an irradiance meter are counted there (kernels/meter_photons.clh).

@@ -9,6 +9,16 @@
 
 namespace quasilux {
 
+namespace {
+
+shared::SceneTables sceneTables(const DeviceScene& flat, const RenderSettings& settings) {
+    shared::SceneTables tables = flat.offsets;
+    tables.variant = settings.variant == Variant::alternative ? VARIANT_ALTERNATIVE : VARIANT_MAIN;
+    return tables;
+}
+
+} // namespace
+
 double firstRadiusByArea(double area, const RenderSettings& settings, unsigned photons) {
     return settings.radiusScale * initialRadius(area, photons);
 }
@@ -33,7 +43,7 @@ shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, c
     params.paths = photonsPerPass(settings, flat.camera);
     params.perFluxUnit = 1 / fluxUnit(flat, params.paths);
     params.maxDepth = scene.maxDepth < 0 ? QL_NONE : static_cast<unsigned>(scene.maxDepth);
-    params.scene = flat.offsets;
+    params.scene = sceneTables(flat, settings);
     return params;
 }
 
@@ -46,7 +56,7 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     params.maxDepth = maxDepth;
     params.directSamples = 1;
     params.camera = flat.camera;
-    params.scene = flat.offsets;
+    params.scene = sceneTables(flat, settings);
     return params;
 }
 

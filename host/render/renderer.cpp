@@ -54,7 +54,7 @@ struct Renderer::Stages {
         photon.usualWorth = static_cast<float>(learned->usualWorth / photon.paths);
         auto path = cameraParams(flat, settings, photon.maxDepth);
         path.directSamples = directSamples();
-        const unsigned classes = photonClasses(flat.features, settings);
+        const unsigned classes = compiledClasses(flat.features, settings);
         if (settings.map == MapOrder::camera)
             prepareCameraMap(path, photon, classes);
         else
