@@ -34,7 +34,8 @@ public:
         ++passes_;
     }
     unsigned passes() const override { return passes_; }
-    PilotMeasure measure() const override {
+    std::vector<float> radiance() const override { return {}; }
+    PilotMeasure measure(const std::vector<float>&) const override {
         const bool lies = passes_ < truth_.honestFrom;
         return evenPilot(passes_, lies ? truth_.firstNoise : truth_.noisePerPass, truth_.bias, truth_.secondsPerPass);
     }
@@ -165,11 +166,11 @@ TEST(Search, BiasWeighsMoreTheLongerTheRender) {
     const World world = [](const RenderSettings& s) {
         Truth truth;
         truth.noisePerPass = 1 / (s.radiusScale * s.radiusScale);
-        truth.bias = 0.001 * std::pow(s.radiusScale, 4);
+        truth.bias = 0.0002 * std::pow(s.radiusScale, 4);
         return truth;
     };
     const Freedom radius{false, false, false, false, true};
-    EXPECT_GT(search(world, 24, radius).settings.radiusScale, 1);
+    EXPECT_GT(search(world, 60, radius).settings.radiusScale, 1);
     EXPECT_LT(search(world, 1e6, radius).settings.radiusScale, 1);
 }
 
@@ -196,6 +197,16 @@ TEST(Search, TheBetterHalfGoesOn) {
     };
     EXPECT_THAT(passesOfOthers(2), testing::ElementsAre(4, 2, 1, 1)); // of nine: five are left, three, two, one
     EXPECT_THAT(passesOfOthers(6), testing::ElementsAre(8));
+}
+
+// Photons and radius stay where another number is hardly better: by 1.2 in relMSE it must be. Control: it is.
+TEST(Search, NumbersMustWinClearly) {
+    const auto photons = [](double noise) {
+        const World world = [=](const RenderSettings& s) { return Truth{0.1, s.photonsPerPass == 500 ? noise : 1}; };
+        return search(world, 300, {false, false, false, true, false}).report.rows.at(0).outcome;
+    };
+    EXPECT_EQ(photons(0.87), "chosen");
+    EXPECT_EQ(photons(0.8), "given up");
 }
 
 // A step that pays is followed by the next one: to a sixteenth, and no further.
@@ -228,7 +239,7 @@ TEST(Search, BeginsWithPhotonsByPixelsWhereTheyAreFree) {
 // Besides the two passes that tell what passes cost.
 TEST(Search, KeepsToItsShareOfTheTime) {
     const World world = [](const RenderSettings&) { return Truth{}; };
-    for (const double seconds : {3.0, 10.0, 50.0, 400.0}) {
+    for (const double seconds : {5.0, 10.0, 50.0, 400.0}) {
         const Found found = search(world, seconds);
         EXPECT_LE(found.report.seconds, pilotShare * seconds + 1e-9) << seconds;
         EXPECT_GT(found.report.rows.size(), 1u) << seconds;

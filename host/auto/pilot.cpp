@@ -41,9 +41,9 @@ void RendererPilot::renderPass() {
     passes_.push_back(seconds);
 }
 
-PilotMeasure RendererPilot::measure() const {
+PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const {
     const double photons = lateMedian(&PassSeconds::photons), camera = lateMedian(&PassSeconds::camera);
-    PilotMeasure pilot = measurePilot(renderer_->develop(), hasMedia_, photons + camera);
+    PilotMeasure pilot = measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness);
     pilot.radius = radiusOf(renderer_->report());
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());
     return pilot;

@@ -12,7 +12,10 @@ public:
     /// The next pass, from 0 on.
     virtual void renderPass() = 0;
     virtual unsigned passes() const = 0;
-    virtual PilotMeasure measure() const = 0;
+    /// Errors relative to `brightness`, or to the pilot's own image where that is empty (errorByTile).
+    virtual PilotMeasure measure(const std::vector<float>& brightness) const = 0;
+    /// Of all pixels.
+    virtual std::vector<float> radiance() const = 0;
     virtual unsigned photonsPerPass() const = 0;
     /// Preparing and compiling, as far as the first pass told.
     virtual double openingSeconds() const = 0;
@@ -26,7 +29,8 @@ public:
 
     void renderPass() override;
     unsigned passes() const override { return static_cast<unsigned>(renderer_->counters().passes); }
-    PilotMeasure measure() const override;
+    PilotMeasure measure(const std::vector<float>& brightness) const override;
+    std::vector<float> radiance() const override { return renderer_->develop().radiance; }
     unsigned photonsPerPass() const override { return renderer_->report().photonsPerPass; }
     double openingSeconds() const override;
 

@@ -125,9 +125,10 @@ std::vector<Estimate> biasesOf(const std::vector<const PilotMeasure*>& pilots) {
 
 } // namespace
 
-PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass) {
+PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass,
+                          const std::vector<float>& brightness) {
     const ErrorEstimate error = estimateError(image);
-    const TileErrors tiles = errorByTile(image, tilesPerSide);
+    const TileErrors tiles = errorByTile(image, tilesPerSide, brightness);
     PilotMeasure pilot;
     pilot.passes = image.passes;
     pilot.secondsPerPass = secondsPerPass;
@@ -136,6 +137,20 @@ PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsP
     pilot.biasNoise = error.total.biasNoiseRms * error.total.biasNoiseRms;
     pilot.inVolume = hasMedia;
     return pilot;
+}
+
+void Brightness::add(const std::vector<float>& radiance, const PilotMeasure& pilot) {
+    const double noise = sum(pilot.noise);
+    if (!(noise > 0)) return;
+    sum_.resize(radiance.size());
+    for (size_t k = 0; k < radiance.size(); ++k) sum_[k] += radiance[k] / noise;
+    weight_ += 1 / noise;
+}
+
+std::vector<float> Brightness::mean() const {
+    std::vector<float> mean(sum_.size());
+    for (size_t k = 0; k < mean.size(); ++k) mean[k] = static_cast<float>(sum_[k] / weight_);
+    return mean;
 }
 
 double Prediction::relativeError() const { return std::sqrt(relativeMse()); }

@@ -18,8 +18,9 @@ struct PilotMeasure {
     bool inVolume = false;           ///< kernels shrink in three dimensions
 };
 
-/// `image` of passes 0, 1, ….
-PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass);
+/// `image` of passes 0, 1, …; `brightness` as of errorByTile().
+PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass,
+                          const std::vector<float>& brightness = {});
 
 struct Prediction {
     double passes = 0;
@@ -34,6 +35,17 @@ struct Prediction {
 Prediction predictAfterPasses(const PilotMeasure& pilot, double passes);
 /// After `seconds` more on the clock.
 Prediction predictAfter(const PilotMeasure& pilot, double seconds);
+
+/// Mean of images of the same scene (radiance of all pixels), weights inverse to their noise.
+class Brightness {
+public:
+    void add(const std::vector<float>& radiance, const PilotMeasure& pilot);
+    std::vector<float> mean() const;
+
+private:
+    std::vector<double> sum_;
+    double weight_ = 0;
+};
 
 /// relMSE of each after `seconds` more on the clock. Biases that differ by less than what can be told, but for what their radii
 /// explain, count as one.

@@ -1,5 +1,6 @@
 #include "auto/search.h"
 
+#include "render/adaptive_radius.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -12,6 +13,10 @@ namespace quasilux {
 namespace {
 
 constexpr unsigned fewestPasses = 2; // tell their noise
+// Numbers next to each other differ by little, and show it only when radii by pixel have been chosen.
+constexpr unsigned fewestOfNumbers = 2 * passesOfEqualRadius;
+constexpr double leastGainOfNumbers =
+    1.2; // of relMSE: what so few passes tell; photons by pixels and this radius are known to serve most scenes
 constexpr unsigned mostPasses = 256; // of a contender: those to come are better spent on the image
 constexpr unsigned mostAtFirst = 32; // before any is given up
 // Of the time for pilots, the rest is for numbers: a wrong method costs more than a wrong number.
@@ -24,13 +29,6 @@ constexpr double longestHorizon = 86400;                       // seconds, where
 constexpr uint64_t pilotSeed = 0x9E3779B97F4A7C15ull; // added: what decides must be no part of the image
 
 bool isWithin(double factor, double most) { return factor < most * 1.05 && factor * most > 1 / 1.05; }
-
-PilotRow rowOf(const RenderSettings& settings, unsigned photons) {
-    PilotRow row;
-    row.settings = settings;
-    row.photonsPerPass = photons;
-    return row;
-}
 
 } // namespace
 
@@ -45,8 +43,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     report_.freedom = freedom_;
     const double limit = stop_.seconds.value_or(longestHorizon);
     report_.horizon = limit;
-    Contender first{settings, std::move(start), {}, 0};
-    report_.rows.push_back(rowOf(settings, startPhotons_));
+    Contender first{settings, std::move(start), {}, rowOf(settings, startPhotons_)};
     const bool begun = renderUpTo(first, fewestPasses);
     if (begun && stop_.relativeError)
         report_.horizon = std::min(limit, world_.clock() + secondsToError(first.measure, *stop_.relativeError, limit));
@@ -54,27 +51,23 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     coldOpening_ = first.pilot->openingSeconds();
     note(first, "chosen");
 
-    const auto tried = methods(settings, scene_, freedom_);
-    const double time = pilotShare * report_.horizon;
-    const double ofMethods = (tried.size() > 1 ? shareOfMethods : 0.5) * time;
-    const double leastRace = 2 * fewestPasses * startPassSeconds_;
-    const bool hasOthers = tried.size() > 1 || !numbersBeside(settings, startPhotons_, freedom_).empty();
-    report_.outOfTime = hasOthers && leastRace > ofMethods;
+    const auto all = methods(settings, scene_, freedom_);
+    const double time = pilotShare * report_.horizon, ofMethods = shareOfMethods * time;
+    const bool hasOthers = all.size() > 1 || !numbersBeside(settings, startPhotons_, freedom_).empty();
+    report_.outOfTime = hasOthers && 2 * fewestPasses * startPassSeconds_ > ofMethods;
     if (!begun || !hasOthers || report_.outOfTime || report_.horizon < leastSeconds)
         return {settings, report_, std::move(first.pilot)};
     first.pilot.reset();
 
-    report_.rows.clear();
+    report_.rows.front().passes = 0;
     const double began = world_.clock();
-    race(tried, ofMethods);
+    if (all.size() > 1) race(all, fewestPasses, 1, ofMethods);
     // Each step that pays is followed by the next one.
-    while (best_.pilot && !interrupted() &&
-           race(untried(numbersBeside(best_.settings, best_.pilot->photonsPerPass(), freedom_)),
-                time - (world_.clock() - began))) {
+    while (!interrupted() && raceOfNumbers(time - (world_.clock() - began))) {
     }
     report_.seconds = world_.clock() - began;
     for (const PilotRow& row : report_.rows) report_.passes += row.passes;
-    if (!best_.pilot) return {settings, report_, nullptr}; // interrupted
+    if (!best_.pilot) return {settings, report_, nullptr}; // interrupted, or there was no time
     note(best_, "chosen");
     report_.chosen = best_.row;
     RenderSettings chosen = best_.settings;
@@ -82,24 +75,36 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     return {chosen, report_, nullptr};
 }
 
-bool Search::race(const std::vector<RenderSettings>& candidates, double seconds) {
+bool Search::raceOfNumbers(double seconds) {
+    const RenderSettings base = best_.pilot ? best_.settings : start_;
+    const unsigned photons = best_.pilot ? best_.pilot->photonsPerPass() : startPhotons_;
+    auto candidates = untried(numbersBeside(base, photons, freedom_));
     if (candidates.empty()) return false;
-    const double now = world_.clock(), end = now + seconds;
+    candidates.insert(candidates.begin(), base);
+    if (2 * fewestOfNumbers * passCost(base) > seconds) {
+        report_.outOfTime = true;
+        return false;
+    }
+    race(candidates, fewestOfNumbers, leastGainOfNumbers, seconds);
+    return best_.pilot && text(best_.settings, best_.pilot->photonsPerPass()) != text(base, photons);
+}
+
+void Search::race(const std::vector<RenderSettings>& candidates, unsigned fewest, double leastGain, double seconds) {
+    const double end = world_.clock() + seconds;
     double cost = 0;
     for (const auto& candidate : candidates) cost += passCost(candidate);
     const double passes = std::floor(seconds / 2 / cost);
-    const size_t rows = report_.rows.size();
-    Field field = enter(candidates, static_cast<unsigned>(std::clamp<double>(passes, fewestPasses, mostAtFirst)), end);
-    if (field.empty()) return false;
+    Field field =
+        enter(candidates, static_cast<unsigned>(std::clamp<double>(passes, fewest, mostAtFirst)), leastGain, end);
+    if (field.empty()) return;
     halve(field, end);
     best_ = std::move(field.front());
-    return best_.row >= rows;
 }
 
 // As many of them as half of the time allows, in their order.
-Search::Field Search::enter(const std::vector<RenderSettings>& candidates, unsigned passes, double end) {
+Search::Field Search::enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain,
+                            double end) {
     Field field;
-    if (best_.pilot) field.push_back(std::move(best_));
     const double middle = (world_.clock() + end) / 2;
     for (const auto& candidate : candidates) {
         if (interrupted()) break;
@@ -108,7 +113,7 @@ Search::Field Search::enter(const std::vector<RenderSettings>& candidates, unsig
             report_.outOfTime = true;
             break;
         }
-        openContender(field, candidate, passes);
+        openContender(field, candidate, passes, &candidate == &candidates.front() ? 1 : leastGain);
         if (field.size() > world_.mostOpen) giveUpWorst(field, world_.mostOpen);
     }
     return field;
@@ -132,14 +137,27 @@ void Search::halve(Field& field, double end) {
     }
 }
 
-void Search::openContender(Field& field, const RenderSettings& settings, unsigned passes) {
-    Contender contender{settings, nullptr, {}, 0};
+size_t Search::rowOf(const RenderSettings& settings, unsigned photons) {
+    const auto found = std::find_if(report_.rows.begin(), report_.rows.end(), [&](const PilotRow& row) {
+        return text(row.settings, row.photonsPerPass) == text(settings, photons);
+    });
+    if (found != report_.rows.end()) return static_cast<size_t>(found - report_.rows.begin());
+    PilotRow row;
+    row.settings = settings;
+    row.photonsPerPass = photons;
+    report_.rows.push_back(row);
+    return report_.rows.size() - 1;
+}
+
+void Search::openContender(Field& field, const RenderSettings& settings, unsigned passes, double leastGain) {
+    Contender contender;
+    contender.leastGain = leastGain;
+    contender.settings = settings;
     contender.settings.seed = start_.seed + pilotSeed;
     // There may be too little memory for another renderer beside the others.
     if (refusal([&] { contender.pilot = world_.open(contender.settings); })) return;
-    tried_.push_back(text(settings, contender.pilot->photonsPerPass()));
-    contender.row = report_.rows.size();
-    report_.rows.push_back(rowOf(settings, contender.pilot->photonsPerPass()));
+    contender.row = rowOf(settings, contender.pilot->photonsPerPass());
+    contender.earlierPasses = report_.rows[contender.row].passes;
     const bool isKnown = renderUpTo(contender, passes) || contender.measure.passes >= fewestPasses;
     note(contender, "given up");
     if (shareKernels(settings, start_, scene_)) warmOpening_ = contender.pilot->openingSeconds();
@@ -157,7 +175,9 @@ std::vector<RenderSettings> Search::untried(const std::vector<RenderSettings>& c
     for (const auto& candidate : candidates) {
         const std::string name =
             text(candidate, candidate.photonsPerPass > 0 ? candidate.photonsPerPass : startPhotons_);
-        const bool isNew = std::find(tried_.begin(), tried_.end(), name) == tried_.end();
+        const bool isNew = std::none_of(report_.rows.begin(), report_.rows.end(), [&](const PilotRow& row) {
+            return text(row.settings, row.photonsPerPass) == name;
+        });
         if (isNew && isWithinBounds(candidate)) left.push_back(candidate);
     }
     return left;
@@ -169,28 +189,32 @@ bool Search::renderUpTo(Contender& contender, unsigned passes) {
         contender.pilot->renderPass();
         if (world_.onPass) world_.onPass(contender.pilot->passes());
     }
-    if (contender.pilot->passes() >= fewestPasses) contender.measure = contender.pilot->measure();
+    if (contender.pilot->passes() >= fewestPasses) contender.measure = contender.pilot->measure({});
     return contender.pilot->passes() >= passes;
 }
 
-std::vector<double> Search::errorsOf(const Field& field) const {
-    std::vector<const PilotMeasure*> measures;
-    for (const auto& contender : field) measures.push_back(&contender.measure);
-    return predictedErrors(measures, secondsLeft());
+// Relative to the mean of all their images: one that is noisy is too bright where it has its noise, and that would make it look better.
+void Search::measureTogether(Field& field) const {
+    Brightness brightness;
+    for (const auto& contender : field) brightness.add(contender.pilot->radiance(), contender.measure);
+    for (auto& contender : field) contender.measure = contender.pilot->measure(brightness.mean());
 }
 
 // Keeps the best ones, in the order of their errors, and no more than so many.
 void Search::giveUpWorst(Field& field, size_t kept) {
-    const auto errors = errorsOf(field);
+    measureTogether(field);
+    std::vector<const PilotMeasure*> measures;
+    for (const auto& contender : field) measures.push_back(&contender.measure);
+    const auto errors = predictedErrors(measures, secondsLeft());
     std::vector<size_t> order(field.size());
     std::iota(order.begin(), order.end(), size_t{0});
     // One that has seen no light knows no noise; of two alike the one that was there before stays.
-    const auto rank = [&](size_t k) { return errors[k] > 0 ? errors[k] : INFINITY; };
+    const auto rank = [&](size_t k) { return errors[k] > 0 ? field[k].leastGain * errors[k] : INFINITY; };
     std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return rank(a) < rank(b); });
     Field left;
     for (const size_t k : order) {
         note(field[k], "given up");
-        if (left.size() < kept && (left.empty() || errors[k] < farWorse * errors[order.front()]))
+        if (left.size() < kept && (left.empty() || rank(k) < farWorse * rank(order.front())))
             left.push_back(std::move(field[k]));
     }
     field = std::move(left);
@@ -198,7 +222,7 @@ void Search::giveUpWorst(Field& field, size_t kept) {
 
 void Search::note(const Contender& contender, const std::string& outcome) {
     PilotRow& row = report_.rows[contender.row];
-    row.passes = contender.pilot->passes();
+    row.passes = contender.earlierPasses + contender.pilot->passes();
     row.outcome = outcome;
     row.openingSeconds = contender.pilot->openingSeconds();
     row.secondsPerPass = contender.measure.secondsPerPass;

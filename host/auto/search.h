@@ -28,8 +28,8 @@ struct SearchResult {
     std::unique_ptr<Pilot> start; ///< as it was, where nothing was tried
 };
 
-/// Share of the render's time that goes to pilots, opening them included. All of it lost, error grows by 1 / sqrt(1 - 0.2) = 1.12.
-inline constexpr double pilotShare = 0.2;
+/// Share of the render's time that goes to pilots, opening them included. All of it lost, error grows by 1 / sqrt(1 - 0.16) = 1.09.
+inline constexpr double pilotShare = 0.16;
 
 class Search {
 public:
@@ -46,18 +46,24 @@ private:
         std::unique_ptr<Pilot> pilot;
         PilotMeasure measure;
         size_t row = 0;
+        unsigned earlierPasses = 0; ///< in an earlier race
+        double leastGain = 1;       ///< its relMSE must be that much less to win
     };
     using Field = std::vector<Contender>;
 
-    /// Successive halving (Karnin et al. 2013) among the best one so far and these, for so many seconds; whether one of these has won.
-    bool race(const std::vector<RenderSettings>& candidates, double seconds);
-    Field enter(const std::vector<RenderSettings>& candidates, unsigned passes, double end);
+    /// Successive halving (Karnin et al. 2013) among these, for so many seconds. All begin anew, as all is told differently by fewer
+    /// passes: like must be held against like. All but the first one must have a relMSE that is `leastGain` times less to win.
+    void race(const std::vector<RenderSettings>& candidates, unsigned fewestPasses, double leastGain, double seconds);
+    /// Among the best ones so far and those beside it; whether one of these has won.
+    bool raceOfNumbers(double seconds);
+    Field enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain, double end);
     void halve(Field& field, double end);
     bool isWithinBounds(const RenderSettings& settings) const;
     std::vector<RenderSettings> untried(const std::vector<RenderSettings>& candidates) const;
-    void openContender(Field& field, const RenderSettings& settings, unsigned passes);
+    size_t rowOf(const RenderSettings& settings, unsigned photons);
+    void openContender(Field& field, const RenderSettings& settings, unsigned passes, double leastGain);
     bool renderUpTo(Contender& contender, unsigned passes);
-    std::vector<double> errorsOf(const Field& field) const;
+    void measureTogether(Field& field) const;
     void giveUpWorst(Field& field, size_t kept);
     void note(const Contender& contender, const std::string& outcome);
     double openingCost(const RenderSettings& settings) const;
@@ -74,8 +80,7 @@ private:
     double startPassSeconds_ = 0;
     double coldOpening_ = 0,
            warmOpening_ = 0; ///< seconds with kernels to be compiled, maybe, and with those of the start
-    std::vector<std::string> tried_;
-    Contender best_; ///< without a pilot before the first race
+    Contender best_;         ///< without a pilot before the first race
     SearchReport report_;
 };
 

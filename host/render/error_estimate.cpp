@@ -9,12 +9,12 @@ namespace quasilux {
 namespace {
 
 // Mean of a channel over the 3 x 3 pixels about one, as far as they are in the image.
-double meanAbout(const FilmImage& image, size_t pixel, size_t channel) {
+double meanAbout(const FilmImage& image, const std::vector<float>& radiance, size_t pixel, size_t channel) {
     const size_t x = pixel % image.width, y = pixel / image.width;
     double sum = 0, count = 0;
     for (size_t v = y > 0 ? y - 1 : 0; v <= y + 1 && v < image.height; ++v)
         for (size_t u = x > 0 ? x - 1 : 0; u <= x + 1 && u < image.width; ++u) {
-            sum += image.radiance[3 * (v * image.width + u) + channel];
+            sum += radiance[3 * (v * image.width + u) + channel];
             count += 1;
         }
     return sum / count;
@@ -23,13 +23,13 @@ double meanAbout(const FilmImage& image, size_t pixel, size_t channel) {
 // 1 / (value^2 + 0.01 m^2) of each channel of each pixel, a third of it: squares of errors are averaged over channels.
 // After few passes a pixel that is too bright has a large standard error, too, and would divide it by too much: so the
 // value is that of the neighbourhood.
-std::vector<double> channelWeights(const FilmImage& image) {
+std::vector<double> channelWeights(const FilmImage& image, const std::vector<float>& radiance) {
     double sum = 0;
-    for (const float value : image.radiance) sum += value;
-    const double mean = sum / static_cast<double>(image.radiance.size());
-    std::vector<double> weights(image.radiance.size());
+    for (const float value : radiance) sum += value;
+    const double mean = sum / static_cast<double>(radiance.size());
+    std::vector<double> weights(radiance.size());
     for (size_t k = 0; k < weights.size(); ++k) {
-        const double value = meanAbout(image, k / 3, k % 3), scale = value * value + 0.01 * mean * mean;
+        const double value = meanAbout(image, radiance, k / 3, k % 3), scale = value * value + 0.01 * mean * mean;
         weights[k] = scale > 0 ? 1 / (3 * scale) : 0;
     }
     return weights;
@@ -126,7 +126,7 @@ ErrorEstimate estimateError(const FilmImage& image) {
         estimate.components.fill(unknownPart());
         return estimate;
     }
-    const auto weights = channelWeights(image);
+    const auto weights = channelWeights(image, image.radiance);
     estimate.total = partOf(image.standardError, image.bias, image.biasError, weights, image.passes);
     for (size_t c = 0; c < LIGHT_CLASSES; ++c)
         if (!image.componentError[c].empty())
@@ -135,8 +135,8 @@ ErrorEstimate estimateError(const FilmImage& image) {
     return estimate;
 }
 
-TileErrors errorByTile(const FilmImage& image, unsigned perSide) {
-    const auto weights = channelWeights(image);
+TileErrors errorByTile(const FilmImage& image, unsigned perSide, const std::vector<float>& brightness) {
+    const auto weights = channelWeights(image, brightness.empty() ? image.radiance : brightness);
     const auto noise = squaredByPixel(image.standardError, weights);
     const auto bias = squaredByPixel(image.bias, weights), biasNoise = squaredByPixel(image.biasError, weights);
     const unsigned columns = std::min(perSide, image.width), rows = std::min(perSide, image.height);

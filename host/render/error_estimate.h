@@ -35,7 +35,8 @@ ErrorEstimate estimateError(const FilmImage& image);
 struct TileErrors {
     std::vector<double> noise, bias;
 };
-/// `perSide` tiles in a row and in a column, fewer where the image has fewer pixels.
-TileErrors errorByTile(const FilmImage& image, unsigned perSide);
+/// `perSide` tiles in a row and in a column, fewer where the image has fewer pixels. `brightness`: radiance of an image of the same scene that is less noisy,
+/// what errors are relative to; empty: that of `image`.
+TileErrors errorByTile(const FilmImage& image, unsigned perSide, const std::vector<float>& brightness = {});
 
 } // namespace quasilux
