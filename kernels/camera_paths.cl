@@ -90,6 +90,7 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
     const float4 even = pixelNumbers(index, params->pass, seed);
     path.ray = cameraRay(&params->camera, pixel, even.xy);
     path.firstChoice = even.z;
+    path.lightChoice = evenChoice(pixelChoiceShift(index, seed), params->pass * params->directSamples);
     path.strata = strataOfPath(seed, params->pass, index);
 #ifdef ADAPTIVE_RADIUS
     path.radiusBlock = radiusBlock(params, pixel);

@@ -26,6 +26,14 @@ typedef struct {
     unsigned int faces; /* 1: a square that faces each place its rays begin at; axes are left out */
 } GuideSource;
 
+/* Openings at which scattered photons are aimed together, all of them or those of one set (kernels/aim.clh). Those of a set follow
+ * each other. */
+typedef struct {
+    GuideSource opening;
+    float share;        /* of the set's photons; those of a set sum to 1 */
+    unsigned int count; /* of the set, where it is its first */
+} AimSource;
+
 /* A box of emission numbers in which photons are uniform. The leaves of all sources together hold each ray exactly once. */
 typedef struct {
     float cdf; /* probability of the leaves up to and including this one; last = 1 */
@@ -62,8 +70,8 @@ typedef struct {
 /* ---- where photons matter (kernels/importance.clh) ---- */
 
 /* Of a cell: its key (0: empty); what a unit of flux that arrives there brings to the image by being gathered there, and what it
- * brings in all; and where light that is scattered there matters, as (1 + number of the opening) << 16 | probability * 65535 of
- * aiming at it. */
+ * brings in all; and where light that is scattered there matters, as (1 + number of a set's first opening) << 16 | probability *
+ * 65535 of aiming at it. */
 #define IMPORTANCE_WORDS 4
 /* Instead of an aim: too few pilots came to tell where scattered light matters; the coarse cell does. */
 #define IMPORTANCE_UNKNOWN 0xffffffffu
@@ -118,8 +126,7 @@ typedef struct {
     unsigned int leaves, leafCount, sources;
     unsigned int lights;                            /* QL_NONE: by power alone */
     unsigned int lightBlockSize, lightBlockColumns; /* pixels of a row and column, blocks of a row */
-    unsigned int aims,
-        aimCount; /* GuideSource records: openings at which scattered photons are aimed (kernels/aim.clh) */
+    unsigned int aims, aimCount, aimSets;           /* AimSource records, and of how many sets */
     ImportanceGrid importance;
 } Learned;
 

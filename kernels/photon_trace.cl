@@ -180,10 +180,10 @@ inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const Phot
     if (!delivered && !passWindow(path, others, cell, world, count)) return 0;
     const Aim aim = aimFrom(world->tables, scene, cell);
 #else
-    const Aim aim = {0, 0, 0};
+    const Aim aim = {0, 0, 0, 0};
 #endif
     const int goesOn = scatterPhoton(path, &s, lobes, shape, &aim,
-                                     SCENE_TABLE(world->tables, &scene->learned, GuideSource, aims), u, &scattered);
+                                     SCENE_TABLE(world->tables, &scene->learned, AimSource, aims), u, &scattered);
     countScattering(count, arrived, scattered, goesOn ? path->flux : (float3)(0));
     return goesOn;
 }
@@ -217,8 +217,13 @@ inline int photonEvent(PhotonPath* path, PhotonPath* others, const PhotonWorld* 
     } else
 #endif
     {
-        hit = intersectClosestOpaque(world->nodes, world->blocks, ray);
-        crossMeter(path, hit.primitive == QL_NONE ? INFINITY : hit.t, sink, world->tables, scene, count);
+        if (path->arrived)
+            hit = path->arrival;
+        else {
+            hit = intersectClosestOpaque(world->nodes, world->blocks, ray);
+            crossMeter(path, hit.primitive == QL_NONE ? INFINITY : hit.t, sink, world->tables, scene, count);
+        }
+        path->arrival = hit;
     }
     if (hit.primitive == QL_NONE) {
         countEnergy(count, ENERGY_ESCAPED, meanFlux(path->flux));

@@ -1,6 +1,7 @@
 // Guided emission (docs/learning.md): the tree of numbers, openings found from rays, and that means do not depend on any of it.
 //
 // False alarms: flux and radiance are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case); the seeds are fixed.
+#include "learn/aims.h"
 #include "learn/guide.h"
 #include "learn/guide_tree.h"
 #include "learn/openings.h"
@@ -171,15 +172,23 @@ TEST(GuidedMean, EachRayThroughOpeningsIsEmittedOnce) {
     EXPECT_GT(directFlux(PhotonRule::right, twice), 4) << "negative control: rays through both, and plain ones, again";
 }
 
-// Half of the scattered photons are aimed at a square just above the floor of a cube with even light. Share of the light that was
+const AimSet squareAboveTheFloor{{Opening{{0, -0.98, 0}, {1, 0, 0}, {0, 0, 1}, 0.3, 0.3}}, {1}};
+AimSet squaresAboutAPlace() {
+    AimSet set{{}, {0.2, 0.5, 0.3}};
+    for (const double half : {0.15, 0.3, 0.9})
+        set.openings.push_back({{0, -0.97, 0}, {1, 0, 0}, {0, 1, 0}, half, half, true});
+    return set;
+}
+
+// Half of the scattered photons are aimed just above the floor of a cube with even light. Share of the light that was
 // scattered before which arrives on the floor there, over the square's share of the area; 10 or more standard errors tell 1 from 2.
-MeanAndError lightBelowAnOpening(PhotonRule rule) {
+MeanAndError lightBelowAims(PhotonRule rule, const std::vector<AimSet>& aims) {
     FlattenSettings flattening;
     flattening.largestRadius = [](double) { return 0.1; };
     DeviceScene flat = flattenScene(projectScene("furnace_split.xml"), flattening);
     LearnedTables learned;
     learned.guide = plainGuide(flat.emitters);
-    learned.aims = {openingSource(QL_NONE, 0, Opening{{0, -0.98, 0}, {1, 0, 0}, {0, 0, 1}, 0.3, 0.3})};
+    learned.aims = aimTable(aims);
     setLearned(flat, learned);
     RenderSettings settings;
     settings.emission = Emission::guided;
@@ -200,10 +209,42 @@ MeanAndError lightBelowAnOpening(PhotonRule rule) {
 }
 
 TEST(GuidedMean, AimedPhotonsBringNoMoreLightThere) {
-    const MeanAndError right = lightBelowAnOpening(PhotonRule::right);
-    EXPECT_NEAR(right.mean, 1, 4 * right.standardError);
-    EXPECT_LT(right.standardError, 0.02) << "too noisy to tell anything";
-    EXPECT_GT(lightBelowAnOpening(PhotonRule::missingAimWeight).mean, 2) << "negative control";
+    for (const auto& aims : {std::vector{squareAboveTheFloor}, std::vector{squaresAboutAPlace()},
+                             std::vector{squaresAboutAPlace(), squareAboveTheFloor}}) {
+        const MeanAndError right = lightBelowAims(PhotonRule::right, aims);
+        EXPECT_NEAR(right.mean, 1, 4 * right.standardError);
+        EXPECT_LT(right.standardError, 0.02) << "too noisy to tell anything";
+        EXPECT_GT(lightBelowAims(PhotonRule::missingAimWeight, aims).mean, 2) << "negative control";
+    }
+}
+
+// Rays from all over a wall to a place whose surroundings matter ever less: aimed photons are as dense, ring by ring, as they are.
+TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number;
+    std::vector<shared::PilotPath> paths(20000);
+    for (auto& path : paths) {
+        path = {};
+        const double away = 0.02 * std::pow(100, number(random)), turn = 2 * std::numbers::pi * number(random);
+        path.vertices[0].position = {float(away * std::cos(turn)), float(away * std::sin(turn)), 0};
+        path.vertices[1].position = {float(20 * number(random) - 10), float(20 * number(random) - 10), 8};
+        path.vertices[0].weight = path.vertices[1].weight = 1;
+    }
+    const auto sets = findAims(paths, std::vector<double>(paths.size(), 1), {}, 10);
+    ASSERT_FALSE(sets.empty());
+    EXPECT_GT(sets[0].openings.size(), 3u);
+    EXPECT_LT(glm::length(sets[0].openings[0].centre), 0.1);
+    const auto densityAt = [&](double away) {
+        UsefulRay ray;
+        ray.position = {0, 0, 8};
+        ray.direction = glm::normalize(glm::dvec3(away, 0, -8));
+        return sets[0].density(ray);
+    };
+    // Rays lie as densely as 1 / distance^2; squares follow to a factor of 2 or so.
+    for (const double away : {0.1, 0.2, 0.4}) {
+        EXPECT_GT(densityAt(away) / densityAt(2 * away), 1.9);
+        EXPECT_LT(densityAt(away) / densityAt(2 * away), 8);
+    }
 }
 
 // A room with a window on a site, where everything emits what it absorbs and the sky has radiance 1: radiance is 1 everywhere.

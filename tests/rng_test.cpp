@@ -3,6 +3,8 @@
 #include "support/chi_squared.h"
 #include "support/test_kernels.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace quasilux {
@@ -116,6 +118,29 @@ TEST(Rng, pathHasItsNumbersWhateverTheLaunch) {
         EXPECT_EQ(alone, std::vector<float>(all.begin() + path * 8, all.begin() + path * 8 + 8));
     }
     EXPECT_EQ(all, draw(9, 2, 1, 0, 4096, 8));
+}
+
+// Largest difference, over intervals that begin at 0, between how often numbers from any pass on are in it and how often they should.
+double largestExcess(const std::vector<float>& numbers, unsigned passes) {
+    double largest = 0;
+    for (size_t first = 0; first + passes <= numbers.size(); first += 37)
+        for (double end = 0.05; end < 1; end += 0.05) {
+            double within = 0;
+            for (size_t k = first; k < first + passes; ++k) within += numbers[k] < end;
+            largest = std::max(largest, std::abs(within - end * passes));
+        }
+    return largest;
+}
+
+// An emitter that is chosen with probability 0.05 has its share of the passes, not a binomial number of them. Nothing is left to chance.
+TEST(Rng, ChoicesOfEmittersAreEvenOverThePasses) {
+    Buffer<float> result(testDevice(), 1000, "numbers");
+    for (const unsigned shift : {0u, 123456789u, 4000000000u}) {
+        program().kernel("chooseEvenly").launch(1000, cl_uint(shift), result, cl_uint(1000));
+        for (const unsigned passes : {10u, 100u, 600u}) EXPECT_LT(largestExcess(result.read(), passes), 3);
+    }
+    EXPECT_GT(largestExcess(draw(7, 0, 0, 0, 1, 1000), 600), 10)
+        << "negative control: numbers that know nothing of each other";
 }
 
 } // namespace

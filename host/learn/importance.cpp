@@ -8,8 +8,6 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <map>
-#include <numbers>
-#include <optional>
 
 namespace quasilux {
 
@@ -22,12 +20,7 @@ constexpr unsigned fewestScattering = 8;
 // One place in so many is taken for one where pilots gathered.
 constexpr size_t bitsOfCell = 16;
 
-constexpr size_t mostAims = 8;
-constexpr double surestAim = 0.9; // probability of aiming where all that matters comes through one opening
-// Of all scattered rays; and of an opening that no light from outside is known to come through.
-constexpr double leastAimGain = 0.03, leastFoundGain = 0.5;
-constexpr double leastAim = 0.05; // below, photons are not aimed
-constexpr double widestAim = 0.1; // share of all directions that an opening takes from a place which aims at it
+constexpr double leastAim = 0.05; // probability below which photons are not aimed
 
 double length(const shared::Packed3& v) { return glm::length(unpack(v)); }
 
@@ -36,62 +29,29 @@ struct Cell {
     bool isCoarse = false;
     unsigned scattering = 0;          // vertices
     double scattered = 0;             // weight of light that is scattered from here
-    std::map<size_t, double> through; // of it by the opening that it should come through
+    std::map<size_t, double> through; // of it by the set of openings that it should come through
 };
 
-// The way of a photon from vertex `v` of a pilot path to the one before.
-std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, size_t v, double weight) {
-    const auto& from = path.vertices[v];
-    if (!(from.weight > 0) || !std::isfinite(from.weight)) return std::nullopt;
-    UsefulRay ray;
-    ray.position = unpack(from.position);
-    const glm::dvec3 offset = unpack(path.vertices[v - 1].position) - ray.position;
-    const double distance = glm::length(offset);
-    if (!(distance > 0)) return std::nullopt;
-    ray.direction = offset / distance;
-    ray.weight = weight * from.weight;
-    ray.isScattered = true;
-    return ray;
-}
-
-// Share of all directions.
-double extent(const Opening& opening, const glm::dvec3& from) {
-    const glm::dvec3 offset = opening.centre - from;
-    return 4 * opening.halfU * opening.halfV / (4 * std::numbers::pi * std::max(glm::dot(offset, offset), 1e-12));
-}
-
-// Worth aiming at from there.
-bool isAimed(const Opening& opening, const UsefulRay& ray) {
-    return extent(opening, ray.position) < widestAim && opening.holds(ray);
-}
-
-// By which the rays' log likelihood grows where every second one of those that come through is aimed.
-double gainOfAim(const Opening& opening, const std::vector<UsefulRay>& rays) {
-    double gain = 0;
-    for (const auto& ray : rays)
-        if (isAimed(opening, ray)) gain += ray.weight * std::log(0.5 + 0.5 / extent(opening, ray.position));
-    return gain;
-}
-
-void noteAim(const shared::PilotPath& path, size_t v, const std::vector<Opening>& aims, Cell& cell) {
+void noteAim(const shared::PilotPath& path, size_t v, const std::vector<AimSet>& aims, Cell& cell) {
     const auto ray = scatteredRay(path, v, 1);
     if (!ray) return;
     cell.scattered += ray->weight;
-    for (size_t k = 0; k < aims.size(); ++k) {
-        if (!isAimed(aims[k], *ray)) continue;
-        cell.through[k] += ray->weight;
-        return;
+    double left = ray->weight;
+    for (size_t k = 0; k < aims.size() && left > 0; ++k) {
+        const double claimed = left * aims[k].claim(*ray);
+        if (claimed > 0) cell.through[k] += claimed;
+        left -= claimed;
     }
 }
 
-uint32_t aimWord(const Cell& cell) {
+uint32_t aimWord(const Cell& cell, const std::vector<AimSet>& aims) {
     uint32_t word = 0;
     double most = 0;
-    for (const auto& [aim, weight] : cell.through) {
-        const double probability = surestAim * weight / cell.scattered;
+    for (const auto& [set, weight] : cell.through) {
+        const double probability = aims[set].surest * weight / cell.scattered;
         if (weight <= most || probability < leastAim) continue;
         most = weight;
-        word = static_cast<uint32_t>(aim + 1) << 16 | static_cast<uint32_t>(65535 * probability);
+        word = static_cast<uint32_t>(firstOf(aims, set) + 1) << 16 | static_cast<uint32_t>(65535 * probability);
     }
     return word;
 }
@@ -127,30 +87,9 @@ std::vector<uint32_t> seenCells(std::vector<uint32_t> keys) {
     return words;
 }
 
-std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
-                              const std::vector<Opening>& fromOutside, double radius) {
-    std::vector<UsefulRay> rays;
-    double all = 0;
-    for (size_t k = 0; k < paths.size(); ++k)
-        for (size_t v = 1; v < PILOT_VERTICES; ++v)
-            if (const auto ray = scatteredRay(paths[k], v, pathWeights[k])) {
-                rays.push_back(*ray);
-                all += ray->weight;
-            }
-    std::vector<Opening> candidates = fromOutside;
-    for (const Opening& found : findOpenings(rays, radius, candidates, mostAims)) candidates.push_back(found);
-    std::vector<Opening> aims;
-    for (size_t k = 0; k < candidates.size() && aims.size() < mostAims; ++k) {
-        if (gainOfAim(candidates[k], rays) < all * (k < fromOutside.size() ? leastAimGain : leastFoundGain)) continue;
-        aims.push_back(candidates[k]);
-        std::erase_if(rays, [&](const UsefulRay& ray) { return isAimed(candidates[k], ray); });
-    }
-    return aims;
-}
-
 std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& paths,
                                       const std::vector<double>& pathWeights, const std::vector<uint32_t>& keys,
-                                      const std::vector<float>& sizes, const std::vector<Opening>& aims,
+                                      const std::vector<float>& sizes, const std::vector<AimSet>& aims,
                                       shared::ImportanceGrid& grid) {
     std::map<uint32_t, Cell> cells; // sorted, so that the table is the same on every machine
     for (size_t k = 0; k < paths.size(); ++k)
@@ -183,7 +122,7 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& path
         table[IMPORTANCE_WORDS * at + 1] = std::bit_cast<uint32_t>(static_cast<float>(cell.gathered));
         table[IMPORTANCE_WORDS * at + 2] = std::bit_cast<uint32_t>(static_cast<float>(cell.all));
         const bool isKnown = cell.isCoarse || cell.scattering >= fewestScattering;
-        table[IMPORTANCE_WORDS * at + 3] = isKnown ? aimWord(cell) : IMPORTANCE_UNKNOWN;
+        table[IMPORTANCE_WORDS * at + 3] = isKnown ? aimWord(cell, aims) : IMPORTANCE_UNKNOWN;
     }
     return table;
 }

@@ -1,7 +1,7 @@
 // Where photons matter: cells of kernels/importance.clh from the vertices of pilot paths.
 #pragma once
 
-#include "learn/openings.h"
+#include "learn/aims.h"
 #include "prepare/device_scene.h"
 
 #include <vector>
@@ -16,15 +16,10 @@ shared::ImportanceGrid importanceGrid(const DeviceScene& scene, unsigned paths);
 /// Scattered light is aimed at those of `aims` that much of it should come through.
 std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& paths,
                                       const std::vector<double>& pathWeights, const std::vector<uint32_t>& keys,
-                                      const std::vector<float>& sizes, const std::vector<Opening>& aims,
+                                      const std::vector<float>& sizes, const std::vector<AimSet>& aims,
                                       shared::ImportanceGrid& grid);
 
 /// Bits of the cells where pilots gathered, by their keys (0: none), as LearnedTables has them.
 std::vector<uint32_t> seenCells(std::vector<uint32_t> keys);
-
-/// Openings that light should come through which is scattered far from what the camera sees: those that light from outside comes
-/// through, and what the paths tell beside them.
-std::vector<Opening> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
-                              const std::vector<Opening>& fromOutside, double radius);
 
 } // namespace quasilux

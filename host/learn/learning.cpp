@@ -59,22 +59,15 @@ bool isHidden(const LearnedTables& learned) {
     return learned.guide.leaves.size() > learned.directByPhotons.size() || !learned.aims.empty();
 }
 
-// The median over what is brought to the image: half of it comes from photons worth more.
+// The mean over those that bring anything.
 double usualWorthOf(const std::vector<shared::PhotonRecord>& photons) {
-    std::vector<double> worths;
-    double all = 0, below = 0;
+    double sum = 0, useful = 0;
     for (const auto& photon : photons) {
-        const double worth = photon.emission.weight;
-        if (!(worth > 0)) continue;
-        worths.push_back(worth);
-        all += worth;
+        if (!(photon.emission.weight > 0)) continue;
+        sum += photon.emission.weight;
+        ++useful;
     }
-    std::sort(worths.begin(), worths.end());
-    for (const double worth : worths) {
-        below += worth;
-        if (below >= all / 2) return worth * static_cast<double>(photons.size());
-    }
-    return 0;
+    return useful > 0 ? sum / useful * static_cast<double>(photons.size()) : 0;
 }
 
 // (sum w)^2 / sum w^2 over the number of photons (Kish 1965).
@@ -119,7 +112,7 @@ void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std
     for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].gathered = gathered[o];
     program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, seenKeys, grid, count);
     const auto aims = findAims(paths, weights, guide_.openingsFromOutside(), radius);
-    for (const Opening& aim : aims) learned_.tables.aims.push_back(openingSource(QL_NONE, 0, aim));
+    learned_.tables.aims = aimTable(aims);
     seenCells_ = seenCells(seenKeys.read());
     learned_.tables.importanceCells = importanceCells(paths, weights, keys.read(), sizes.read(), aims, grid);
 }

@@ -148,6 +148,8 @@ void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     grid.seenMask = static_cast<unsigned>(bitsOfWord * learned.seenCells.size() - 1);
     scene.offsets.learned.aims = tables.append(learned.aims);
     scene.offsets.learned.aimCount = static_cast<unsigned>(learned.aims.size());
+    scene.offsets.learned.aimSets = static_cast<unsigned>(
+        std::count_if(learned.aims.begin(), learned.aims.end(), [](const auto& aim) { return aim.count > 0; }));
     scene.offsets.learned.lights = learned.lights.empty() ? QL_NONE : tables.append(learned.lights);
     scene.offsets.learned.lightBlockSize = learned.lightBlockSize;
     scene.offsets.learned.lightBlockColumns =

@@ -1,4 +1,5 @@
 /* Draws of kernels/rng.clh, laid out as [path][dimension]. */
+#include "lattice.clh"
 #include "rng.clh"
 
 __kernel void draw(ulong seed, uint pass, uint stream, uint firstPath, uint dimensions, __global float* result,
@@ -21,4 +22,10 @@ __kernel void drawPairs(ulong seed, uint pass, uint stream, __global float* resu
 __kernel void mixNumbers(__global const ulong* input, __global ulong* result, uint count) {
     const uint i = get_global_id(0);
     if (i < count) result[i] = rngMix(input[i]);
+}
+
+/* Choices among emitters of `passes` passes of a pixel. */
+__kernel void chooseEvenly(uint shift, __global float* result, uint passes) {
+    const uint i = get_global_id(0);
+    if (i < passes) result[i] = evenChoice(shift, i);
 }

@@ -1,0 +1,152 @@
+#include "learn/aims.h"
+
+#include "learn/guide.h"
+#include "prepare/pack.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace quasilux {
+
+namespace {
+
+constexpr size_t mostSets = 8;
+// By which the log likelihood of all scattered rays must grow; and by an opening that no light from outside is known to come through.
+constexpr double leastAimGain = 0.03, leastFoundGain = 0.5;
+// Squares about one place: each twice as wide as the one before. Those that would get less of the photons are left out.
+constexpr int innerSquares = 2, outerSquares = 6;
+constexpr double leastShare = 0.01;
+// What matters about one place has no wall around it: photons that are not aimed may come there, too, and are not to be heavy.
+constexpr double surestAtPlace = 0.5;
+// Where aimed photons are less dense than this many times those spread over all directions there is little to be gained.
+constexpr double leastDensity = 10;
+
+// Share of all directions that it takes from there.
+double extent(const Opening& opening, const glm::dvec3& from) {
+    const glm::dvec3 offset = opening.centre - from;
+    return 4 * opening.halfU * opening.halfV / (4 * std::numbers::pi * std::max(glm::dot(offset, offset), 1e-12));
+}
+
+double distanceFrom(const UsefulRay& ray, const glm::dvec3& place) {
+    const glm::dvec3 offset = place - ray.position;
+    const double along = glm::dot(offset, ray.direction);
+    return along > 0 ? glm::length(offset - along * ray.direction) : std::numeric_limits<double>::infinity();
+}
+
+// By which the rays' log likelihood grows where every second one of those that come this way is aimed.
+double gainOf(const AimSet& set, const std::vector<UsefulRay>& rays) {
+    double gain = 0;
+    for (const auto& ray : rays)
+        if (const double density = set.density(ray); density > leastDensity)
+            gain += ray.weight * std::log(0.5 + 0.5 * density);
+    return gain;
+}
+
+// Squares about the centre of `opening` whose mixture is as dense as the rays are in each ring between two of them, as far as they get
+// thinner outwards: of the square k, of area S_k, the share S_k (D_k - D_k+1), D being the rings' densities.
+AimSet nestedSquares(const Opening& opening, const std::vector<UsefulRay>& rays) {
+    const int count = innerSquares + 1 + outerSquares;
+    std::vector<double> half, weight(static_cast<size_t>(count)), density(static_cast<size_t>(count) + 1);
+    for (int k = 0; k < count; ++k) half.push_back(std::ldexp(opening.halfU, k - innerSquares));
+    for (const auto& ray : rays) {
+        const double away = distanceFrom(ray, opening.centre);
+        const auto ring = std::lower_bound(half.begin(), half.end(), away) - half.begin();
+        if (ring < count) weight[static_cast<size_t>(ring)] += ray.weight;
+    }
+    double inner = 0;
+    for (size_t k = 0; k < half.size(); ++k) {
+        density[k] = weight[k] / (half[k] * half[k] - inner * inner);
+        inner = half[k];
+    }
+    for (size_t k = half.size(); k-- > 0;) density[k] = std::max(density[k], density[k + 1]);
+    double all = 0;
+    for (size_t k = 0; k < half.size(); ++k) all += half[k] * half[k] * (density[k] - density[k + 1]);
+    AimSet set;
+    set.surest = surestAtPlace;
+    double kept = 0;
+    for (size_t k = 0; k < half.size(); ++k) {
+        const double share = half[k] * half[k] * (density[k] - density[k + 1]) / all;
+        if (!(share > leastShare)) continue;
+        Opening square = opening;
+        square.halfU = square.halfV = half[k];
+        set.openings.push_back(square);
+        set.shares.push_back(share);
+        kept += share;
+    }
+    for (double& share : set.shares) share /= kept;
+    return set;
+}
+
+AimSet setAbout(const Opening& opening, const std::vector<UsefulRay>& rays) {
+    return opening.faces ? nestedSquares(opening, rays) : AimSet{{opening}, {1}, 0.9};
+}
+
+} // namespace
+
+double AimSet::density(const UsefulRay& ray) const {
+    double sum = 0;
+    for (size_t k = 0; k < openings.size(); ++k)
+        if (openings[k].holds(ray)) sum += shares[k] / extent(openings[k], ray.position);
+    return sum;
+}
+
+double AimSet::claim(const UsefulRay& ray) const {
+    const double aimed = density(ray);
+    if (openings.size() == 1) return aimed > leastDensity;
+    return aimed / (aimed + 2); // half of all directions are those of a hemisphere
+}
+
+std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, size_t v, double weight) {
+    const auto& from = path.vertices[v];
+    if (!(from.weight > 0) || !std::isfinite(from.weight)) return std::nullopt;
+    UsefulRay ray;
+    ray.position = unpack(from.position);
+    const glm::dvec3 offset = unpack(path.vertices[v - 1].position) - ray.position;
+    const double distance = glm::length(offset);
+    if (!(distance > 0)) return std::nullopt;
+    ray.direction = offset / distance;
+    ray.weight = weight * from.weight;
+    ray.isScattered = true;
+    return ray;
+}
+
+std::vector<AimSet> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
+                             const std::vector<Opening>& fromOutside, double radius) {
+    std::vector<UsefulRay> rays;
+    double all = 0;
+    for (size_t k = 0; k < paths.size(); ++k)
+        for (size_t v = 1; v < PILOT_VERTICES; ++v)
+            if (const auto ray = scatteredRay(paths[k], v, pathWeights[k])) {
+                rays.push_back(*ray);
+                all += ray->weight;
+            }
+    std::vector<Opening> candidates = fromOutside;
+    for (const Opening& found : findOpenings(rays, radius, candidates, mostSets)) candidates.push_back(found);
+    std::vector<AimSet> sets;
+    for (size_t k = 0; k < candidates.size() && sets.size() < mostSets; ++k) {
+        const AimSet set = setAbout(candidates[k], rays);
+        if (gainOf(set, rays) < all * (k < fromOutside.size() ? leastAimGain : leastFoundGain)) continue;
+        std::erase_if(rays, [&](const UsefulRay& ray) { return set.claim(ray) > 0.5; });
+        sets.push_back(set);
+    }
+    return sets;
+}
+
+std::vector<shared::AimSource> aimTable(const std::vector<AimSet>& sets) {
+    std::vector<shared::AimSource> table;
+    for (const auto& set : sets)
+        for (size_t k = 0; k < set.openings.size(); ++k)
+            table.push_back({openingSource(QL_NONE, 0, set.openings[k]), static_cast<float>(set.shares[k]),
+                             k == 0 ? static_cast<unsigned>(set.openings.size()) : 0u});
+    return table;
+}
+
+size_t firstOf(const std::vector<AimSet>& sets, size_t set) {
+    size_t first = 0;
+    for (size_t k = 0; k < set; ++k) first += sets[k].openings.size();
+    return first;
+}
+
+} // namespace quasilux
