@@ -158,7 +158,7 @@ inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const Phot
     if (!delivered && storableClasses(lobes, s.lobeCount, world->params->scene.variant) & (1u << lightClass) &&
         arrivalCounts(path, lightClass)) {
         const float3 arriving = path->flux * shadingNormalArrival(&s);
-        if (all(isfinite(arriving)) && world->params->learns)
+        if (all(isfinite(arriving)) && NOTES_PATHS(world))
             learnArrival(count, world, s.position, importanceFace(s.geometricNormal), arriving, lightClass);
         else if (all(isfinite(arriving))) {
             const float share = storedShare(world, &s);
@@ -268,8 +268,8 @@ inline int joinWalk(PhotonPath* path, const Walkers* w, LaneMask walking, const 
 }
 
 /* Paths `first` to `last` - 1: as many as walk at a time, each on its own where it does not. */
-inline void tracePaths(uint first, uint last, const Lattice* lattice, const PhotonWorld* world, const PhotonSink* sink,
-                       RegionCount* count) {
+inline void walkPhotons(uint first, uint last, const Lattice* lattice, const PhotonWorld* world, const PhotonSink* sink,
+                        RegionCount* count) {
     Walkers w;
     for (uint k = 0; k < WALKERS; ++k) w.paths[k] = idleWalker();
     LaneMask walking = 0, onTheirOwn = 0;
@@ -293,34 +293,31 @@ inline void tracePaths(uint first, uint last, const Lattice* lattice, const Phot
         onTheirOwn = walkAbreast(&w, &walking, world->tables, world->params, sink, count);
     }
 }
-#else
-inline void tracePaths(uint first, uint last, const Lattice* lattice, const PhotonWorld* world, const PhotonSink* sink,
-                       RegionCount* count) {
-    for (uint index = first; index < last; ++index) {
-        PhotonPath path = emitPhoton(world, lattice, index, count, 0);
-        followPhoton(&path, world, sink, count);
-    }
-}
 #endif
 
 #ifndef MAP_CAMERA
-/* The same, but only what they would bring to the image is noted, by path. */
-inline void learnFromPaths(uint first, uint last, const Lattice* lattice, const PhotonWorld* world,
-                           const PhotonSink* sink, RegionCount* count) {
-    __global PhotonRecord* records = (__global PhotonRecord*)sink->store.arrays;
-    for (uint index = first; index < last; ++index) {
-        PhotonRecord record;
-        count->useful = count->usefulSquares = 0;
-        PhotonPath path = emitPhoton(world, lattice, index, count, &record.emission);
-        record.flux = meanFlux(path.flux) * world->params->paths;
-        while (photonEvent(&path, 0, world, sink, count)) continue;
-        record.emission.weight = count->useful;
-        record.squares = count->usefulSquares;
-        record.events = path.steps;
-        records[index] = record;
-    }
+inline void notePath(const PhotonSink* sink, uint index, const EmissionRecord* emission, float flux,
+                     const PhotonPath* path, const RegionCount* count) {
+    PhotonRecord record = {*emission, flux, count->usefulSquares, path->steps};
+    record.emission.weight = count->useful;
+    ((__global PhotonRecord*)sink->store.arrays)[index] = record;
 }
 #endif
+
+/* Paths one after the other. */
+inline void followPhotons(uint first, uint last, const Lattice* lattice, const PhotonWorld* world,
+                          const PhotonSink* sink, RegionCount* count) {
+    for (uint index = first; index < last; ++index) {
+        EmissionRecord emission;
+        PhotonPath path = emitPhoton(world, lattice, index, count, NOTES_PATHS(world) ? &emission : 0);
+        const float flux = meanFlux(path.flux) * world->params->paths;
+        count->useful = count->usefulSquares = 0;
+        followPhoton(&path, world, sink, count);
+#ifndef MAP_CAMERA
+        if (NOTES_PATHS(world)) notePath(sink, index, &emission, flux, &path, count);
+#endif
+    }
+}
 
 /* The paths of one region. */
 inline void traceRegion(uint region, const PhotonWorld* world, const PhotonSink* sink, __global RegionCount* counts) {
@@ -328,12 +325,12 @@ inline void traceRegion(uint region, const PhotonWorld* world, const PhotonSink*
     RegionCount count = {0};
     const Lattice lattice = latticeOfPass((ulong)params->seedHigh << 32 | params->seedLow, params->pass);
     const uint first = region * params->pathsPerRegion, last = min(first + params->pathsPerRegion, params->paths);
-#ifndef MAP_CAMERA
-    if (params->learns)
-        learnFromPaths(first, last, &lattice, world, sink, &count);
+#ifdef WALK_ABREAST
+    if (!NOTES_PATHS(world))
+        walkPhotons(first, last, &lattice, world, sink, &count);
     else
 #endif
-        tracePaths(first, last, &lattice, world, sink, &count);
+        followPhotons(first, last, &lattice, world, sink, &count);
     counts[region] = count;
 }
 

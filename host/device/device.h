@@ -1,6 +1,8 @@
 // One OpenCL device with its context, queue, kernels and timing table. The only folder that calls OpenCL.
 #pragma once
 
+#include "device/launch_pace.h"
+
 #include <CL/opencl.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +50,9 @@ public:
     cl::CommandQueue& queue() { return queue_; }
     const cl::Device& device() const { return device_; }
     unsigned workGroupSize() const { return workGroupSize_; }
+    /// No launch of a kernel is to last longer than so many seconds.
+    double longestLaunch() const { return longestLaunch_; }
+    void setLongestLaunch(double seconds) { longestLaunch_ = seconds; }
 
     /// Throws InputError that names `label` and by how much what is in use would exceed the limit, DeviceError if the
     /// device refuses.
@@ -74,6 +79,7 @@ private:
     cl::Context context_;
     cl::CommandQueue queue_;
     unsigned workGroupSize_;
+    double longestLaunch_ = longestLaunchSeconds;
     struct InUse {
         uint64_t now = 0, peak = 0;
     };

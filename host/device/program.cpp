@@ -58,8 +58,13 @@ std::string joinKernelSource(const std::string& file, const Sources& extra) {
     return out;
 }
 
+// Groups on each compute unit of a first launch, of which nothing is known: enough to fill a GPU, and little work.
+constexpr unsigned firstGroupsPerUnit = 4;
+
 Kernel::Kernel(Device& device, cl::Kernel kernel, std::string name)
-    : device_(&device), kernel_(std::move(kernel)), name_(std::move(name)) {
+    : device_(&device), kernel_(std::move(kernel)), name_(std::move(name)),
+      pace_(device.info().isCpu ? 0
+                                : size_t(firstGroupsPerUnit) * device.info().computeUnits * device.workGroupSize()) {
     cl_ulong bytes = 0;
     if (kernel_.getWorkGroupInfo(device.device(), CL_KERNEL_PRIVATE_MEM_SIZE, &bytes) == CL_SUCCESS)
         privateBytes_ = bytes;
@@ -70,14 +75,29 @@ void Kernel::check(cl_int status, cl_uint index) {
         throw DeviceError(fmt::format("kernel {}: argument {} was refused (OpenCL error {})", name_, index, status));
 }
 
+void Kernel::notePace() {
+    if (lastCount_ == 0 || last_.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() != CL_COMPLETE) return;
+    pace_.note(lastCount_, 1e-9 * static_cast<double>(last_.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                                      last_.getProfilingInfo<CL_PROFILING_COMMAND_START>()));
+}
+
+cl::Event Kernel::enqueuePart(size_t first, size_t count, size_t group) {
+    cl::Event event;
+    device_->queue().enqueueNDRangeKernel(kernel_, first == 0 ? cl::NullRange : cl::NDRange(first), cl::NDRange(count),
+                                          cl::NDRange(group), nullptr, &event);
+    device_->addTiming(name_, privateBytes_, event);
+    return event;
+}
+
 void Kernel::enqueue(size_t count, size_t group) {
-    if (count == 0) return;
     const size_t global = (count + group - 1) / group * group;
     try {
-        cl::Event event;
-        device_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global), cl::NDRange(group), nullptr,
-                                              &event);
-        device_->addTiming(name_, privateBytes_, event);
+        for (size_t first = 0; first < global; first += lastCount_) {
+            notePace();
+            lastCount_ = pace_.next(global - first, group, device_->longestLaunch());
+            last_ = enqueuePart(first, lastCount_, group);
+            if (lastCount_ < global) last_.wait();
+        }
     } catch (const cl::Error& error) {
         throw DeviceError(
             fmt::format("kernel {} over {} work-items in groups of {} failed on device {} (OpenCL error {})", name_,

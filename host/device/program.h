@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/buffer.h"
+#include "device/launch_pace.h"
 
 #include <string>
 #include <type_traits>
@@ -36,6 +37,9 @@ public:
         launchInGroupsOf(1, count, args...);
     }
 
+    /// The launches so far were of no work, made so that the runtime compiles the kernel.
+    void forgetPace() { lastCount_ = 0; }
+
 private:
     template <typename... Args>
     void launchInGroupsOf(size_t group, size_t count, const Args&... args) {
@@ -52,12 +56,18 @@ private:
         check(kernel_.setArg(index, sizeof(T), &value), index);
     }
     void check(cl_int status, cl_uint index);
+    /// In as many launches as longestLaunchSeconds asks for, each of which is waited for if there are several.
     void enqueue(size_t count, size_t group);
+    cl::Event enqueuePart(size_t first, size_t count, size_t group);
+    void notePace();
 
     Device* device_ = nullptr;
     cl::Kernel kernel_;
     std::string name_;
     uint64_t privateBytes_ = 0;
+    LaunchPace pace_;
+    cl::Event last_; ///< the last launch
+    size_t lastCount_ = 0;
 };
 
 class Program {

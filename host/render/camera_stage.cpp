@@ -10,6 +10,7 @@ void CameraStage::compile(const PhotonStage& photons) {
     shared::CameraParams nothing = params_;
     nothing.camera.width = nothing.camera.height = 0;
     trace(film_, nothing, radii_ ? &radii_->scales(0) : nullptr, photons);
+    traceCameraPaths_.forgetPace();
     if (radii_) radii_->compile();
 }
 

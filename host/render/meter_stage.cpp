@@ -23,6 +23,7 @@ void MeterStage::compile(const PhotonStage& photons) {
     traceMeterPaths_.launch(film_.pixels() * params_.scene.meter.samples, geometry_.nodes, geometry_.blocks,
                             geometry_.tables, photons.table().cellStart(), photons.sorted(), samples_,
                             film_.counterBuffer(), nothing);
+    traceMeterPaths_.forgetPace();
     addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(), 0u, 0u, 0.f,
                             counted_.quantaPerRadiance, 0.f);
 }
