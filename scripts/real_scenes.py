@@ -2,23 +2,31 @@
 
 Error = noise + bias. Noise: half the mean squared difference of two seeds. Bias: squared differences of the mean image from the
 reference over blocks of 16 x 16 pixels, net of the noise of both. Both with the weights of relMSE, R being the mean of a pixel's
-neighbours in the reference, which is free of its own noise. Kernels of both renderers are compiled before the clock starts.
+neighbours in the reference, which is free of its own noise. "Estimated": noise as the render states it over noise as found, both root
+mean square. Kernels of both renderers are compiled before the clock starts. Draws images of both side by side.
 """
+import json
+import math
 import os
 import pathlib
 import subprocess
 import sys
 import time
 
+import matplotlib
 import mitsuba
 import numpy as np
 
+from figures import tone_map
 from relmse import mean_about, read_channels, relmse_weight
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENES = ROOT / "scenes" / "real"
 PROGRAM = ROOT / "build" / "release" / "quasilux"
-PICTURES = ROOT / "docs" / "figures" / "real"
+PICTURE = ROOT / "docs" / "figures" / "real_scenes.png"
 OUT = ROOT / "out" / "real"
 NAMES = ["room", "daylight", "sunlight", "building", "macro"]
 BLOCK = 16
@@ -46,14 +54,13 @@ class Reference:
 
 
 def render_quasilux(name, seconds, seed):
+    """The image, and the square of its estimated noise, relative to its brightness."""
     OUT.mkdir(parents=True, exist_ok=True)
-    image = OUT / f"{name}_{seed}.exr"
-    command = [PROGRAM, "render", SCENES / f"{name}.xml", "--time", str(seconds), "--seed", str(seed), "--output", image, "--quiet"]
-    if seed == 1 and seconds >= 5:
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        command += ["--png", PICTURES / f"{name}.png"]
-    subprocess.run([str(part) for part in command], check=True)
-    return read_channels(image, ["R", "G", "B"])
+    image, statistics = OUT / f"{name}_{seed}.exr", OUT / f"{name}_{seed}.json"
+    command = [PROGRAM, "render", SCENES / f"{name}.xml", "--time", seconds, "--seed", seed, "--output", image, "--stats", statistics]
+    subprocess.run([str(part) for part in command] + ["--quiet"], check=True)
+    noise = json.loads(statistics.read_text())["error"]["total"]["noiseRms"]
+    return read_channels(image, ["R", "G", "B"]), noise**2
 
 
 def render_mitsuba(scene, seconds, seed):
@@ -64,25 +71,46 @@ def render_mitsuba(scene, seconds, seed):
     return total / calls
 
 
+def draw(images):
+    """Rows: scenes, of (name, quasilux, Mitsuba)."""
+    figure, axes = plt.subplots(2, len(images), figsize=(3.2 * len(images), 5.2), squeeze=False)
+    for column, (name, *both) in enumerate(images):
+        for axis, image in zip(axes[:, column], both):
+            axis.imshow(tone_map(image, 0.3 / both[0].mean()), interpolation="nearest")
+            axis.set_xticks([])
+            axis.set_yticks([])
+        axes[0, column].set_title(name)
+    axes[0, 0].set_ylabel("quasilux")
+    axes[1, 0].set_ylabel("Mitsuba path")
+    figure.tight_layout()
+    figure.savefig(PICTURE, dpi=100)
+
+
 def main():
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 30
     names = sys.argv[2:] or NAMES
     mitsuba.set_variant("llvm_ad_rgb")
     print(f"{seconds:g} s each, two seeds, load {os.getloadavg()[0]:.1f}, Mitsuba {mitsuba.__version__}\n")
-    print("| scene | quasilux: noise | bias | error | mean | Mitsuba `path` | error against it |\n|---|---|---|---|---|---|---|")
+    print("| scene | quasilux: noise | bias | error | mean | estimated | Mitsuba `path` | error against it |\n|" + "---|" * 8)
+    images = []
     for name in names:
         reference = Reference(name)
         scene = mitsuba.load_file(str(SCENES / f"{name}.xml"))
         np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=0))  # compiles
         render_quasilux(name, 1, 9)
-        ours, theirs = [], []
+        ours, theirs, estimates = [], [], []
         for seed in (1, 2):
-            ours.append(render_quasilux(name, seconds, seed))
+            image, estimate = render_quasilux(name, seconds, seed)
+            ours.append(image)
+            estimates.append(estimate)
             theirs.append(render_mitsuba(scene, seconds, seed))
+        images.append((name, ours[0], theirs[0]))
         noise, bias, mean = reference.errors(*ours)
         peer = reference.errors(*theirs)[0]
-        ratio = peer / (noise + bias)
-        print(f"| {name} | {noise:.1e} | {bias:.1e} | {noise + bias:.1e} | {100 * mean:+.2f} % | {peer:.1e} | 1/{ratio:.1f} |", flush=True)
+        row = f"| {name} | {noise:.1e} | {bias:.1e} | {noise + bias:.1e} | {100 * mean:+.2f} % | {math.sqrt(np.mean(estimates) / noise):.2f} |"
+        print(f"{row} {peer:.1e} | 1/{peer / (noise + bias):.1f} |", flush=True)
+    if names == NAMES and seconds >= 5:
+        draw(images)
 
 
 if __name__ == "__main__":

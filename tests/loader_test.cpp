@@ -226,6 +226,73 @@ TEST(Documents, IncludesShareParametersAndNamesOfFilesAreRelativeToTheFileThatMe
     EXPECT_EQ(loadScene(path, {{"size", "7"}}).shapes[0].mesh.positions[1].x, 7);
 }
 
+// As Mitsuba: the folders of <path>, the last one first, then that of the scene, in included files too.
+TEST(Documents, FilesAreLookedForInTheFoldersOfPathsAndOfTheScene) {
+    SceneFiles files;
+    for (const char* folder : {"parts", "meshes", "better"}) std::filesystem::create_directories(files.path(folder));
+    const auto mesh = [](const std::string& x) { return "v 0 0 0\nv " + x + " 0 0\nv 0 1 0\nf 1 2 3\n"; };
+    files.write("of_scene.obj", mesh("1"));
+    files.write("parts/of_scene.obj", mesh("9"));
+    files.write("parts/of_part.obj", mesh("2"));
+    files.write("meshes/a.obj", mesh("3"));
+    files.write("meshes/b.obj", mesh("9"));
+    files.write("better/b.obj", mesh("4"));
+    std::string shapes;
+    for (const char* name : {"of_scene", "of_part", "a", "b"})
+        shapes += std::string("<shape type=\"obj\"><string name=\"filename\" value=\"") + name + ".obj\"/></shape>";
+    files.write("parts/part.xml", "<scene version=\"3.0.0\"><path value=\"../better\"/>" + shapes + "</scene>");
+    const Scene scene = loadScene(files.write(
+        "scene.xml", sceneWith(R"(<path value="meshes"/><path value="parts"/><include filename="part.xml"/>)")));
+    ASSERT_EQ(scene.shapes.size(), 4u);
+    // "parts" is nearer than the scene's own folder: the last of the paths but "better".
+    const std::vector<float> found = {9, 2, 3, 4};
+    for (size_t k = 0; k < found.size(); ++k) EXPECT_EQ(scene.shapes[k].mesh.positions[1].x, found[k]) << k;
+    EXPECT_THAT(test::errorOf(files.write("bad.xml", sceneWith(R"(<path value="nowhere"/>)"))),
+                testing::HasSubstr("bad.xml:4:1: the folder 'nowhere' does not exist"));
+    EXPECT_THAT(
+        test::errorOf(files.write("bad.xml", sceneWith(R"(<shape type="cube"><path value="meshes"/></shape>)"))),
+        testing::HasSubstr("bad.xml:4:20: <path> may not stand in <shape>; put it into <scene>"));
+}
+
+TEST(Documents, AnAliasIsASecondId) {
+    SceneFiles files;
+    const Scene scene = loadScene(files.write("scene.xml", sceneWith(R"(<bsdf type="dielectric" id="glass"/>
+        <alias id="glass" as="window"/><alias id="window" as="pane"/><shape type="sphere"><ref id="pane"/></shape>)")));
+    EXPECT_EQ(scene.bsdfs.at(static_cast<size_t>(scene.shapes.at(0).bsdf)).id, "glass");
+    EXPECT_EQ(scene.warnings.size(), 0u);
+    EXPECT_THAT(test::errorOf(files.write(
+                    "bad.xml", sceneWith(R"(<bsdf type="dielectric" id="glass"/><alias id="glas" as="pane"/>)"))),
+                testing::HasSubstr("bad.xml:4:37: no object has the id 'glas'. Did you mean 'glass'?"));
+    EXPECT_THAT(
+        test::errorOf(files.write("bad.xml", sceneWith(R"(<bsdf type="dielectric" id="a"/><alias id="a" as="a"/>)"))),
+        testing::HasSubstr("bad.xml:4:33: the id 'a' is already in use"));
+}
+
+TEST(Documents, NamesOfMitsuba0AreUpgraded) {
+    SceneFiles files;
+    files.write("part.xml",
+                R"(<shape version="3.0.0" type="sphere"><boolean name="flip_normals" value="true"/></shape>)");
+    const Scene scene = loadScene(files.write("scene.xml", R"(<scene version="0.6.0"><default name="aSize" value="2"/>
+        <sensor type="perspective"><float name="nearClip" value="0.5"/><transform name="toWorld"><lookAt origin="0,0,5" target="0,0,0"/></transform></sensor>
+        <emitter type="point"/><shape type="rectangle"><boolean name="flipNormals" value="true"/><transform name="toWorld"><scale value="$aSize"/></transform>
+        <bsdf type="diffuse"><texture type="checkerboard" name="reflectance"><float name="uscale" value="4"/><float name="voffset" value="0.25"/></texture></bsdf></shape>
+        <include filename="part.xml"/></scene>)"));
+    EXPECT_EQ(scene.sensor.nearClip, 0.5);
+    EXPECT_TRUE(scene.shapes.at(0).flipNormals);
+    EXPECT_TRUE(scene.shapes.at(1).flipNormals) << "a file of today within one of then";
+    const auto& texture = scene.textures.at(0).device;
+    EXPECT_EQ(texture.toU[0], 4);
+    EXPECT_EQ(texture.toV[2], 0.25f);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], testing::HasSubstr("names of parameters are upgraded"));
+    EXPECT_THAT(
+        test::errorOf(files.write(
+            "bad.xml",
+            R"(<scene version="3.0.0"><shape type="cube"><boolean name="flipNormals" value="true"/></shape></scene>)")),
+        testing::HasSubstr("flipNormals"))
+        << "control: not of version 3";
+}
+
 TEST(Documents, CommentsOtherInstructionsAndByteOrderMarkAreNoMatter) {
     SceneFiles files;
     const Scene scene = loadScene(

@@ -8,29 +8,43 @@
 
 namespace quasilux {
 
-LoadContext::LoadContext(const Element& root, Scene& target) : scene(target) { collect(root); }
+LoadContext::LoadContext(const Element& root, const FileResolver& resolver, Scene& target)
+    : scene(target), files(resolver) {
+    collect(root);
+    collectAliases(root);
+}
+
+void LoadContext::add(const std::string& id, const Element& named, const SourceLocation& where) {
+    if (id.empty()) throw InputError(where, "the id is empty; leave it out or give a name.");
+    const auto [before, isNew] = ids_.emplace(id, &named);
+    if (!isNew)
+        throw InputError(where, fmt::format("the id '{}' is already in use at {}; ids must differ.", id,
+                                            before->second->where.text()));
+}
 
 void LoadContext::collect(const Element& element) {
-    const std::string* id = element.tag == "ref" ? nullptr : element.find("id");
-    if (id) {
-        if (id->empty()) throw InputError(element.where, "the id is empty; leave it out or give a name.");
-        const auto [before, isNew] = ids_.emplace(*id, &element);
-        if (!isNew)
-            throw InputError(element.where, fmt::format("the id '{}' is already in use at {}; ids must differ.", *id,
-                                                        before->second->where.text()));
-    }
+    const bool isMention = element.tag == "ref" || element.tag == "alias";
+    if (const std::string* id = isMention ? nullptr : element.find("id")) add(*id, element, element.where);
     for (const Element& child : element.children) collect(child);
 }
 
-const Element& LoadContext::resolve(const Element& element) const {
-    if (element.tag != "ref") return element;
-    const std::string& id = element.get("id");
+// In the order of the file: an alias may have an alias.
+void LoadContext::collectAliases(const Element& root) {
+    for (const Element& child : root.children)
+        if (child.tag == "alias") add(child.get("as"), find(child.get("id"), child.where), child.where);
+}
+
+const Element& LoadContext::find(const std::string& id, const SourceLocation& where) const {
     const auto found = ids_.find(id);
     if (found != ids_.end()) return *found->second;
     Names known;
     for (const auto& entry : ids_) known.push_back(entry.first);
     std::sort(known.begin(), known.end());
-    throw InputError(element.where, fmt::format("no object has the id '{}'.{}", id, knownNames(id, known)));
+    throw InputError(where, fmt::format("no object has the id '{}'.{}", id, knownNames(id, known)));
+}
+
+const Element& LoadContext::resolve(const Element& element) const {
+    return element.tag == "ref" ? find(element.get("id"), element.where) : element;
 }
 
 void LoadContext::warn(const SourceLocation& where, const std::string& message) {

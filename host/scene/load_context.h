@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 #include "scene/xml/element.h"
+#include "scene/xml/file_resolver.h"
 
 #include <set>
 #include <unordered_map>
@@ -11,8 +12,8 @@ namespace quasilux {
 
 class LoadContext {
 public:
-    /// Collects the ids below `root`. Throws InputError for an id given twice.
-    LoadContext(const Element& root, Scene& scene);
+    /// Collects the ids below `root` and their aliases. Throws InputError for an id given twice.
+    LoadContext(const Element& root, const FileResolver& files, Scene& scene);
 
     /// The element that `element` stands for: itself, or what a <ref> names. Throws InputError for an unknown id.
     const Element& resolve(const Element& element) const;
@@ -20,6 +21,7 @@ public:
     void warn(const SourceLocation& where, const std::string& message);
 
     Scene& scene;
+    const FileResolver& files;
     std::unordered_map<const Element*, int> bsdfIndex;        ///< of bsdfs that shapes use, into Scene::bsdfs
     std::unordered_map<const Element*, int> textureIndex;     ///< of textures that bsdfs use, into Scene::textures
     std::unordered_map<const Element*, unsigned> mediumIndex; ///< of media in use, into Scene::media
@@ -29,6 +31,9 @@ public:
 
 private:
     void collect(const Element& element);
+    void collectAliases(const Element& root);
+    void add(const std::string& id, const Element& named, const SourceLocation& where);
+    const Element& find(const std::string& id, const SourceLocation& where) const;
 
     std::unordered_map<std::string, const Element*> ids_;
 };

@@ -12,10 +12,10 @@
 #include "scene/shapes/shape_plugin.h"
 #include "scene/textures/texture_plugin.h"
 #include "scene/xml/numbers.h"
+#include "scene/xml/upgrade.h"
 #include "scene/xml/xml_document.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -24,12 +24,15 @@ namespace {
 
 void checkVersion(const Element& root, LoadContext& context) {
     const std::string& version = root.get("version");
-    int major = -1;
-    const auto [end, error] = std::from_chars(version.data(), version.data() + version.size(), major);
-    if (error != std::errc{} || major < 0 || (end != version.data() + version.size() && *end != '.'))
+    const int major = majorVersion(version);
+    if (major < 0)
         throw InputError(root.where,
                          fmt::format("version '{}' is not a version; expected one such as 3.0.0.", version));
-    if (major != 3)
+    if (major < 2)
+        context.warn(root.where, fmt::format("version {}: names of parameters are upgraded to those of Mitsuba 3, as "
+                                             "Mitsuba does; plugins and defaults are those of version 3.",
+                                             version));
+    else if (major != 3)
         context.warn(
             root.where,
             fmt::format("version {} is read as Mitsuba 3: names and defaults are those of version 3.", version));
@@ -52,7 +55,8 @@ void readObject(const Element& object, LoadContext& context, std::vector<PlacedS
         sensors.push_back({&object, std::nullopt});
     else if (object.tag == "integrator")
         integrators.push_back(&object);
-    else if (object.tag == "bsdf" || object.tag == "texture" || object.tag == "medium" || object.tag == "phase")
+    else if (object.tag == "bsdf" || object.tag == "texture" || object.tag == "medium" || object.tag == "phase" ||
+             object.tag == "alias")
         return; // read where another object uses it
     else
         throw InputError(object.where,
@@ -129,11 +133,12 @@ void checkEmitters(const Scene& scene) {
 }
 
 /// The scene in coordinates of the file less `origin`.
-Scene readScene(const Element& root, const std::string& path, const glm::dvec3& origin) {
+Scene readScene(const SceneDocument& document, const std::string& path, const glm::dvec3& origin) {
+    const Element& root = document.root;
     Scene scene;
     scene.path = path;
     scene.origin = origin;
-    LoadContext context(root, scene);
+    LoadContext context(root, document.files, scene);
     checkVersion(root, context);
     std::vector<Instruction> settings;
     for (const Instruction& instruction : root.instructions) {
@@ -162,23 +167,23 @@ Scene readScene(const Element& root, const std::string& path, const glm::dvec3& 
 }
 
 /// The scene about the origin of the file. Where that is so far away that a shape has no area left, about the sensor.
-Scene readSceneAnywhere(const Element& root, const std::string& path) {
+Scene readSceneAnywhere(const SceneDocument& document, const std::string& path) {
     try {
-        return readScene(root, path, glm::dvec3(0));
+        return readScene(document, path, glm::dvec3(0));
     } catch (const InputError&) {
-        const glm::dvec3 place = placeOfSensor(root);
+        const glm::dvec3 place = placeOfSensor(document.root);
         if (place == glm::dvec3(0)) throw;
-        return readScene(root, path, place);
+        return readScene(document, path, place);
     }
 }
 
 } // namespace
 
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters) {
-    const Element root = readSceneDocument(path, parameters);
-    Scene scene = readSceneAnywhere(root, path);
+    const SceneDocument document = readSceneDocument(path, parameters);
+    Scene scene = readSceneAnywhere(document, path);
     const glm::dvec3 origin = chooseOrigin(scene);
-    return origin == scene.origin ? scene : readScene(root, path, origin);
+    return origin == scene.origin ? scene : readScene(document, path, origin);
 }
 
 } // namespace quasilux

@@ -13,7 +13,7 @@ MeshFile readMeshFile(Properties& properties, bool flipsTexCoords) {
                          fmt::format("{} needs <string name=\"filename\" value=\"…\"/>.", properties.describe()));
     MeshFile file;
     file.where = properties.where("filename");
-    file.path = resolvePath(name, file.where);
+    file.path = properties.context().files.resolve(name, file.where);
     file.faceNormals = properties.boolean("face_normals", false);
     file.toWorld = properties.transform("to_world");
     file.flipTexCoords = properties.boolean("flip_tex_coords", flipsTexCoords);

@@ -23,7 +23,7 @@ void readBitmap(Properties& properties, TextureDescription& texture) {
     const bool raw = properties.boolean("raw", false);
     properties.accept({"format", "accel"});
 
-    Image image = readImage(resolvePath(name, where), raw, where);
+    Image image = readImage(properties.context().files.resolve(name, where), raw, where);
     if (image.clamped > 0)
         properties.context().warn(where, fmt::format("{} of the {} pixels of '{}' are above 1 and are taken as 1: a "
                                                      "surface cannot reflect more light than it gets.",

@@ -12,6 +12,8 @@ const std::vector<Tag> tags = {
     {"scene", TagKind::scene, {"version"}, {}},
     {"default", TagKind::directive, {"name", "value"}, {}},
     {"include", TagKind::directive, {"filename"}, {}},
+    {"path", TagKind::directive, {"value"}, {}},
+    {"alias", TagKind::directive, {"id", "as"}, {}},
     {"ref", TagKind::reference, {"id"}, {"name"}},
     {"integrator", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"sensor", TagKind::object, {"type"}, {"id", "name", "version"}},
@@ -43,8 +45,6 @@ const std::vector<Tag> tags = {
 /// Part of Mitsuba 3 but not of quasilux, with what to do instead.
 const std::vector<std::pair<std::string_view, std::string_view>> unsupportedTags = {
     {"volume", "media are homogeneous: give the value as a <float>, <rgb> or <spectrum> in its place"},
-    {"path", "write file names relative to the scene file"},
-    {"alias", "repeat the object under its second id"},
     {"animation", "use one <transform>"},
 };
 
@@ -86,6 +86,7 @@ void checkPlace(const Element& element, const Tag& tag, const Element& parent) {
         refuse("close that element first");
     if (outer == TagKind::scene && (tag.kind == TagKind::parameter || tag.kind == TagKind::transform))
         refuse("parameters belong in an object such as <shape> or <bsdf>");
+    if ((element.tag == "path" || element.tag == "alias") && outer != TagKind::scene) refuse("put it into <scene>");
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "scene/xml/names.h"
 #include "scene/xml/tags.h"
+#include "scene/xml/upgrade.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -46,7 +47,7 @@ struct Parameter {
 
 class DocumentReader {
 public:
-    explicit DocumentReader(const SceneParameters& parameters) {
+    DocumentReader(const std::string& path, const SceneParameters& parameters) : files_(path) {
         for (const auto& [name, value] : parameters) {
             for (const Parameter& earlier : parameters_)
                 if (earlier.name == name)
@@ -83,6 +84,8 @@ public:
         return root;
     }
 
+    const FileResolver& files() const { return files_; }
+
     void checkAllUsed() const {
         for (const Parameter& parameter : parameters_) {
             if (parameter.used || !parameter.given) continue;
@@ -109,8 +112,12 @@ private:
             throw InputError(element.where, fmt::format("elements nested deeper than {}.", maximumNesting));
         for (pugi::xml_attribute attribute : node.attributes())
             element.attributes.push_back({attribute.name(), substitute(attribute.value(), element.where)});
+        if (!parent && element.find("version")) version_ = majorVersion(element.get("version"));
+        const bool isOld = version_ == 0 || version_ == 1;
+        if (isOld) upgradeNames(element);
         checkElement(element, parent);
         for (pugi::xml_node child : node.children()) convertChild(child, element, positions, depth);
+        if (isOld) upgradeTextureCoordinates(element);
         return element;
     }
 
@@ -135,6 +142,8 @@ private:
                 define(element);
             else if (element.tag == "include")
                 include(element, parent);
+            else if (element.tag == "path")
+                files_.prepend(element.get("value"), element.where);
             else
                 parent.children.push_back(std::move(element));
         }
@@ -149,7 +158,9 @@ private:
     }
 
     void include(const Element& element, Element& parent) {
-        Element root = readRoot(resolvePath(element.get("filename"), element.where), element.where);
+        const int version = version_; // each file has its own
+        Element root = readRoot(files_.resolve(element.get("filename"), element.where), element.where);
+        version_ = version;
         if (root.tag != "scene") {
             checkElement(root, &parent);
             parent.children.push_back(std::move(root));
@@ -192,17 +203,19 @@ private:
 
     std::vector<Parameter> parameters_;
     std::vector<std::string> openFiles_;
+    FileResolver files_;
+    int version_ = 3; ///< the first number of that of the file that is being read
 };
 
 } // namespace
 
-Element readSceneDocument(const std::string& path, const SceneParameters& parameters) {
-    DocumentReader reader(parameters);
+SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters) {
+    DocumentReader reader(path, parameters);
     Element root = reader.readRoot(path, {});
     if (root.tag != "scene")
         throw InputError(root.where, fmt::format("the outermost element is <{}>; expected <scene>.", root.tag));
     reader.checkAllUsed();
-    return root;
+    return {std::move(root), reader.files()};
 }
 
 Instruction parseInstruction(std::string_view text, const SourceLocation& where) {
@@ -247,10 +260,6 @@ std::string readFile(const std::string& path, const SourceLocation& where, std::
     std::ostringstream content;
     content << file.rdbuf();
     return std::move(content).str();
-}
-
-std::string resolvePath(const std::string& name, const SourceLocation& where) {
-    return (std::filesystem::path(where.file).parent_path() / name).string();
 }
 
 } // namespace quasilux

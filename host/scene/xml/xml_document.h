@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/xml/element.h"
+#include "scene/xml/file_resolver.h"
 
 #include <utility>
 
@@ -10,16 +11,18 @@ namespace quasilux {
 using SceneParameters = std::vector<std::pair<std::string, std::string>>;
 
 /// The `<scene>` element with included files spliced in, `$name` replaced, and every tag and attribute known.
+struct SceneDocument {
+    Element root;
+    FileResolver files;
+};
+
 /// Throws InputError for a missing file, malformed XML, include loops, unknown names and unused `parameters`.
-Element readSceneDocument(const std::string& path, const SceneParameters& parameters);
+SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters);
 
 /// Entries of `<?quasilux …?>`. Throws InputError at `where` if they are not a list of key="value".
 Instruction parseInstruction(std::string_view text, const SourceLocation& where);
 
 /// The whole of a file. Throws InputError at `where` if it cannot be read; `what` names it ("mesh", "scene").
 std::string readFile(const std::string& path, const SourceLocation& where, std::string_view what);
-
-/// `name` relative to the folder of the file that mentions it.
-std::string resolvePath(const std::string& name, const SourceLocation& where);
 
 } // namespace quasilux
