@@ -97,6 +97,32 @@ TEST(ConductorBsdf, IsADeltaLobe) {
     expectRgb(mirror.device.reflectance, 0.9f, 0.9f, 0.9f);
 }
 
+// What a white base sends back and what the coat reflects is all light, from any direction: reflectance and the share that the coat lets
+// in cancel.
+TEST(PlasticBsdf, AWhiteBaseLosesNothing) {
+    const auto lobes = [](const std::string& parameters) {
+        return loadBsdf("<bsdf type=\"plastic\"><float name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" "
+                        "value=\"1\"/>" +
+                        parameters + "</bsdf>")
+            .front;
+    };
+    const auto white = lobes(R"(<rgb name="diffuse_reflectance" value="1"/>)");
+    ASSERT_EQ(white.size(), 2u);
+    EXPECT_EQ(white[0].name, "diffuse");
+    EXPECT_EQ(white[0].device.type, unsigned(LOBE_COATEDLAMBERT));
+    EXPECT_NEAR(white[0].device.reflectance.g * white[0].device.exponent, 1, 1e-6);
+    EXPECT_EQ(white[1].device.type, unsigned(LOBE_CONDUCTOR));
+    EXPECT_EQ(white[1].device.scattering, SCATTER_SPECULAR);
+    expectRgb(white[1].device.eta, 1.5f, 1.5f, 1.5f);
+    expectRgb(white[1].device.k, 0, 0, 0);
+    // The coat of index 1.5 sends back 0.5963 of diffuse light from inside (Egan & Hilgeman 1973).
+    const double within = 0.5963, linear = 0.25 / (2.25 * (1 - within)),
+                 nonlinear = 0.25 / (2.25 * (1 - 0.25 * within));
+    const std::string grey = R"(<rgb name="diffuse_reflectance" value="0.25"/>)";
+    EXPECT_NEAR(lobes(grey)[0].device.reflectance.g, linear, 2e-4);
+    EXPECT_NEAR(lobes(grey + R"(<boolean name="nonlinear" value="true"/>)")[0].device.reflectance.g, nonlinear, 2e-4);
+}
+
 TEST(DielectricBsdf, IndexIsRelativeToTheSideThatIsLookedFrom) {
     const Bsdf glass = loadBsdf(
         R"(<bsdf type="dielectric"><float name="int_ior" value="1.5"/><string name="ext_ior" value="water"/></bsdf>)");

@@ -254,6 +254,16 @@ TEST(Documents, FilesAreLookedForInTheFoldersOfPathsAndOfTheScene) {
         testing::HasSubstr("bad.xml:4:20: <path> may not stand in <shape>; put it into <scene>"));
 }
 
+// What scripts/compare_mitsuba.sh renders by both.
+TEST(Documents, ScenesOfTheComparisonWithMitsubaLoad) {
+    size_t scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(QUASILUX_SOURCE_DIR "/tests/scenes/compare")) {
+        EXPECT_EQ(loadScene(entry.path().string()).warnings.size(), 0u) << entry.path();
+        ++scenes;
+    }
+    EXPECT_GE(scenes, 3u);
+}
+
 TEST(Documents, AnAliasIsASecondId) {
     SceneFiles files;
     const Scene scene = loadScene(files.write("scene.xml", sceneWith(R"(<bsdf type="dielectric" id="glass"/>

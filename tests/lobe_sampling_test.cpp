@@ -107,7 +107,7 @@ TEST(LobeSampling, densityIntegratesToTheValidShare) {
         }
         EXPECT_LT(all, 1 + 2e-3);
         const bool losesNothing =
-            lobe.type == LOBE_LAMBERT || lobe.type == LOBE_PHONG; // Phong's pdf goes on below the horizon
+            LOBE_IS_BROAD(lobe.type) || lobe.type == LOBE_PHONG; // Phong's pdf goes on below the horizon
         if (losesNothing) {
             EXPECT_NEAR(all, 1, 2e-3);
         }
@@ -148,9 +148,9 @@ TEST(LobeSampling, weightIsFCosineOverPdf) {
         const auto values = evaluateLobe(lobe, std::vector(wi.size(), wo), wi);
         // A float direction fixes a narrow lobe's value only so far: rounding over the lobe's width, and over the
         // grazing cosine.
-        const double width = lobe.type == LOBE_PHONG     ? 1 / std::sqrt(lobe.exponent + 1.0)
-                             : lobe.type == LOBE_LAMBERT ? 1.0
-                                                         : std::min(lobe.alphaU, lobe.alphaV) * wo.z;
+        const double width = lobe.type == LOBE_PHONG    ? 1 / std::sqrt(lobe.exponent + 1.0)
+                             : LOBE_IS_BROAD(lobe.type) ? 1.0
+                                                        : std::min(lobe.alphaU, lobe.alphaV) * wo.z;
         const double tolerance = 2e-5 + 4e-6 / width;
         for (size_t i = 0; i < samples.size(); ++i) {
             const SampledDirection& s = samples[i];

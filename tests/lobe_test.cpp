@@ -10,6 +10,7 @@
 #include <cmath>
 #include <complex>
 #include <gtest/gtest.h>
+#include <map>
 #include <numbers>
 
 namespace quasilux {
@@ -59,12 +60,16 @@ TEST(Lobes, areReciprocal) {
 }
 
 TEST(Lobes, areTheSameWhereTheyAreTheOnlyOneCompiled) {
-    const char* options[] = {"-DHAS_LOBE_LAMBERT", "-DHAS_LOBE_PHONG", "-DHAS_LOBE_GGX", "-DHAS_LOBE_BECKMANN"};
+    const std::map<unsigned, const char*> options = {{LOBE_LAMBERT, "-DHAS_LOBE_LAMBERT"},
+                                                     {LOBE_PHONG, "-DHAS_LOBE_PHONG"},
+                                                     {LOBE_GGX, "-DHAS_LOBE_GGX"},
+                                                     {LOBE_BECKMANN, "-DHAS_LOBE_BECKMANN"},
+                                                     {LOBE_COATEDLAMBERT, "-DHAS_LOBE_COATEDLAMBERT"}};
     const dvec3 wo = outgoing(0.5);
     for (const LobeCase& c : finiteLobes()) {
         const auto wi = directionsOver(c.lobe, wo);
         const auto together = evaluateLobe(c.lobe, std::vector(wi.size(), wo), wi);
-        const auto alone = evaluateLobe(c.lobe, std::vector(wi.size(), wo), wi, options[c.lobe.type]);
+        const auto alone = evaluateLobe(c.lobe, std::vector(wi.size(), wo), wi, options.at(c.lobe.type));
         for (size_t i = 0; i < wi.size(); ++i) {
             ASSERT_NEAR(alone[i].f.y, together[i].f.y, 1e-5 * together[i].f.y) << c.name;
             ASSERT_NEAR(alone[i].pdf, together[i].pdf, 1e-5 * together[i].pdf) << c.name;

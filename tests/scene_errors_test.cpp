@@ -43,7 +43,7 @@ const BadBody badBodies[] = {
      {"scene.xml:4:1: <shape> has the attribute 'type' twice"}},
     {"ShapePlugin",
      "<shape type=\"cub\"/>",
-     {"scene.xml:4:1: unknown shape plugin 'cub'", "Did you mean 'cube'?", "Known: rectangle, cube, sphere, obj, ply"}},
+     {"scene.xml:4:1: unknown shape plugin 'cub'", "Did you mean 'cube'?", "Known: rectangle, cube, disk, cylinder, sphere, obj, ply"}},
     {"BsdfPlugin",
      "<bsdf type=\"difuse\"/>",
      {"scene.xml:4:1: unknown bsdf plugin 'difuse'", "Did you mean 'diffuse'?"}},

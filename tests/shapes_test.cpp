@@ -4,7 +4,10 @@
 #include "support/scene_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <gmock/gmock.h>
+#include <numbers>
 
 namespace quasilux {
 namespace {
@@ -69,6 +72,64 @@ TEST(Cube, FacesLookOutwardsAlsoWhenMirroredAndInwardsWhenFlipped) {
             EXPECT_NEAR(volume, flip ? -16 : 16, 1e-5);
         }
     }
+}
+
+double areaOfMesh(const Mesh& mesh) {
+    double area = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[t.x];
+        area += glm::length(glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a)) / 2;
+    }
+    return area;
+}
+
+// A polygon of the circle's area; texture coordinates are radius and angle, as Mitsuba's.
+TEST(Disk, HasTheAreaOfItsCircleAndLooksAlongZ) {
+    for (const bool flip : {false, true}) {
+        const std::string parameter =
+            std::string("<boolean name=\"flip_normals\" value=\"") + (flip ? "true" : "false") + "\"/>";
+        const Mesh mesh = loadShape(placed("disk", "<scale value=\"2\"/><translate z=\"3\"/>", parameter)).mesh;
+        EXPECT_NEAR(areaOfMesh(mesh), 4 * std::numbers::pi, 1e-4);
+        for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+            expectNear(faceNormal(mesh, t), {0, 0, flip ? -1 : 1});
+            const glm::uvec3 corners = mesh.triangles[t];
+            const unsigned index[] = {corners.x, corners.y, corners.z};
+            for (size_t k = 0; k < 3; ++k) {
+                const glm::vec3 p = mesh.positions[index[k]];
+                const glm::vec2 uv = mesh.cornerUvs[3 * t + k];
+                EXPECT_NEAR(uv.x, std::hypot(p.x, p.y) / 2, 1e-3);
+                if (uv.x == 0) continue;
+                EXPECT_NEAR(std::cos(2 * std::numbers::pi * uv.y), p.x / std::hypot(p.x, p.y), 1e-5);
+                EXPECT_NEAR(std::sin(2 * std::numbers::pi * uv.y), p.y / std::hypot(p.x, p.y), 1e-5);
+            }
+        }
+    }
+}
+
+TEST(Cylinder, NormalsPointAwayFromItsAxis) {
+    const std::string ends =
+        R"(<point name="p0" value="1,0,0"/><point name="p1" value="1,3,0"/><float name="radius" value="0.5"/>)";
+    for (const bool flip : {false, true}) {
+        const std::string parameter =
+            ends + "<boolean name=\"flip_normals\" value=\"" + (flip ? "true" : "false") + "\"/>";
+        const Mesh mesh = loadShape("<shape type=\"cylinder\">" + parameter + "</shape>").mesh;
+        EXPECT_NEAR(areaOfMesh(mesh), 2 * std::numbers::pi * 0.5 * 3, 1e-3);
+        ASSERT_EQ(mesh.cornerNormals.size(), 3 * mesh.triangles.size());
+        for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const glm::uvec3 corners = mesh.triangles[t];
+            const unsigned index[] = {corners.x, corners.y, corners.z};
+            for (size_t k = 0; k < 3; ++k) {
+                const glm::vec3 p = mesh.positions[index[k]], outward = glm::normalize(glm::vec3(p.x - 1, 0, p.z));
+                expectNear(glm::vec3(mesh.cornerNormals[3 * t + k]), flip ? -outward : outward, 1e-5f);
+                EXPECT_NEAR(mesh.cornerUvs[3 * t + k].y, p.y / 3, 1e-6);
+                EXPECT_GT(glm::dot(faceNormal(mesh, t), outward) * (flip ? -1 : 1), 0);
+            }
+        }
+    }
+    SceneFiles files;
+    EXPECT_THAT(test::errorOf(files.write(
+                    "bad.xml", sceneWith(R"(<shape type="cylinder"><point name="p1" value="0,0,0"/></shape>)"))),
+                testing::HasSubstr("bad.xml:4:24: p0 and p1 of the cylinder are the same point"));
 }
 
 TEST(Sphere, CentreAndRadiusUnderSimilarity) {

@@ -89,7 +89,7 @@ std::vector<std::string> singleLobes(const Scene& scene) {
         for (const auto* side : {&bsdf.front, &bsdf.back})
             for (const auto& lobe : *side) {
                 const std::string name = bsdf.id + '.' + lobe.name;
-                if (lobe.device.scattering == SCATTER_SPECULAR || lobe.device.type == LOBE_LAMBERT) continue;
+                if (lobe.device.scattering == SCATTER_SPECULAR || LOBE_IS_BROAD(lobe.device.type)) continue;
                 if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
             }
     if (names.size() < 2 || names.size() > mostSingleLobes) names.clear();

@@ -14,7 +14,7 @@ namespace {
 constexpr double degrees = 57.29577951308232;
 
 bool hasSpecialLobe(const Bsdf& bsdf) {
-    const auto special = [](const LobeDescription& lobe) { return lobe.device.type != LOBE_LAMBERT; };
+    const auto special = [](const LobeDescription& lobe) { return !LOBE_IS_BROAD(lobe.device.type); };
     return std::any_of(bsdf.front.begin(), bsdf.front.end(), special) ||
            std::any_of(bsdf.back.begin(), bsdf.back.end(), special);
 }
@@ -22,7 +22,7 @@ bool hasSpecialLobe(const Bsdf& bsdf) {
 bool isListed(const std::vector<std::string>& list, const Bsdf& bsdf, const LobeDescription& lobe) {
     const bool wholeBsdf = std::find(list.begin(), list.end(), bsdf.id) != list.end();
     const bool thisLobe = std::find(list.begin(), list.end(), bsdf.id + '.' + lobe.name) != list.end();
-    return thisLobe || (wholeBsdf && (lobe.device.type != LOBE_LAMBERT || !hasSpecialLobe(bsdf)));
+    return thisLobe || (wholeBsdf && (!LOBE_IS_BROAD(lobe.device.type) || !hasSpecialLobe(bsdf)));
 }
 
 LobeDecision byWidth(const LobeDescription& lobe) {

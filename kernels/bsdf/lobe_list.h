@@ -13,10 +13,14 @@
     X(DIELECTRIC, argument)                                                                                            \
     X(THINDIELECTRIC, argument)                                                                                        \
     X(GGXDIELECTRIC, argument)                                                                                         \
-    X(BECKMANNDIELECTRIC, argument)
+    X(BECKMANNDIELECTRIC, argument)                                                                                    \
+    X(COATEDLAMBERT, argument)
 
 #define LOBE_ENUMERATOR(ID, argument) LOBE_##ID,
 enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
+
+/* Lobes as broad as Lambert's, f being bounded by 1 / pi times a constant. */
+#define LOBE_IS_BROAD(type) ((type) == LOBE_LAMBERT || (type) == LOBE_COATEDLAMBERT)
 
 /* Lobes that transmit without being delta: light from both sides of a surface counts (LOBE_TRANSMITS). */
 #if defined(HAS_LOBE_GGXDIELECTRIC) || defined(HAS_LOBE_BECKMANNDIELECTRIC)

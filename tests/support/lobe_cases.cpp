@@ -42,7 +42,9 @@ shared::Lobe makeLobe(unsigned type) {
 }
 
 std::vector<LobeCase> finiteLobes() {
-    std::vector<LobeCase> cases{{"lambert", makeLobe(LOBE_LAMBERT)}};
+    std::vector<LobeCase> cases{{"lambert", makeLobe(LOBE_LAMBERT)}, {"coated lambert", makeLobe(LOBE_COATEDLAMBERT)}};
+    cases.back().lobe.eta.r = 1.5f;
+    cases.back().lobe.exponent = 0.908f; // what a coat of this index lets in of diffuse light
     for (float exponent : {0.0f, 1.0f, 30.0f, 1000.0f, 1e5f}) {
         cases.push_back({fmt::format("phong {}", exponent), makeLobe(LOBE_PHONG)});
         cases.back().lobe.exponent = exponent;

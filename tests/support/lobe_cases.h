@@ -12,14 +12,15 @@ namespace quasilux {
 /// Compiles every lobe.
 inline const std::string allLobes = "-DHAS_LOBE_LAMBERT -DHAS_LOBE_PHONG -DHAS_LOBE_GGX -DHAS_LOBE_BECKMANN "
                                     "-DHAS_LOBE_CONDUCTOR -DHAS_LOBE_DIELECTRIC -DHAS_LOBE_THINDIELECTRIC "
-                                    "-DHAS_LOBE_GGXDIELECTRIC -DHAS_LOBE_BECKMANNDIELECTRIC";
+                                    "-DHAS_LOBE_GGXDIELECTRIC -DHAS_LOBE_BECKMANNDIELECTRIC "
+                                    "-DHAS_LOBE_COATEDLAMBERT";
 
 struct LobeCase {
     std::string name;
     shared::Lobe lobe;
 };
 
-/// Lambert, Phong, GGX and Beckmann from broad to narrow, with reflectance 1 and Fresnel factor 1.
+/// Lambert, the same under a coat, Phong, GGX and Beckmann from broad to narrow, with reflectance 1 and Fresnel factor 1.
 std::vector<LobeCase> finiteLobes();
 
 /// A lobe of this type with reflectance and transmittance 1 and Fresnel factor 1.

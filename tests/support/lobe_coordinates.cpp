@@ -47,6 +47,14 @@ double smithBeckmann(double scaledTan) {
     return a >= 1.6 ? 1 : (3.535 * a + 2.181 * a * a) / (1 + 2.276 * a + 2.577 * a * a);
 }
 
+// Kept by a coat of this index: the amplitudes of Fresnel's equations.
+double transmittedByCoat(double cosine, double eta) {
+    const double cosT = std::sqrt(1 - (1 - cosine * cosine) / (eta * eta));
+    const double rs = (cosine - eta * cosT) / (cosine + eta * cosT);
+    const double rp = (eta * cosine - cosT) / (eta * cosine + cosT);
+    return 1 - (rs * rs + rp * rp) / 2;
+}
+
 bool isGgx(const shared::Lobe& lobe) { return lobe.type == LOBE_GGX || lobe.type == LOBE_GGXDIELECTRIC; }
 
 double microfacetFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
@@ -68,7 +76,7 @@ double microfacetShadowing(const shared::Lobe& lobe, dvec3 v) {
 }
 
 LobeDirection lobeDirection(const shared::Lobe& lobe, dvec3 wo, double s, double phi) {
-    if (lobe.type == LOBE_LAMBERT) return {polar(1 - s, phi), 1};
+    if (LOBE_IS_BROAD(lobe.type)) return {polar(1 - s, phi), 1};
     if (lobe.type == LOBE_PHONG) {
         const double m = 1 / (double(lobe.exponent) + 1);
         const double oneMinusCos = -std::expm1(m * std::log1p(-s));
@@ -78,7 +86,7 @@ LobeDirection lobeDirection(const shared::Lobe& lobe, dvec3 wo, double s, double
 }
 
 LobeCoordinates lobeCoordinates(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
-    if (lobe.type == LOBE_LAMBERT) return {wi.z, positiveAngle(wi.y, wi.x)};
+    if (LOBE_IS_BROAD(lobe.type)) return {wi.z, positiveAngle(wi.y, wi.x)};
     if (lobe.type == LOBE_PHONG) {
         const dvec3 offset = wi - mirror(wo);
         const dvec3 v = glm::transpose(basis(mirror(wo))) * wi;
@@ -94,6 +102,8 @@ LobeCoordinates lobeCoordinates(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
 double lobeFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
     if (wi.z <= 0) return 0;
     if (lobe.type == LOBE_LAMBERT) return 1 / pi;
+    if (lobe.type == LOBE_COATEDLAMBERT)
+        return transmittedByCoat(wo.z, lobe.eta.r) * transmittedByCoat(wi.z, lobe.eta.r) / pi;
     if (lobe.type == LOBE_PHONG) {
         const dvec3 offset = wi - mirror(wo);
         const double oneMinusCos = 0.5 * glm::dot(offset, offset);

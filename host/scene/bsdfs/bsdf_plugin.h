@@ -29,6 +29,7 @@ int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
     X(roughconductor, readRoughConductor)                                                                              \
     X(dielectric, readDielectric)                                                                                      \
     X(thindielectric, readThinDielectric)                                                                              \
+    X(plastic, readPlastic)                                                                                            \
     X(roughdielectric, readRoughDielectric)                                                                            \
     X(blendbsdf, readBlend)                                                                                            \
     X(twosided, readTwoSided)                                                                                          \

@@ -2,6 +2,7 @@
 #include "scene/shapes/mesh_builder.h"
 
 #include <cmath>
+#include <numbers>
 #include <unordered_map>
 
 namespace quasilux {
@@ -97,6 +98,11 @@ bool everyCornerHasUv(const MeshSource& source) {
 }
 
 } // namespace
+
+double roundRadius(unsigned sectors) {
+    const double angle = 2 * std::numbers::pi / sectors;
+    return std::sqrt(angle / std::sin(angle));
+}
 
 Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
               const std::vector<glm::vec2>& uvs, const glm::dmat4& toWorld, bool flipNormals,

@@ -8,6 +8,10 @@
 
 namespace quasilux {
 
+/// Sectors that round shapes of radius 1 are cut into, and the radius of their corners: the polygon has the circle's area.
+inline constexpr unsigned roundSectors = 256;
+double roundRadius(unsigned sectors);
+
 /// A mesh in its own space.
 struct MeshSource {
     struct Corner {

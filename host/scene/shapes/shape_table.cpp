@@ -19,7 +19,8 @@ struct ShapePlugin {
 };
 
 constexpr ShapePlugin shapePlugins[] = {
-    {"rectangle", readRectangle}, {"cube", readCube}, {"sphere", readSphere}, {"obj", readObj}, {"ply", readPly},
+    {"rectangle", readRectangle}, {"cube", readCube}, {"disk", readDisk}, {"cylinder", readCylinder},
+    {"sphere", readSphere},       {"obj", readObj},   {"ply", readPly},
 };
 
 } // namespace

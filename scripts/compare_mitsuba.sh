@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# The small scenes of tests/scenes/compare/ by quasilux and by Mitsuba 3: compare_mitsuba.sh [SCENE...]. Mitsuba comes from PyPI, below build/.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+source scripts/mitsuba.sh
+"$folder/bin/python3" scripts/compare_mitsuba.py "$@"
