@@ -2,6 +2,7 @@
 // Also the names that options take.
 #include "support/program_runner.h"
 
+#include "cli/option_checks.h"
 #include "cli/options.h"
 #include "util/nearest.h"
 
@@ -77,6 +78,22 @@ TEST_F(CommandLineTest, TopLevelHelpAndVersion) {
     const Outcome version = run({"--version"});
     EXPECT_EQ(version.exitCode, 0);
     EXPECT_EQ(version.output, "quasilux " QUASILUX_VERSION "\n");
+}
+
+// CLI11 takes 010 for octal, and 08 for no number.
+TEST(WholeNumbers, AreDecimalAlsoWithLeadingZeros) {
+    const auto parsed = [](const std::string& text, bool checks) {
+        CLI::App app;
+        uint64_t value = 0;
+        CLI::Option* option = app.add_option("-n", value);
+        if (checks) option->transform(wholeNumber(0, 100));
+        app.parse("-n " + text);
+        return value;
+    };
+    EXPECT_EQ(parsed("010", true), 10u);
+    EXPECT_EQ(parsed("08", true), 8u);
+    EXPECT_THROW(parsed("0101", true), CLI::ValidationError);
+    EXPECT_EQ(parsed("010", false), 8u) << "control: what it does by itself";
 }
 
 TEST_F(CommandLineTest, DevicesAreListedAsTableAndJson) {

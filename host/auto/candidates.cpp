@@ -195,6 +195,7 @@ std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSet
     const auto numbers = numbersBeside(start, photons, freedom);
     candidates.insert(candidates.end(), numbers.begin(), numbers.end());
     std::vector<std::string> texts;
+    texts.reserve(candidates.size());
     for (const auto& next : candidates)
         texts.push_back(text(next, next.photonsPerPass > 0 ? next.photonsPerPass : photons));
     return texts;

@@ -23,7 +23,7 @@ void declareParts(CLI::App& command, BenchOptions& options) {
         .add_option("--growth-steps", options.growthSteps,
                     "Sizes measured of each, from the least one on, a count (default: all)")
         ->type_name("N")
-        ->check(wholeNumber(1, 100))
+        ->transform(wholeNumber(1, 100))
         ->group(group);
     command
         .add_flag("--compare-devices", options.compareDevices,
@@ -60,7 +60,7 @@ void declareBench(CLI::App& app, BenchOptions& options) {
                     "GPU, else the first device)")
         ->type_name("N")
         ->allow_extra_args(false)
-        ->check(wholeNumber(0, 1000));
+        ->transform(wholeNumber(0, 1000));
     command.add_option("--time", options.seconds, "Time of each render, in seconds (default: 10)")
         ->type_name("SECONDS")
         ->check(numberAbove(0, 1e9));

@@ -60,7 +60,7 @@ void declareThresholds(CLI::App& command, CompareOptions& options) {
         .add_option("--max-nonfinite", options.maximumNonFinite,
                     "Pixels that are not finite, a count; up to so many are left out of all measures (default: 0)")
         ->type_name("N")
-        ->check(wholeNumber(0, maximumPixels))
+        ->transform(wholeNumber(0, maximumPixels))
         ->group(group);
 }
 
@@ -93,7 +93,7 @@ void declareCompare(CLI::App& app, CompareOptions& options) {
         ->type_name("FILE");
     command.add_option("--worst", options.worstPixels, "Pixels listed as the worst, a count (default: 5)")
         ->type_name("N")
-        ->check(wholeNumber(0, 10000));
+        ->transform(wholeNumber(0, 10000));
     command.add_flag("--json", options.json, "The result on stdout as one JSON object (default: off, text)");
     command.add_flag("--quiet", options.quiet,
                      "No warnings and no text; errors, --json and the exit code remain (default: off)");

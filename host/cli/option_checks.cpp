@@ -46,9 +46,12 @@ std::string levelError(const std::string& text) {
 
 CLI::Validator wholeNumber(uint64_t from, uint64_t to) {
     return CLI::Validator(
-        [=](const std::string& text) {
+        [=](std::string& text) {
             const auto value = parseAll<uint64_t>(text);
-            if (value && *value >= from && *value <= to) return std::string();
+            if (value && *value >= from && *value <= to) {
+                text = std::to_string(*value);
+                return std::string();
+            }
             return fmt::format("'{}' given, expected a whole number from {} to {}", text, from, to);
         },
         "");

@@ -9,6 +9,7 @@
 
 namespace quasilux {
 
+/// For Option::transform: it takes leading zeros away, with which CLI11 would read an octal number.
 CLI::Validator wholeNumber(uint64_t from, uint64_t to);
 /// `above` itself is refused.
 CLI::Validator numberAbove(double above, double to);

@@ -18,7 +18,7 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
                     "Backward diffuse depth: genuine diffuse scatterings that a camera path follows before it takes "
                     "its light from the photon map, a count (default: the scene's, else 0)")
         ->type_name("N")
-        ->check(wholeNumber(0, 1000))
+        ->transform(wholeNumber(0, 1000))
         ->group(group);
     command
         .add_option("--variant", options.variant,
@@ -61,13 +61,13 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         .add_option("--photons", options.photons,
                     "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)")
         ->type_name("N")
-        ->check(wholeNumber(1, maximumCount))
+        ->transform(wholeNumber(1, maximumCount))
         ->group(group);
     command
         .add_option("--seed", options.seed,
                     "Seed of the random numbers, a whole number below 2^64 (default: the scene's, else 1)")
         ->type_name("N")
-        ->check(wholeNumber(0, UINT64_MAX))
+        ->transform(wholeNumber(0, UINT64_MAX))
         ->group(group);
     command
         .add_option(
@@ -104,19 +104,19 @@ void declareDevice(CLI::App& command, SceneOptions& options) {
         .add_option("--device", options.device,
                     "Device number, as `quasilux devices` lists them (default: the first GPU, else the first device)")
         ->type_name("N")
-        ->check(wholeNumber(0, 1000))
+        ->transform(wholeNumber(0, 1000))
         ->group(group);
     command
         .add_option("--work-group-size", options.workGroupSize, "Work-items in each work-group, a count (default: 64)")
         ->type_name("N")
-        ->check(wholeNumber(1, 4096))
+        ->transform(wholeNumber(1, 4096))
         ->group(group);
     command
         .add_option("--device-memory", options.deviceMemory,
                     "Bytes of device memory that the render may take; one that needs more ends before it starts "
                     "(default: what the device has)")
         ->type_name("BYTES")
-        ->check(wholeNumber(1, UINT64_MAX))
+        ->transform(wholeNumber(1, UINT64_MAX))
         ->group(group);
     command
         .add_option("--kernels", options.kernels,
@@ -183,7 +183,7 @@ void declareStop(CLI::App& command, StopRule& stop) {
         ->group(group);
     command.add_option("--passes", stop.passes, "Passes to render, a count (default: no limit)")
         ->type_name("N")
-        ->check(wholeNumber(1, maximumCount))
+        ->transform(wholeNumber(1, maximumCount))
         ->group(group);
     command
         .add_option("--error", stop.relativeError,
