@@ -10,18 +10,13 @@ import sys
 import mitsuba
 import numpy as np
 
-from relmse import read_channels
+from relmse import by_block, read_channels
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENES = ROOT / "tests" / "scenes" / "compare"
 PROGRAM = ROOT / "build" / "release" / "quasilux"
 OUT = ROOT / "out" / "compare"
 BLOCK, SAMPLES, SEEDS, SECONDS = 10, 512, 8, 3
-
-
-def by_block(pixels):
-    height, width = (size - size % BLOCK for size in pixels.shape[:2])
-    return pixels[:height, :width].reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, -1).mean(axis=(1, 3, 4))
 
 
 def render_quasilux(scene, seed):
@@ -42,7 +37,7 @@ def compare(path):
     theirs = [np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=seed), np.float64)[..., :3] for seed in range(SEEDS)]
     ours = [render_quasilux(path, seed) for seed in range(1, SEEDS // 2 + 1)]
     rows = []
-    for measure in (np.mean, by_block):
+    for measure in (np.mean, lambda image: by_block(image, BLOCK).mean(axis=2)):
         (a, error_a), (b, error_b) = (mean_and_error([measure(image) for image in images]) for images in (ours, theirs))
         rows.append((np.atleast_1d(a / b - 1).ravel(), np.atleast_1d(np.hypot(error_a, error_b) / b).ravel()))
     (mean,), (mean_error,) = rows[0]

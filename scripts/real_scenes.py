@@ -18,7 +18,7 @@ import mitsuba
 import numpy as np
 
 from figures import tone_map
-from relmse import mean_about, read_channels, relmse_weight
+from relmse import by_block, mean_about, read_channels, relmse_weight
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -33,11 +33,6 @@ BLOCK = 16
 SAMPLES = 32  # per pixel in one call of Mitsuba
 
 
-def by_block(pixels):
-    height, width = (size - size % BLOCK for size in pixels.shape[:2])
-    return pixels[:height, :width].reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, -1).mean(axis=(1, 3))
-
-
 class Reference:
     def __init__(self, name):
         self.pixels = read_channels(SCENES / f"{name}_reference.exr", ["R", "G", "B"])
@@ -47,9 +42,9 @@ class Reference:
     def errors(self, a, b):
         """Noise of one image and bias, as shares of relMSE; the relative difference of the mean."""
         noise = ((a - b) ** 2 / 2 * self.weight).mean()
-        difference = by_block((a + b) / 2) - by_block(self.pixels)
-        known = (by_block(self.stderr**2) + by_block((a - b) ** 2 / 4)) / BLOCK**2
-        bias = ((difference**2 - known) * by_block(self.weight)).mean()
+        difference = by_block((a + b) / 2, BLOCK) - by_block(self.pixels, BLOCK)
+        known = (by_block(self.stderr**2, BLOCK) + by_block((a - b) ** 2 / 4, BLOCK)) / BLOCK**2
+        bias = ((difference**2 - known) * by_block(self.weight, BLOCK)).mean()
         return noise, max(bias, 0), ((a + b) / 2).mean() / self.pixels.mean() - 1
 
 

@@ -54,6 +54,12 @@ def read_channels(path, names):
     return pixels[..., [spec.channelnames.index(name) for name in names]]
 
 
+def by_block(pixels, side):
+    """Means over whole blocks of side x side pixels, by channel."""
+    height, width = (size - size % side for size in pixels.shape[:2])
+    return pixels[:height, :width].reshape(height // side, side, width // side, side, -1).mean(axis=(1, 3))
+
+
 def read_regions():
     """Number of the region of each pixel."""
     file = oiio.ImageInput.open(str(REFERENCES / "regions.png"))

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace quasilux {
@@ -29,12 +28,6 @@ double extent(const Opening& opening, const glm::dvec3& from) {
     return 4 * opening.halfU * opening.halfV / (4 * std::numbers::pi * std::max(glm::dot(offset, offset), 1e-12));
 }
 
-double distanceFrom(const UsefulRay& ray, const glm::dvec3& place) {
-    const glm::dvec3 offset = place - ray.position;
-    const double along = glm::dot(offset, ray.direction);
-    return along > 0 ? glm::length(offset - along * ray.direction) : std::numeric_limits<double>::infinity();
-}
-
 // By which the rays' log likelihood grows where every second one of those that come this way is aimed.
 double gainOf(const AimSet& set, const std::vector<UsefulRay>& rays) {
     double gain = 0;
@@ -51,7 +44,8 @@ AimSet nestedSquares(const Opening& opening, const std::vector<UsefulRay>& rays)
     std::vector<double> half, weight(static_cast<size_t>(count)), density(static_cast<size_t>(count) + 1);
     for (int k = 0; k < count; ++k) half.push_back(std::ldexp(opening.halfU, k - innerSquares));
     for (const auto& ray : rays) {
-        const double away = distanceFrom(ray, opening.centre);
+        if (glm::dot(opening.centre - ray.position, ray.direction) <= 0) continue; // it lies behind
+        const double away = distance(ray, opening.centre);
         const auto ring = std::lower_bound(half.begin(), half.end(), away) - half.begin();
         if (ring < count) weight[static_cast<size_t>(ring)] += ray.weight;
     }
@@ -80,7 +74,7 @@ AimSet nestedSquares(const Opening& opening, const std::vector<UsefulRay>& rays)
 }
 
 AimSet setAbout(const Opening& opening, const std::vector<UsefulRay>& rays) {
-    return opening.faces ? nestedSquares(opening, rays) : AimSet{{opening}, {1}, 0.9};
+    return opening.faces ? nestedSquares(opening, rays) : AimSet{{opening}, {1}};
 }
 
 } // namespace

@@ -26,9 +26,6 @@ constexpr int turns = 16;            // of axes in a quarter
 constexpr int normals = 48;          // tried on a hemisphere, beside the world's axes
 
 glm::dvec3 across(const UsefulRay& ray, const glm::dvec3& v) { return v - glm::dot(ray.direction, v) * ray.direction; }
-double distance(const UsefulRay& ray, const glm::dvec3& place) {
-    return glm::length(across(ray, place - ray.position));
-}
 
 double weightOf(const std::vector<UsefulRay>& rays) {
     double sum = 0;
@@ -233,6 +230,10 @@ Opening fitOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre)
 }
 
 } // namespace
+
+double distance(const UsefulRay& ray, const glm::dvec3& place) {
+    return glm::length(across(ray, place - ray.position));
+}
 
 bool Opening::holds(const UsefulRay& ray) const {
     if (faces) return distance(ray, centre) <= halfU && glm::dot(centre - ray.position, ray.direction) > 0;

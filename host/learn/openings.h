@@ -15,6 +15,9 @@ struct UsefulRay {
         false; ///< begins at `position`, where its light is scattered into all directions; or else comes from outside
 };
 
+/// Of a place from the line that the ray lies on.
+double distance(const UsefulRay& ray, const glm::dvec3& place);
+
 /// A rectangle, or a square that faces every place where rays begin.
 struct Opening {
     glm::dvec3 centre{}, axisU{1, 0, 0}, axisV{0, 1, 0}; ///< axes orthonormal

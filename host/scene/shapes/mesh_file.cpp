@@ -1,6 +1,5 @@
 // Parameters of shapes that come from files.
 #include "scene/shapes/shape_plugin.h"
-#include "scene/xml/xml_document.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // <texture type="bitmap">: an image; its first row, the upper one, begins at v = 0.
 #include "scene/textures/texture_plugin.h"
-#include "scene/xml/xml_document.h"
 
 #include <fmt/format.h>
 
