@@ -2,12 +2,12 @@
  * From: the pilot's film. To: radii of the passes to come.
  *
  * The bias of a pixel at radius r is c r^2, its variance v / r^2 a pass. Both are known from the estimate of bias
- * (docs/accuracy.md): its mean is c r^2, and its variance BIAS_VARIANCE times that of the density estimate. The mean
- * square error of many passes is least where r^6 = v / (2 c^2) * noiseToCurvature (docs/density.md). */
+ * (docs/method/accuracy.md): its mean is c r^2, and its variance BIAS_VARIANCE times that of the density estimate. The mean
+ * square error of many passes is least where r^6 = v / (2 c^2) * noiseToCurvature (docs/method/density.md). */
 #include "adaptive_radius.clh"
 #include "film.clh"
 
-/* Variance of the estimated bias, in units of that of the estimate itself (docs/accuracy.md). */
+/* Variance of the estimated bias, in units of that of the estimate itself (docs/method/accuracy.md). */
 #define BIAS_VARIANCE 1.6f
 /* Blocks on all sides that are averaged with one: a single one knows little but noise. */
 #define RADIUS_WINDOW 2

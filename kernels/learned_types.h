@@ -1,4 +1,4 @@
-/* What is learned about a scene before pass 0 (docs/learning.md), shared by host and device like shared_types.h. All tables lie
+/* What is learned about a scene before pass 0 (docs/method/learning.md), shared by host and device like shared_types.h. All tables lie
  * behind the scene's own in one buffer; offsets are in words. */
 #ifndef QUASILUX_LEARNED_TYPES_H
 #define QUASILUX_LEARNED_TYPES_H

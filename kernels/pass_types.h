@@ -89,7 +89,7 @@ typedef struct {
     SceneTables scene;
 } PhotonParams;
 
-/* Compiler option, 1: camera paths estimate the bias of what they take from photons too (docs/accuracy.md). */
+/* Compiler option, 1: camera paths estimate the bias of what they take from photons too (docs/method/accuracy.md). */
 #ifndef ESTIMATE_BIAS
 #define ESTIMATE_BIAS 0
 #endif
@@ -151,7 +151,7 @@ typedef struct {
     float largest;          /* radius, in units of MapParams::radius */
 } RadiusParams;
 
-/* ---- camera map: points of camera paths are stored and photons splatted to them (docs/architecture.md) ---- */
+/* ---- camera map: points of camera paths are stored and photons splatted to them (docs/method/architecture.md) ---- */
 
 /* A place where light of one class is taken by density estimation, by all Lambert lobes together, by one other lobe, or
  * by a medium. */

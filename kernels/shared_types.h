@@ -66,7 +66,7 @@ typedef struct {
 } Shape;
 
 /* A straight piece of a border of a surface patch: free edge, crease, or curve where another surface cuts it.
- * The density estimate does not look across it (docs/density.md). */
+ * The density estimate does not look across it (docs/method/density.md). */
 typedef struct {
     Packed3 a, b;
     unsigned int patchA, patchB; /* the patches that it bounds; QL_NONE where there is only one */

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Do renders tell their own error truly? Draws docs/figures/calibration.png and prints the table of docs/accuracy.md.
+"""Do renders tell their own error truly? Draws docs/figures/calibration.png and prints the table of docs/method/accuracy.md.
 
     scripts/calibration.py [--scenes box plate] [--program PROGRAM]
 
 Each scene is rendered from several seeds for each number of passes. Predicted: the figures that each render writes into
 its statistics, averaged over the seeds as root mean squares. True: noise from the scatter between the seeds; bias from
-the difference between their mean and the reference, net of the noise of both. All relative, with the program's weights (docs/accuracy.md).
+the difference between their mean and the reference, net of the noise of both. All relative, with the program's weights (docs/method/accuracy.md).
 The box is rendered at 64 x 64 pixels, the plate, whose reference is too noisy to tell its bias in single pixels, at
 160 x 120. What is in out/calibration already is not rendered again. Needs Debian's python3-numpy, python3-openimageio and
 python3-matplotlib.

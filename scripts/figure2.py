@@ -115,7 +115,7 @@ def table(runs, points, seconds, load):
     first = next(iter(runs.values())).statistics
     return (
         f"Turbid plate on checkered paper ({first['scene']}), {measured_on(first, seconds, load)}.\n\n"
-        "relMSE of the plate, net of the reference's noise ([how](../accuracy.md#against-a-noisy-reference); that noise leaves it\n"
+        "relMSE of the plate, net of the reference's noise ([how](../method/accuracy.md#against-a-noisy-reference); that noise leaves it\n"
         "uncertain by 7e-5); difference of its mean luminance from the reference.\n"
         f"A photon takes {PHOTON_BYTES} bytes in the index." + (" Camera points: in media and on surfaces." if points else "") + "\n\n"
         + "\n".join("| " + " | ".join(line) + " |" for line in lines)
@@ -142,7 +142,7 @@ def main():
         runs[method] = run(renders, reference, method, options.seconds)
     draw_pictures(runs, reference, options.seconds)
     text = table(runs, points, options.seconds, load)
-    (FIGURES / "figure2.md").write_text(text)
+    (FIGURES.parent / "notes" / "figure2.md").write_text(text)
     print(text)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Compares ways to split a turbid plate's phase function at equal time: figure2.sh [SECONDS, default 60].
-# Writes docs/figures/figure2.png and the table docs/figures/figure2.md, and prints the table.
+# Writes docs/figures/figure2.png and the table docs/notes/figure2.md, and prints the table.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

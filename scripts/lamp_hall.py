@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes a scene of many lamps to stdout: a hall of N x N m, 4 m high, with a lamp for each square metre of the ceiling; with
---rooms walls divide it into rooms of 10 x 10 m. The camera stands in one corner. Figures: docs/learning.md.
+--rooms walls divide it into rooms of 10 x 10 m. The camera stands in one corner. Figures: docs/method/learning.md.
 
 usage: lamp_hall.py N [--rooms]"""
 import argparse

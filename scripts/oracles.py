@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Meters against closed forms by every method: makes docs/accuracy/oracles.md.
+"""Meters against closed forms by every method: makes docs/notes/oracles.md.
 
 Usage: scripts/oracles.py [--effort X] [--only TEXT] [--output FILE]
 Needs the program build/release/quasilux. Every oracle runs by every method; no row is left out, and deviations of more
@@ -230,7 +230,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--effort", type=float, default=1, help="factor on the number of passes")
     parser.add_argument("--only", default="", help="oracles whose name holds this")
-    parser.add_argument("--output", default=str(ROOT / "docs/accuracy/oracles.md"))
+    parser.add_argument("--output", default=str(ROOT / "docs/notes/oracles.md"))
     arguments = parser.parse_args()
     sections, summary, every = "", "", []
     with tempfile.TemporaryDirectory() as name:

@@ -6,7 +6,7 @@
 relMSE is the mean over pixels and channels of (I - R)^2 / (R^2 + 0.01 mean(R)^2), on linear RGB; no pixel is dropped.
 The reference is noisy too and its noise adds to the relMSE of any image, so it is subtracted ("net"). Of the plate, whose
 reference has 9 % of noise a pixel, "net" is divided by the mean R of the eight neighbours: R itself in the denominator
-would add 6 times the square of the reference's own relMSE (docs/accuracy.md). "mean" is the signed relative difference of
+would add 6 times the square of the reference's own relMSE (docs/method/accuracy.md). "mean" is the signed relative difference of
 the region's mean luminance: what is left of it when noise is averaged away is bias.
 The scripts that draw figures import this; `quasilux compare` measures the same of any two images, with standard errors.
 Needs Debian's python3-numpy and python3-openimageio.

@@ -1,4 +1,4 @@
-// The choice of settings by pilot passes (docs/auto.md): prediction, and the image of the choice. The search: search_test.cpp.
+// The choice of settings by pilot passes (docs/method/auto.md): prediction, and the image of the choice. The search: search_test.cpp.
 #include "auto/auto_render.h"
 #include "support/even_pilot.h"
 #include "support/render_statistics.h"
@@ -109,7 +109,7 @@ TEST(Prediction, BiasesCountApartAsFarAsNoiseDoesNotExplainIt) {
 }
 
 // From 8 passes of a render what 64 tell: within 30 % of the square, 15 % of the error, since 8 passes know no better;
-// the seed is fixed. One radius for all: radii by pixel, chosen in these passes, lower the noise later (docs/auto.md). Negative control: were noise not divided by passes, it would be 8 times too much.
+// the seed is fixed. One radius for all: radii by pixel, chosen in these passes, lower the noise later (docs/method/auto.md). Negative control: were noise not divided by passes, it would be 8 times too much.
 TEST(Prediction, HoldsInARender) {
     Device device(0);
     RenderSettings settings;

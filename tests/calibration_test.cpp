@@ -3,7 +3,7 @@
 // the reference of cornell_test, net of the noise of both. Figures are averaged over the seeds as root mean squares.
 //
 // Where an edge crosses a pixel, the even spread of its samples over the passes makes the image surer than the passes tell
-// (docs/accuracy.md). In the whole image the ratio of predicted to true noise is up to 1.17 for that, its 95th percentile up to
+// (docs/method/accuracy.md). In the whole image the ratio of predicted to true noise is up to 1.17 for that, its 95th percentile up to
 // 1.25, which leaves no room for scatter: percentiles and the diffuse component are held against the truth in the pixels
 // that lie within one surface. Direct light, noisy next to nowhere but at edges, is only held never to be told too low.
 //

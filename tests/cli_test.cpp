@@ -48,7 +48,7 @@ TEST_F(CommandLineTest, HelpStatesEveryOptionWithUnitAndDefault) {
           "--json"}},
         {"devices", {"--json"}},
         {"info", {"--json", "--bdd", "--device", "-D"}}};
-    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/command-line.md");
+    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/reference/command-line.md");
     Options options;
     CLI::App app;
     declareOptions(app, options);

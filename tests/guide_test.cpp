@@ -1,4 +1,4 @@
-// Guided emission (docs/learning.md): the tree of numbers, openings found from rays, and that means do not depend on any of it.
+// Guided emission (docs/method/learning.md): the tree of numbers, openings found from rays, and that means do not depend on any of it.
 //
 // False alarms: flux and radiance are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case); the seeds are fixed.
 #include "learn/aims.h"

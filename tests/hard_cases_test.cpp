@@ -281,7 +281,7 @@ TEST(BadGeometry, DuplicatedTrianglesDoNotShow) {
 }
 
 // Two sheets of the same kind in one place, corner on corner, look like one. (Sheets that overlap in part do not, and are
-// warned of: docs/density.md, borders_test.)
+// warned of: docs/method/density.md, borders_test.)
 TEST(BadGeometry, DuplicatedSheetsDoNotShow) {
     const char* twin = R"(<shape type="rectangle"><transform name="to_world"></transform><ref id="paper"/></shape>)";
     EXPECT_LE(difference(floorImage(plainFloor, twin), floorImage(plainFloor)), bound);

@@ -1,4 +1,4 @@
-// Many emitters (docs/learning.md, "Direct light"): the tree holds them, its choices have the probabilities that it says, and images
+// Many emitters (docs/method/learning.md, "Direct light"): the tree holds them, its choices have the probabilities that it says, and images
 // keep their means.
 //
 // False alarms: 1e-4 for the chi-squared tests together; the furnace is held to 4 standard errors of 10 batches (Student t: 0.3 %).

@@ -38,7 +38,7 @@ struct Bytes {
     double device = 0, host = 0;
 };
 
-// Without learning, whose buffers are freed before the first pass and are not in the forecast (docs/memory.md).
+// Without learning, whose buffers are freed before the first pass and are not in the forecast (docs/method/memory.md).
 class MemoryTest : public CommandLineTest {
 protected:
     Outcome run(Arguments arguments) const {

@@ -70,7 +70,7 @@ TEST(MicroBench, TraversalFindsWhatEmbreeFinds) {
     for (const MicroRow& row : report.rows) {
         SCOPED_TRACE(row.name);
         EXPECT_GT(row.compared, 4000u);
-        // Rays within rounding of an edge may differ (docs/traversal.md); the exact check is traversal_test's.
+        // Rays within rounding of an edge may differ (docs/method/traversal.md); the exact check is traversal_test's.
         const bool packets = row.name.find("packets") != std::string::npos; // compared with our single rays
         EXPECT_LE(row.differing, packets ? 0u : 8u);
         EXPECT_EQ(row.ratios.size(), 3u);

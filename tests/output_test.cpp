@@ -141,7 +141,7 @@ TEST_F(OutputTest, ExrHeaderHoldsAllSettings) {
     for (const auto& [key, value] : numbers) EXPECT_EQ(spec.get_float_attribute("quasilux:" + key, -1), value) << key;
     EXPECT_EQ(spec.get_string_attribute("Software"), "quasilux " QUASILUX_VERSION);
 
-    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/command-line.md");
+    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/reference/command-line.md");
     for (const auto& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
         if (name.starts_with("quasilux:") && name.find('.') == std::string::npos) { // components have the same keys
@@ -306,7 +306,7 @@ TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
                                             "/phases/render",
                                             "/phases/write",
                                             "/peakBufferBytes"};
-    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/command-line.md");
+    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/reference/command-line.md");
     for (const auto& pointer : pointers) {
         EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(pointer))) << pointer;
         EXPECT_THAT(documentation, HasSubstr("`" + pointer.substr(pointer.rfind('/') + 1) + "`"));

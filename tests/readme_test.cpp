@@ -28,7 +28,7 @@ std::string readText(const fs::path& file) {
 
 std::vector<fs::path> documents() {
     std::vector<fs::path> list{root / "README.md"};
-    for (const auto& entry : fs::directory_iterator(root / "docs"))
+    for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
         if (entry.path().extension() == ".md") list.push_back(entry.path());
     return list;
 }

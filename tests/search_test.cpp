@@ -1,4 +1,4 @@
-// The search among settings (docs/auto.md) on pilots made up here, whose errors and costs are known, by a clock that only their
+// The search among settings (docs/method/auto.md) on pilots made up here, whose errors and costs are known, by a clock that only their
 // passes move. Nothing is left to chance.
 #include "auto/search.h"
 #include "render/method.h"

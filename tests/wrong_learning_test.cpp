@@ -1,4 +1,4 @@
-// Whatever was learned before pass 0 (docs/learning.md), means stay and weights are bounded: closed forms with learning turned against
+// Whatever was learned before pass 0 (docs/method/learning.md), means stay and weights are bounded: closed forms with learning turned against
 // the scene, a lamp that pilots never find, the flux of photons.
 //
 // False alarms: readings are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case), and 0.5 % for density radii where

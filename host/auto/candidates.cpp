@@ -64,7 +64,7 @@ unsigned classesOf(const Scatterings& has, const RenderSettings& settings) {
 }
 
 // With nothing genuine diffuse the main variant is the standard method with BDD 0, as if everything were
-// (docs/theory.md).
+// (docs/method/theory.md).
 bool isStandard(const Scatterings& has, Variant variant) {
     return variant == Variant::main && !has.diffuseLobes && !has.diffuseMedia;
 }

@@ -1,4 +1,4 @@
-// Which settings are left to a search (docs/auto.md).
+// Which settings are left to a search (docs/method/auto.md).
 #pragma once
 
 #include "render/settings.h"

@@ -33,7 +33,7 @@ double meanSquaredRadius(double passes, bool inVolume) {
 }
 
 // Bias goes as this power of the radius. Of smooth light it is 2, of a slope's break 1.5 (root of the mean square), of an
-// edge 0.5; true bias of renders falls as its power 0.9 to 1.6 (docs/auto.md).
+// edge 0.5; true bias of renders falls as its power 0.9 to 1.6 (docs/method/auto.md).
 constexpr double biasByRadius = 1.4;
 
 // Factors on noise and bias of a pilot after `passes` passes.
@@ -60,7 +60,7 @@ double passesAfter(const PilotMeasure& pilot, double seconds) {
     }
 }
 
-// Below this share of its noise the bias of an image of many pixels cannot be told from 0 (docs/accuracy.md).
+// Below this share of its noise the bias of an image of many pixels cannot be told from 0 (docs/method/accuracy.md).
 constexpr double resolvedBias = 1.0 / 25;
 
 // The bias that cannot be told from 0: of small images it is more, as their tiles scatter. What is less counts as so much:

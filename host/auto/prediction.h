@@ -1,4 +1,4 @@
-// The error that a render of these settings will have, from a few of its passes (docs/auto.md).
+// The error that a render of these settings will have, from a few of its passes (docs/method/auto.md).
 #pragma once
 
 #include "render/error_estimate.h"

@@ -1,4 +1,4 @@
-// Pilot passes of all candidates; the worse half is given up again and again, and the last one left is chosen (docs/auto.md).
+// Pilot passes of all candidates; the worse half is given up again and again, and the last one left is chosen (docs/method/auto.md).
 // Knows no device.
 #pragma once
 

@@ -38,7 +38,7 @@ struct BenchRun {
 /// What relMSE is measured against.
 struct BenchReference {
     RadianceImage image;
-    double noise = 0; ///< relMSE that a right image has against it: its own, mostly (docs/accuracy.md)
+    double noise = 0; ///< relMSE that a right image has against it: its own, mostly (docs/method/accuracy.md)
 };
 
 /// As `quasilux compare` takes images.

@@ -90,7 +90,7 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
     fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-// After the passes: the estimated error, then a table by component. Docs: docs/accuracy.md.
+// After the passes: the estimated error, then a table by component. Docs: docs/method/accuracy.md.
 void printError(const ErrorEstimate& error) {
     if (!std::isfinite(error.sum())) { // after one pass nothing is known
         fmt::print("\n");

@@ -7,7 +7,7 @@
 
 namespace quasilux {
 
-/// null where a measure is unknown or not finite. docs/command-line.md lists the keys.
+/// null where a measure is unknown or not finite. docs/reference/command-line.md lists the keys.
 nlohmann::json comparisonJson(const Comparison& comparison);
 
 } // namespace quasilux

@@ -31,7 +31,7 @@ struct RegionMeasures {
     double relMse = 0;
     std::optional<double> referenceNoise, imageNoise; ///< expected share of relMse; nothing where unknown
     double netRelMse = 0;                             ///< relMse less what is known and was to be subtracted
-    /// What the reference's noise adds to netRelMse through the denominators (docs/accuracy.md), which subtracting
+    /// What the reference's noise adds to netRelMse through the denominators (docs/method/accuracy.md), which subtracting
     /// referenceNoise leaves. Nothing where the reference has no standard errors or CompareSettings::scale is given.
     std::optional<double> denominatorNoise;
     double rmse = 0; ///< over pixels and channels

@@ -1,4 +1,4 @@
-// Where photons are aimed that are scattered far from what the camera sees (kernels/aim.clh, docs/learning.md).
+// Where photons are aimed that are scattered far from what the camera sees (kernels/aim.clh, docs/method/learning.md).
 #pragma once
 
 #include "learn/openings.h"

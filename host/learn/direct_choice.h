@@ -1,4 +1,4 @@
-// How direct light is to be taken, from what pilot paths saw of the emitters (docs/learning.md).
+// How direct light is to be taken, from what pilot paths saw of the emitters (docs/method/learning.md).
 #pragma once
 
 #include "prepare/device_scene.h"

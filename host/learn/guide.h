@@ -1,4 +1,4 @@
-// Guided emission: from useful emission that pilots found to the tables of kernels/guide.clh (docs/learning.md).
+// Guided emission: from useful emission that pilots found to the tables of kernels/guide.clh (docs/method/learning.md).
 #pragma once
 
 #include "learn/guide_tree.h"

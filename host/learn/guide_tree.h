@@ -1,4 +1,4 @@
-// A density over the cube of emission numbers from weighted samples of it: leaves of a k-d tree (docs/learning.md).
+// A density over the cube of emission numbers from weighted samples of it: leaves of a k-d tree (docs/method/learning.md).
 #pragma once
 
 #include "prepare/guide_tables.h"

@@ -1,5 +1,5 @@
 // What is learned of a scene before pass 0, by paths from the camera and rounds of photons with random numbers of their own
-// (docs/learning.md): a function of scene, settings and seed.
+// (docs/method/learning.md): a function of scene, settings and seed.
 #pragma once
 
 #include "device/program.h"

@@ -1,5 +1,5 @@
 // Openings that light comes through from outside (windows, skylights), found from rays that serve the image
-// (docs/learning.md).
+// (docs/method/learning.md).
 #pragma once
 
 #include <glm/glm.hpp>

@@ -7,7 +7,7 @@ namespace quasilux {
 
 /// Channels R, G, B, then `<component>.R` … for each component present, then `stderr.R` … and, where it was
 /// estimated, `bias.R` … and `bias_stderr.R` …; float32, zip. The header
-/// keys are listed in docs/command-line.md. The file appears whole or not at all. Throws std::runtime_error.
+/// keys are listed in docs/reference/command-line.md. The file appears whole or not at all. Throws std::runtime_error.
 void writeExr(const std::string& path, const FilmImage& image, const RenderRecord& record);
 
 } // namespace quasilux

@@ -31,7 +31,7 @@ MeterReading meanReading(const FilmImage& image, bool unitsArePhotometric);
 /// "irradiance" or "radiance".
 const char* quantityName(MeterKind meter);
 
-/// Keys: docs/command-line.md.
+/// Keys: docs/reference/command-line.md.
 nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image);
 /// A few lines for people.
 std::string meterText(const RenderRecord& record, const FilmImage& image);

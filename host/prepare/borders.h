@@ -1,5 +1,5 @@
 // Smooth patches of the surfaces and the straight segments that border them, for the density estimate
-// (docs/density.md).
+// (docs/method/density.md).
 #pragma once
 
 #include "scene/scene.h"

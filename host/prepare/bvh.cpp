@@ -1,5 +1,5 @@
 // Runs Embree's binned-SAH builder with eight-wide leaves, and flattens its binary tree into nodes of eight
-// (docs/traversal.md).
+// (docs/method/traversal.md).
 #include "prepare/bvh.h"
 
 #include "prepare/bvh_block.h"

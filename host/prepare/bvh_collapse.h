@@ -1,4 +1,4 @@
-// The binary tree of the builder, and which of its nodes become nodes of eight (docs/traversal.md).
+// The binary tree of the builder, and which of its nodes become nodes of eight (docs/method/traversal.md).
 #pragma once
 
 #include "shared_types.h"

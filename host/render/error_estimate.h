@@ -1,4 +1,4 @@
-// How far an image is from the truth, from its own passes: noise and the bias of the density radius (docs/accuracy.md).
+// How far an image is from the truth, from its own passes: noise and the bias of the density radius (docs/method/accuracy.md).
 #pragma once
 
 #include "render/film_image.h"

@@ -20,7 +20,7 @@ struct FilmImage {
     std::array<std::vector<float>, LIGHT_CLASSES> componentError;
 
     /// Estimate of the bias that the density radius leaves in `radiance`, and the standard error of that estimate:
-    /// width*height*3, W sr^-1 m^-2; empty where it was not estimated (docs/accuracy.md).
+    /// width*height*3, W sr^-1 m^-2; empty where it was not estimated (docs/method/accuracy.md).
     std::vector<float> bias, biasError;
     /// The same by LIGHT_*; empty, too, where the scene has no such light.
     std::array<std::vector<float>, LIGHT_CLASSES> componentBias, componentBiasError;

@@ -1,4 +1,4 @@
-// What a render will take of memory, before it takes it (docs/memory.md).
+// What a render will take of memory, before it takes it (docs/method/memory.md).
 #pragma once
 
 #include "device/device.h"

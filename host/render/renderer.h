@@ -47,7 +47,7 @@ struct SceneReport {
     MemoryForecast forecast;
     unsigned photonsPerPass = 0;
     std::map<std::string, double> initialRadius; ///< scene units, by photon class
-    /// What was learned before pass 0 (docs/learning.md).
+    /// What was learned before pass 0 (docs/method/learning.md).
     struct Learned {
         bool isGuided = false;
         size_t leaves = 0, openings = 0, aims = 0, emittersByPhotons = 0;

@@ -188,7 +188,7 @@ struct Scene {
     std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
 };
 
-/// Loads a Mitsuba 3 scene (docs/scene-language.md). Throws InputError at file:line:column.
+/// Loads a Mitsuba 3 scene (docs/reference/scene-language.md). Throws InputError at file:line:column.
 /// `parameters` replace `<default>` values, as `-D name=value` does.
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {});
 

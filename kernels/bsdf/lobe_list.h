@@ -1,5 +1,5 @@
 /* Every lobe the kernels know, in the order of Lobe.type. A new lobe is one line here and one file in kernels/bsdf/lobes/,
- * which docs/bsdf.md describes. The host compiles only those that the scene uses (HAS_LOBE_<ID>). */
+ * which docs/method/bsdf.md describes. The host compiles only those that the scene uses (HAS_LOBE_<ID>). */
 #ifndef QUASILUX_LOBE_LIST_H
 #define QUASILUX_LOBE_LIST_H
 
