@@ -88,7 +88,8 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
     Rng rng = rngMake(seed, params->pass, STREAM_CAMERA, index);
     CameraPath path;
     const float4 even = pixelNumbers(index, params->pass, seed);
-    path.ray = cameraRay(&params->camera, pixel, even.xy);
+    const FilterPlace place = filterPlace(&params->camera, world->tables, pixel, even.xy);
+    path.ray = cameraRay(&params->camera, pixel, place.offset);
     path.firstChoice = even.z;
     path.lightChoice = evenChoice(pixelChoiceShift(index, seed), params->pass * params->directSamples);
     path.strata = strataOfPath(seed, params->pass, index);
@@ -119,8 +120,14 @@ inline float traceCameraPath(const World* world, uint index, float3* components)
                                     rngMake(seed, params->pass, STREAM_PIXEL, pixel).key};
     leaveMeter(world, &path, &sequence, pixel, &rng, components);
 #endif
+#if defined(HAS_FILTER_TABLE) && defined(MAP_CAMERA)
+    world->store->filterWeight = place.weight;
+#endif
     uint event = 0;
     while (event < PATH_EVENTS_MAX && followCameraPath(world, &path, &rng, components)) ++event;
+#ifdef HAS_FILTER_TABLE
+    for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] *= place.weight;
+#endif
     return event < PATH_EVENTS_MAX ? -1 : (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
 }
 

@@ -289,7 +289,8 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     state.gathers = 1;
     state.events = SCATTER_GENUINE_DIFFUSE; /* direct light at the meter is sampled */
 #else
-    state.ray = cameraRay(&params.camera, pixel, rngNext2(&state.rng));
+    state.ray = cameraRay(&params.camera, pixel,
+                          filterPlace(&params.camera, tables, pixel, rngNext2(&state.rng)).offset);
 #endif
     state.from = state.ray.origin;
     uint event = 0;

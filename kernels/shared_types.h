@@ -205,6 +205,14 @@ typedef struct {
 #define FILTER_BOX 0u
 #define FILTER_TENT 1u
 #define FILTER_GAUSSIAN 2u
+#define FILTER_TABLE 3u /* any other, and those that end at the edge of the image: FilterStep records */
+#define FILTER_CELLS 64 /* of the table, in a pixel */
+
+/* Sums of a filter f along one axis up to the lower end of a cell, in units of the integral of |f| (kernels/filter_table.clh). */
+typedef struct {
+    float magnitude; /* of |f| */
+    float value;     /* of f */
+} FilterStep;
 
 typedef struct {
     Packed3 origin;       /* orthographic: centre of the near plane */
@@ -217,6 +225,9 @@ typedef struct {
     unsigned int filter; /* FILTER_* */
     float filterRadius;  /* pixels */
     float filterStddev;  /* pixels, Gaussian only */
+    unsigned int filterSteps; /* FILTER_TABLE: word offset of its FilterStep records into the scene tables */
+    unsigned int filterReach; /* and cells on either side of the pixel's centre */
+    unsigned int filterEnds;  /* and 1: it ends at the edge of the image */
     unsigned int medium; /* in which it stands: index or MEDIUM_NONE */
 } Camera;
 

@@ -39,7 +39,7 @@ void expectBalance(const RenderCounters& counters) {
 
 /// A small image is enough.
 Scene small(Scene scene) {
-    scene.sensor.width = scene.sensor.height = 8;
+    scene.sensor.width = scene.sensor.height = scene.sensor.filmWidth = scene.sensor.filmHeight = 8;
     return scene;
 }
 

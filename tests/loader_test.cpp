@@ -142,6 +142,45 @@ TEST(Film, Filters) {
     EXPECT_NEAR(gaussian.filterRadius, 2.8, 1e-12);
 }
 
+TEST(Film, MoreFilters) {
+    const auto withFilter = [](const std::string& filter) {
+        return loadSensor("<film type=\"hdrfilm\">" + filter + "</film>");
+    };
+    const auto expectShape = [&](const std::string& filter, const std::vector<double>& expected) {
+        const Sensor sensor = withFilter(filter); // values at 0, 0.25 … of Mitsuba 3.9's own filters
+        for (size_t k = 0; k < expected.size(); ++k)
+            EXPECT_NEAR(sensor.filterShape(0.25 * double(k)) / sensor.filterShape(0), expected[k] / expected[0], 2e-5)
+                << filter << k;
+    };
+    expectShape(R"(<rfilter type="mitchell"/>)", {0.88889, 0.78212, 0.53472, 0.25608, 0.05556, -0.02344, -0.03472});
+    expectShape(R"(<rfilter type="mitchell"><float name="C" value="0.2"/></rfilter>)",
+                {0.88889, 0.77587, 0.51806, 0.23733, 0.05556, -0.00469, -0.01806});
+    expectShape(R"(<rfilter type="catmullrom"/>)", {1, 0.86719, 0.5625, 0.22656, 0, -0.07031, -0.0625});
+    expectShape(R"(<rfilter type="lanczos"/>)", {1, 0.89007, 0.60793, 0.27019, 0, -0.13287, -0.13509});
+    const std::string two = R"(<rfilter type="lanczos"><integer name="lobes" value="2"/></rfilter>)";
+    expectShape(two, {1, 0.87735, 0.57316, 0.23535, 0, -0.08472, -0.06368});
+    EXPECT_EQ(withFilter(two).filterRadius, 2.0);
+    EXPECT_EQ(withFilter(R"(<rfilter type="lanczos"/>)").filterRadius, 3.0);
+}
+
+TEST(Film, CropWindowAndFormats) {
+    const Sensor sensor =
+        loadSensor(R"(<float name="fov" value="60"/><film type="hdrfilm"><integer name="width" value="40"/>
+        <integer name="height" value="20"/><integer name="crop_offset_x" value="8"/><integer name="crop_offset_y"
+        value="2"/><integer name="crop_width" value="10"/><integer name="crop_height" value="12"/><boolean
+        name="sample_border" value="false"/><string name="pixel_format" value="XYZA"/></film>)");
+    EXPECT_EQ(sensor.filmWidth, 40u);
+    EXPECT_EQ(sensor.filmHeight, 20u);
+    EXPECT_EQ(sensor.width, 10u);
+    EXPECT_EQ(sensor.height, 12u);
+    EXPECT_EQ(sensor.cropX, 8u);
+    EXPECT_EQ(sensor.cropY, 2u);
+    EXPECT_NEAR(sensor.fovX, 60 * degree, 1e-12); // of the whole film
+    EXPECT_TRUE(sensor.filterEnds);
+    EXPECT_TRUE(sensor.pixelFormat.xyz && sensor.pixelFormat.alpha && !sensor.pixelFormat.luminance);
+    EXPECT_FALSE(loadSensor("").filterEnds);
+}
+
 TEST(Sensors, TheFirstOfSeveralIsTakenWithAWarning) {
     const Scene scene = load("<sensor type=\"perspective\"><float name=\"fov\" value=\"10\"/></sensor>");
     EXPECT_NEAR(scene.sensor.fovX, 38.18484 * degree, 1e-6);

@@ -305,8 +305,39 @@ const BadBody badBodies[] = {
      "value=\"5\"/></sensor>",
      {"scene.xml:5:1: parameter 'far_clip' of sensor 'perspective' is 5; it must be greater than 5"}},
     {"Crop",
-     "<sensor type=\"perspective\"><film type=\"hdrfilm\">\n<integer name=\"crop_width\" value=\"5\"/></film></sensor>",
-     {"scene.xml:5:1: parameter 'crop_width' of film 'hdrfilm' is not supported"}},
+     "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"crop_offset_x\" value=\"764\"/>\n<integer "
+     "name=\"crop_width\" value=\"5\"/></film></sensor>",
+     {"scene.xml:5:1: the crop window takes pixels 764 to 768 of a film whose width is 768", "crop_offset_x"}},
+    {"CropOffsetAlone",
+     "<sensor type=\"perspective\"><film type=\"hdrfilm\">\n<integer name=\"crop_offset_y\" "
+     "value=\"1\"/></film></sensor>",
+     {"scene.xml:5:1: the crop window takes pixels 1 to 576 of a film whose height is 576", "crop_height"}},
+    {"CropBelowZero",
+     "<sensor type=\"perspective\"><film type=\"hdrfilm\">\n<integer name=\"crop_offset_y\" "
+     "value=\"-1\"/></film></sensor>",
+     {"scene.xml:5:1: the crop window takes pixels -1 to"}},
+    {"CropOfNothing",
+     "<sensor type=\"perspective\"><film type=\"hdrfilm\">\n<integer name=\"crop_width\" value=\"0\"/></film></sensor>",
+     {"scene.xml:5:1: the crop window"}},
+    {"SpecFilm",
+     "<sensor type=\"perspective\">\n<film type=\"specfilm\"/></sensor>",
+     {"scene.xml:5:1: film 'specfilm'", "hdrfilm"}},
+    {"PixelFormat",
+     "<sensor type=\"perspective\"><film type=\"hdrfilm\">\n<string name=\"pixel_format\" "
+     "value=\"rgbx\"/></film></sensor>",
+     {"scene.xml:5:1: parameter 'pixel_format' of film 'hdrfilm': unknown value 'rgbx'", "rgba"}},
+    {"FileFormat",
+     "<sensor type=\"perspective\"><film type=\"hdrfilm\">\n<string name=\"file_format\" "
+     "value=\"png\"/></film></sensor>",
+     {"scene.xml:5:1: parameter 'file_format' of film 'hdrfilm': unknown value 'png'", "openexr"}},
+    {"MitchellParameter",
+     "<sensor type=\"perspective\"><film type=\"hdrfilm\"><rfilter type=\"mitchell\">\n<float name=\"B\" "
+     "value=\"1.5\"/></rfilter></film></sensor>",
+     {"scene.xml:5:1: parameter 'B' of rfilter 'mitchell' is 1.5; expected 0 to 1"}},
+    {"LanczosLobes",
+     "<sensor type=\"perspective\"><film type=\"hdrfilm\"><rfilter type=\"lanczos\">\n<integer name=\"lobes\" "
+     "value=\"0\"/></rfilter></film></sensor>",
+     {"scene.xml:5:1: parameter 'lobes' of rfilter 'lanczos' is 0; it must be at least 1"}},
     {"FilmSize",
      "<sensor type=\"perspective\"><film type=\"hdrfilm\">\n<integer name=\"width\" value=\"0\"/></film></sensor>",
      {"scene.xml:5:1: parameter 'width' is 0; expected 1 to"}},

@@ -2,6 +2,7 @@
 
 #include "prepare/border_surface.h"
 #include "prepare/direct_sharing.h"
+#include "prepare/filter_table.h"
 #include "prepare/scene_tables.h"
 #include "util/bit_words.h"
 
@@ -50,6 +51,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     features.borders = !borders.segments.empty();
     features.depthLimit = scene.maxDepth >= 0;
     features.orthographicCamera = scene.sensor.orthographic;
+    features.filterTable = needsFilterTable(scene.sensor);
     features.radianceMeter = scene.sensor.meter == MeterKind::ray;
     features.irradianceMeter = isIrradiance(scene.sensor.meter);
     return features;
@@ -201,10 +203,12 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.meter = meter.meter;
     out.offsets.meter.lobe = meterLobe;
     out.offsets.meter.primitives = tables.append(meter.primitives);
+    const unsigned filterSteps = tables.append(filterTable(scene.sensor));
     out.tables = tables.words();
     out.sceneWords = out.tables.size();
     setBorderReach(out, BorderReach(settings.largestRadius(out.surfaceArea)));
     out.camera = flattenCamera(scene.sensor, placement.camera);
+    out.camera.filterSteps = filterSteps;
     LearnedTables nothing;
     nothing.guide = plainGuide(out.emitters);
     setLearned(out, nothing);

@@ -1,21 +1,27 @@
 // Sensor into the kernels' camera. Mitsuba's camera looks along its +z with +y up and +x to the left of the image.
 #include "prepare/device_scene.h"
+#include "prepare/filter_table.h"
 #include "prepare/pack.h"
 
 namespace quasilux {
 
 namespace {
 
+// From the middle of the film to the upper left corner of the image, pixels to the left and up.
+glm::dvec2 toCorner(const Sensor& sensor) {
+    return {sensor.filmWidth / 2.0 - sensor.cropX, sensor.filmHeight / 2.0 - sensor.cropY};
+}
+
 void placePerspective(const Sensor& sensor, shared::Camera& camera) {
     const glm::dmat3 rotation(sensor.toWorld);
     const glm::dvec3 left = glm::normalize(rotation[0]), up = glm::normalize(rotation[1]),
                      forward = glm::normalize(rotation[2]);
     const double halfWidth = std::tan(sensor.fovX / 2);
-    const double step = 2 * halfWidth / sensor.width;
+    const double step = 2 * halfWidth / sensor.filmWidth;
     camera.origin = pack(glm::dvec3(sensor.toWorld[3]));
     camera.stepX = pack(-left * step);
     camera.stepY = pack(-up * step);
-    camera.corner = pack(forward + left * halfWidth + up * (step * sensor.height / 2));
+    camera.corner = pack(forward + step * (left * toCorner(sensor).x + up * toCorner(sensor).y));
     camera.forward = pack(forward);
 }
 
@@ -23,12 +29,12 @@ void placePerspective(const Sensor& sensor, shared::Camera& camera) {
 void placeOrthographic(const Sensor& sensor, shared::Camera& camera) {
     const glm::dmat3 axes(sensor.toWorld);
     const glm::dvec3 left = axes[0], up = axes[1];
-    const double step = 2.0 / sensor.width;
+    const double step = 2.0 / sensor.filmWidth;
     camera.orthographic = 1;
     camera.origin = pack(glm::dvec3(sensor.toWorld * glm::dvec4(0, 0, sensor.nearClip, 1)));
     camera.stepX = pack(-left * step);
     camera.stepY = pack(-up * step);
-    camera.corner = pack(left + up * (step * sensor.height / 2));
+    camera.corner = pack(step * (left * toCorner(sensor).x + up * toCorner(sensor).y));
     camera.forward = pack(glm::normalize(axes[2]));
 }
 
@@ -53,9 +59,11 @@ shared::Camera flattenCamera(const Sensor& sensor, unsigned medium) {
     camera.farClip = static_cast<float>(sensor.farClip);
     camera.width = sensor.width;
     camera.height = sensor.height;
-    camera.filter = sensor.filter;
+    camera.filter = needsFilterTable(sensor) ? FILTER_TABLE : sensor.filter;
     camera.filterRadius = static_cast<float>(sensor.filterRadius);
     camera.filterStddev = static_cast<float>(sensor.filterStddev);
+    camera.filterReach = filterReach(sensor);
+    camera.filterEnds = sensor.filterEnds ? 1 : 0;
     return camera;
 }
 

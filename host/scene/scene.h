@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -144,6 +145,11 @@ struct IlluminanceGrid {
     }
 };
 
+/// What the image holds beside R, G, B.
+struct PixelFormat {
+    bool luminance = false, xyz = false, alpha = false;
+};
+
 struct Sensor {
     SourceLocation where;
     std::string plugin = "perspective";
@@ -153,10 +159,15 @@ struct Sensor {
     bool orthographic = false; ///< parallel rays from local x in [-1, 1]; else perspective
     double fovX = 0;           ///< perspective: full horizontal angle, radians (fov_axis already resolved)
     double nearClip = 1e-2, farClip = 1e4;
-    unsigned width = 768, height = 576;
+    unsigned width = 768, height = 576;         ///< pixels of the image: the film's, or those of its crop window
+    unsigned filmWidth = 768, filmHeight = 576; ///< of the whole film, which the view is laid over
+    unsigned cropX = 0, cropY = 0;              ///< of the film's pixels, where the image begins
     unsigned filter = FILTER_GAUSSIAN;
     double filterRadius = 2.0, filterStddev = 0.5; ///< pixels
-    std::optional<unsigned> medium;                ///< as stated, index into Scene::media
+    std::function<double(double)> filterShape;     ///< along one axis, not normalised; FILTER_TABLE needs it
+    bool filterEnds = false;                       ///< at the edge of the image: sample_border is false
+    PixelFormat pixelFormat;
+    std::optional<unsigned> medium; ///< as stated, index into Scene::media
 };
 
 /// quasilux settings of the scene; std::nullopt = not said. Command-line options override them.

@@ -44,3 +44,14 @@ __kernel void filterOffsets(__global const float2* numbers, __global float2* off
     const uint i = get_global_id(0);
     if (i < count) offsets[i] = filterOffset(&camera, numbers[i]);
 }
+
+#ifdef HAS_FILTER_TABLE
+/* Offset and weight in pixel `pixel`. */
+__kernel void filterPlaces(__global const float2* numbers, __global float4* places, __global const uint* tables,
+                           const Camera camera, const uint pixel, const uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const FilterPlace place = filterPlace(&camera, tables, pixel, numbers[i]);
+    places[i] = (float4)(place.offset, place.weight, 0);
+}
+#endif

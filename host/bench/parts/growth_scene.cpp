@@ -94,7 +94,7 @@ void addCamera(Scene& scene, unsigned resolution) {
     sensor.toWorld =
         glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 0, 3.9, 1));
     sensor.fovX = 39.3077 * pi / 180;
-    sensor.width = sensor.height = resolution;
+    sensor.width = sensor.height = sensor.filmWidth = sensor.filmHeight = resolution;
     sensor.filter = FILTER_BOX;
     sensor.filterRadius = 0.5;
 }

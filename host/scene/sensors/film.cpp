@@ -1,6 +1,7 @@
-// <film type="hdrfilm"> and its reconstruction filter.
+// <film type="hdrfilm">: size, crop window, what the image holds.
 #include "scene/sensors/sensors.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -17,44 +18,78 @@ unsigned readSize(Properties& properties, const std::string& name, unsigned miss
     return static_cast<unsigned>(size);
 }
 
-void readFilter(const Element& element, LoadContext& context, Sensor& sensor) {
-    Properties properties(element, context);
-    const std::string& plugin = properties.plugin();
-    if (plugin == "box") {
-        sensor.filter = FILTER_BOX;
-        sensor.filterRadius = 0.5;
-    } else if (plugin == "tent") {
-        sensor.filter = FILTER_TENT;
-        sensor.filterRadius = properties.numberAbove("radius", 1, 0, true);
-    } else if (plugin == "gaussian") {
-        sensor.filter = FILTER_GAUSSIAN;
-        sensor.filterStddev = properties.numberAbove("stddev", 0.5, 0, true);
-        sensor.filterRadius = 4 * sensor.filterStddev;
-    } else {
-        throw InputError(element.where, fmt::format("unknown rfilter plugin '{}'.{}", plugin,
-                                                    knownNames(plugin, {"box", "tent", "gaussian"})));
-    }
-    constexpr double maximumRadius = 16;
-    if (sensor.filterRadius > maximumRadius)
-        throw InputError(element.where, fmt::format("the filter reaches {} pixels; at most {} are supported.",
-                                                    sensor.filterRadius, maximumRadius));
-    properties.finish();
+/// Pixels of the film along one axis: where the image begins, and how many it has.
+struct CropRange {
+    unsigned begin, count;
+};
+
+CropRange readCrop(Properties& properties, const std::string& axis, const std::string& size, unsigned all) {
+    const std::string offsetName = "crop_offset_" + axis, sizeName = "crop_" + size;
+    const int64_t begin = properties.integer(offsetName, 0), count = properties.integer(sizeName, all);
+    if (begin >= 0 && count >= 1 && begin <= all && count <= all - begin)
+        return {static_cast<unsigned>(begin), static_cast<unsigned>(count)};
+    throw InputError(properties.where(properties.has(sizeName) ? sizeName : offsetName),
+                     fmt::format("the crop window takes pixels {} to {} of a film whose {} is {}; give {} and {} such "
+                                 "that it lies within.",
+                                 begin, begin + count - 1, size, all, offsetName, sizeName));
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+/// As Mitsuba takes it: capital letters do not matter.
+std::string readChoice(Properties& properties, const std::string& name, const std::string& missing,
+                       const Names& known) {
+    std::string value = lower(properties.string(name, missing));
+    if (std::find(known.begin(), known.end(), value) == known.end())
+        throw InputError(properties.where(name), fmt::format("parameter '{}' of {}: unknown value '{}'.{}", name,
+                                                             properties.describe(), value, knownNames(value, known)));
+    return value;
+}
+
+PixelFormat readPixelFormat(Properties& properties) {
+    const std::string name =
+        readChoice(properties, "pixel_format", "rgb", {"luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"});
+    PixelFormat format;
+    format.luminance = name == "luminance" || name == "luminance_alpha";
+    format.xyz = name == "xyz" || name == "xyza";
+    format.alpha = name == "luminance_alpha" || name == "rgba" || name == "xyza";
+    return format;
+}
+
+void readFileFormats(Properties& properties, LoadContext& context) {
+    const std::string file = readChoice(properties, "file_format", "openexr", {"openexr", "exr", "rgbe", "pfm"});
+    if (file == "rgbe" || file == "pfm")
+        context.warn(properties.where("file_format"),
+                     fmt::format("file_format '{}': images are written as OpenEXR.", file));
+    readChoice(properties, "component_format", "float16", {"float16", "float32", "uint32"});
 }
 
 } // namespace
 
 void readFilm(const Element& element, LoadContext& context, Sensor& sensor) {
+    if (element.get("type") == "specfilm")
+        throw InputError(element.where, "film 'specfilm' records spectral bands, and light is linear RGB here; use "
+                                        "<film type=\"hdrfilm\">.");
     if (element.get("type") != "hdrfilm")
         throw InputError(element.where, fmt::format("unknown film plugin '{}'.{}", element.get("type"),
                                                     knownNames(element.get("type"), {"hdrfilm"})));
     Properties properties(element, context);
-    sensor.width = readSize(properties, "width", sensor.width);
-    sensor.height = readSize(properties, "height", sensor.height);
-    if (const Element* filter = properties.object("rfilter")) readFilter(*filter, context, sensor);
-    for (const char* name : {"crop_offset_x", "crop_offset_y", "crop_width", "crop_height"})
-        properties.refuse(name, "the whole image is rendered; remove the crop");
-    properties.accept({"file_format", "pixel_format", "component_format", "banner", "high_quality_edges",
-                       "sample_border", "compensate"});
+    sensor.filmWidth = readSize(properties, "width", sensor.filmWidth);
+    sensor.filmHeight = readSize(properties, "height", sensor.filmHeight);
+    const CropRange columns = readCrop(properties, "x", "width", sensor.filmWidth),
+                    rows = readCrop(properties, "y", "height", sensor.filmHeight);
+    sensor.cropX = columns.begin;
+    sensor.cropY = rows.begin;
+    sensor.width = columns.count;
+    sensor.height = rows.count;
+    readFilter(properties.object("rfilter"), context, sensor);
+    sensor.filterEnds = !properties.boolean("sample_border", true);
+    sensor.pixelFormat = readPixelFormat(properties);
+    readFileFormats(properties, context);
+    properties.accept({"banner", "high_quality_edges", "compensate"});
     properties.finish();
 }
 

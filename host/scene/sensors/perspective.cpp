@@ -61,7 +61,7 @@ glm::dmat4 readPlacement(Properties& properties) {
 } // namespace
 
 void readPerspective(Properties& properties, Sensor& sensor) {
-    sensor.fovX = readFieldOfView(properties, static_cast<double>(sensor.width) / sensor.height);
+    sensor.fovX = readFieldOfView(properties, static_cast<double>(sensor.filmWidth) / sensor.filmHeight);
     sensor.toWorld = readPlacement(properties);
     for (const char* name : {"principal_point_offset_x", "principal_point_offset_y"})
         if (properties.number(name, 0) != 0)

@@ -15,8 +15,10 @@ void readOrthographic(Properties& properties, Sensor& sensor);
 void readRadiancemeter(Properties& properties, Sensor& sensor);
 void readIrradiancemeter(Properties& properties, Sensor& sensor);
 
-/// Size and reconstruction filter.
+/// Size, crop window, reconstruction filter, what the image holds.
 void readFilm(const Element& element, LoadContext& context, Sensor& sensor);
+/// Mitsuba's default where there is no element.
+void readFilter(const Element* element, LoadContext& context, Sensor& sensor);
 
 /// Accepts any sampler of Mitsuba: quasilux draws its own numbers.
 void readSampler(const Element& element, LoadContext& context);
