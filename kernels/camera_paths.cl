@@ -13,7 +13,15 @@
 #include "meter.clh"
 #endif
 
-/* One segment of the path and what happens at its end; 0 where the path ends. */
+/* One segment of the path and what happens at its end; 0 where the path ends. It ends
+ *   - where it leaves the scene, after the light of the surroundings is taken;
+ *   - at its next surface or collision where it went on for emission only (genuine diffuse, d = BDD: law.clh);
+ *   - on a surface without lobes, which absorbs everything;
+ *   - where it has as many segments as the scene's max_depth allows, after light is taken;
+ *   - where no lobe is chosen: none may scatter any more (law.clh), or roulette ends it (scatterCameraPath);
+ *   - where the sampled direction lies below the horizon, or on different sides of the shading normal and of the surface;
+ *   - in a medium where the part of the phase function that was sampled may not scatter, or by roulette (collideCameraPath);
+ *   - after PATH_EVENTS_MAX events: cut, and counted (traceCameraPath). */
 inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, float3* components) {
     const CameraParams* params = world->params;
     Hit hit;

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Do renders tell their own error truly? Draws docs/figures/calibration.png and prints the table of docs/method/accuracy.md.
+"""Is the error that renders estimate right? Draws docs/figures/calibration.png and prints the table of docs/notes/calibration.md.
 
     scripts/calibration.py [--scenes box plate] [--program PROGRAM]
 
 Each scene is rendered from several seeds for each number of passes. Predicted: the figures that each render writes into
 its statistics, averaged over the seeds as root mean squares. True: noise from the scatter between the seeds; bias from
 the difference between their mean and the reference, net of the noise of both. All relative, with the program's weights (docs/method/accuracy.md).
-The box is rendered at 64 x 64 pixels, the plate, whose reference is too noisy to tell its bias in single pixels, at
+The box is rendered at 64 x 64 pixels, the plate, whose reference is too noisy to resolve its bias in single pixels, at
 160 x 120. What is in out/calibration already is not rendered again. Needs Debian's python3-numpy, python3-openimageio and
 python3-matplotlib.
 """
@@ -42,7 +42,7 @@ class Scene:
 
 @dataclass
 class Calibration:
-    """Root mean squares over pixels, relative: true ones of noise and bias, and what renders told of them."""
+    """Root mean squares over pixels, relative: true ones of noise and bias, and those that renders estimated."""
 
     noise: float
     told_noise: float
@@ -113,9 +113,9 @@ def draw(results):
         passes = sorted(rows)
         percent = lambda member: [100 * getattr(rows[n], member) for n in passes]
         axis.loglog(passes, percent("noise"), "C0o-", label="noise, true")
-        axis.loglog(passes, percent("told_noise"), "C0x--", label="noise, told", markersize=9)
+        axis.loglog(passes, percent("told_noise"), "C0x--", label="noise, estimated", markersize=9)
         axis.loglog(passes, percent("bias"), "C3o-", label="bias, true")
-        axis.loglog(passes, percent("told_bias"), "C3x--", label="bias, told", markersize=9)
+        axis.loglog(passes, percent("told_bias"), "C3x--", label="bias, estimated", markersize=9)
         axis.set_xticks(passes, [str(n) for n in passes])
         axis.set_yticks([1, 2, 5, 10, 20], ["1", "2", "5", "10", "20"])
         axis.set_ylim(1, 20)
@@ -138,7 +138,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     FIGURES.mkdir(parents=True, exist_ok=True)
     results = {}
-    print("| scene | passes | noise, true | told | told / true | bias, true | told | told / true | true on told, by pixel |")
+    print("| scene | passes | noise, true | estimated | estimated / true | bias, true | estimated | estimated / true | true on estimated, by pixel |")
     print("|---" * 9 + "|")
     for name in options.scenes:
         scene = SCENES[name]()

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Everything that must hold before a change is taken: warnings are errors, layout of the sources, static analysis, tests
-# under sanitizers, all tests. Ends with a line "N passed, N failed"; the exit code is 0 if none failed.
+# under sanitizers, all tests. `test.sh quick`, for a change in progress, takes minutes: build (preset release), layout of the sources, all tests
+# but the slow ones, three renders whose mean is known. Ends with a line "N passed, N failed"; the exit code is 0 if none failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -8,6 +9,14 @@ cd "$(dirname "$0")/.."
 hostTests=(loader_test bsdf_loader_test scene_errors_test document_errors_test mesh_errors_test shapes_test borders_test
     border_cuts_test output_test png_test medium_loader_test media_placement_test medium_split_test compare_test
     origin_test)
+
+# Tests that take more than some five seconds; a new test is quick until it is listed here.
+slowTests=(adaptive_radius_test auto_test bad_input_test beam_test bench_parts_test bench_test calibration_test camera_map_test cie171_test
+    cli_test compare_command_test cornell_test density_test determinism_test energy_balance_test furnace_test gathered_photons_test
+    generic_kernels_test grid_test guide_test hard_cases_test irradiance_test light_tree_test lobe_sampling_test medium_render_test
+    memory_test micro_bench_test packed_flux_test packet_test photon_search_test photon_walk_test readme_test
+    rough_dielectric_render_test rough_dielectric_test shading_normals_test sky_test slab_test texture_render_test traversal_test
+    wrong_learning_test)
 
 logs=build/logs
 passed=0
@@ -60,8 +69,58 @@ analysisIsClean() {
             >"$log" 2>&1 || { grep -v 'warnings\? generated' "$log"; return 1; }
 }
 
-bash scripts/setup.sh
+# Ends the script with the number of checks and tests that failed.
+summary() {
+    ((failed == 0)) || printf '== FAILED: %s\n' "${failures[@]}"
+    echo "$passed passed, $failed failed"
+    ((failed == 0))
+}
+
+# meanIs IMAGE VALUE: is the mean of R, G and B within 1 % of the value?
+meanIs() {
+    oiiotool --stats "$1" | awk -v value="$2" '
+        /Stats Avg:/ { for (i = 3; i <= 5; ++i) if ($i < 0.99 * value || $i > 1.01 * value) exit 1; found = 1; exit }
+        END { exit !found }'
+}
+
+# rendersMean SCENE VALUE [OPTION...]: 16 passes from a fixed seed, so the same mean on every run; 10 % off must be noticed.
+rendersMean() {
+    local image=build/logs/quick.exr
+    build/release/quasilux render "scenes/$1.xml" --fixed --passes 16 --quiet --output "$image" "${@:3}" &&
+        meanIs "$image" "$2" && ! meanIs "$image" "$(awk "BEGIN { print 1.1 * $2 }")"
+}
+
+quick() {
+    local name targets=()
+    for name in tests/*_test.cpp; do
+        name=$(basename "$name" .cpp)
+        [[ " ${slowTests[*]} " == *" $name "* ]] || targets+=("$name")
+    done
+    phase "build"
+    [[ -f build/release/build.ninja ]] || cmake --preset release
+    cmake --build --preset release --target quasilux "${targets[@]}"
+    check "layout of the sources (clang-format)" formatIsRight
+    phase "quick tests"
+    runTests release --tests-regex "^($(IFS='|'; echo "${targets[*]}"))\$"
+    check "render: white furnace under a sky, radiance 1" rendersMean furnace_sky 1
+    check "render: furnace with a split lobe, radiance 2.5" rendersMean furnace_split 2.5
+    check "render: textured furnace, camera points stored, radiance 2.5" rendersMean furnace_textured 2.5 --map camera
+    summary
+}
+
 mkdir -p "$logs"
+case ${1:-all} in
+    quick)
+        quick
+        exit
+        ;;
+    all) ;;
+    *)
+        echo "test.sh: unknown argument '$1', expected nothing or 'quick'" >&2
+        exit 2
+        ;;
+esac
+bash scripts/setup.sh
 
 phase "build"
 cmake --preset ci
@@ -81,6 +140,4 @@ ASAN_OPTIONS=detect_leaks=0 runTests asan --tests-regex "^($(IFS='|'; echo "${ho
 phase "all tests"
 runTests ci
 
-((failed == 0)) || printf '== FAILED: %s\n' "${failures[@]}"
-echo "$passed passed, $failed failed"
-((failed == 0))
+summary

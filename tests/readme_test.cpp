@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <unistd.h>
 
@@ -27,7 +28,7 @@ std::string readText(const fs::path& file) {
 }
 
 std::vector<fs::path> documents() {
-    std::vector<fs::path> list{root / "README.md"};
+    std::vector<fs::path> list{root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md"};
     for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
         if (entry.path().extension() == ".md") list.push_back(entry.path());
     return list;
@@ -81,14 +82,14 @@ protected:
 };
 
 TEST_F(ReadmeCommandTest, EveryCommandRuns) {
-    unsigned commands = 0;
+    std::set<std::string> commands; // pages repeat some
     for (const auto& document : documents())
         for (const auto& command : commandsOf(readText(document), "quasilux")) {
+            if (!commands.insert(shortened(command)).second) continue;
             SCOPED_TRACE(document.filename().string() + ": " + command);
             EXPECT_EQ(runInFolder(folder, shortened(command)), 0) << readText(folder / "log");
-            ++commands;
         }
-    EXPECT_GE(commands, 4u);
+    EXPECT_GE(commands.size(), 4u);
 }
 
 TEST_F(ReadmeCommandTest, AWrongCommandWouldBeNoticed) {

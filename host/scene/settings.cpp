@@ -34,7 +34,7 @@ std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& whe
 }
 
 void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& settings) {
-    constexpr uint64_t maximumPhotons = 1u << 30;
+    constexpr uint64_t maximumPhotons = 1000000000; // as of --photons
     if (entry.name == "bdd")
         settings.bdd = static_cast<unsigned>(parseUnsigned(entry.value, 0, 1000, where, "bdd"));
     else if (entry.name == "variant")
