@@ -58,7 +58,7 @@ def menu():
     for line in (ROOT / "docs" / "README.md").read_text().splitlines():
         if section := re.match(r"\*\*([^*]+)\*\*", line):
             lines.append(f'  - "{section.group(1)}":')
-        elif line.startswith("- "):
+        elif line.startswith(("- ", "  [")):
             lines += [f'      - "{words}": docs/{file}' for words, file in re.findall(r"\[([^\]]+)\]\(([^)#]+\.md)\)", line)]
     return "\n".join([*lines, "  - Contributing: CONTRIBUTING.md", "  - Changes: CHANGELOG.md"])
 

@@ -26,7 +26,7 @@ static_assert(recordsRead <= PHOTON_BLOCK);
 // Photons are numbered by 32 bits.
 constexpr uint64_t blocksMax = UINT32_MAX / PHOTON_BLOCK - 1;
 
-// From so many work-items on, kernels are compiled anew (docs/method/memory.md, "Time to compile").
+// From so many work-items on, kernels are compiled anew (docs/method/memory.md, "Time to build and compile").
 constexpr size_t manyWorkItems = 65536;
 
 const std::string noun = "photon";
