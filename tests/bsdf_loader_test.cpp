@@ -45,7 +45,7 @@ TEST(Colors, EveryForm) {
             .emitter.value()
             .radiance;
     };
-    expectRgb(radiance(R"(<spectrum name="radiance" value="2"/>)"), 2.4096f, 1.8964f, 1.8174f, 1e-5f);
+    expectRgb(radiance(R"(<spectrum name="radiance" value="2"/>)"), 2.4095879f, 1.8965820f, 1.8178322f, 1e-5f);
     expectRgb(radiance(R"(<rgb name="radiance" value="2"/>)"), 2, 2, 2);
     expectRgb(radiance(""), 1, 1, 1);
 }

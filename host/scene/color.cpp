@@ -1,6 +1,7 @@
 // Colours from <rgb>, <spectrum> and <float>.
 #include "scene/color.h"
 
+#include "scene/spectrum/spectrum.h"
 #include "scene/xml/numbers.h"
 
 #include <cmath>
@@ -12,20 +13,14 @@ namespace {
 
 /// Equal-energy white (CIE illuminant E) of luminance 1 in linear sRGB, as Mitsuba's RGB modes turn a uniform spectrum
 /// into a colour.
-constexpr Rgb equalEnergyWhite = {1.2048f, 0.9482f, 0.9087f};
+constexpr Rgb equalEnergyWhite = {1.204794f, 0.948291f, 0.908916f};
 
 float linearFromSrgb(int byte) {
     const double encoded = byte / 255.0;
     return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
 }
 
-float toFloat(double value, const Element& element) {
-    const float single = static_cast<float>(value);
-    if (!std::isfinite(single))
-        throw InputError(element.where, fmt::format("parameter '{}': {} is out of the range of single precision.",
-                                                    element.get("name"), value));
-    return single;
-}
+std::string whatOf(const Element& element) { return fmt::format("parameter '{}'", element.get("name")); }
 
 Rgb parseHex(const Element& element, const std::string& text) {
     const bool valid = text.size() == 7 && text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
@@ -38,37 +33,49 @@ Rgb parseHex(const Element& element, const std::string& text) {
 
 Rgb parseRgb(const Element& element) {
     const std::string& text = element.get("value");
-    const std::string what = fmt::format("parameter '{}'", element.get("name"));
+    const std::string what = whatOf(element);
     if (!text.empty() && text.front() == '#') return parseHex(element, text);
     const std::vector<double> values = parseNumbers(text, element.where, what);
     if (values.size() != 1 && values.size() != 3)
         throw InputError(element.where, fmt::format("{}: <rgb> has {} numbers; expected three, one, or #rrggbb.", what,
                                                     values.size()));
     const size_t step = values.size() == 3 ? 1 : 0;
-    return {toFloat(values[0], element), toFloat(values[step], element), toFloat(values[2 * step], element)};
+    return {toFiniteFloat(values[0], element.where, what), toFiniteFloat(values[step], element.where, what),
+            toFiniteFloat(values[2 * step], element.where, what)};
 }
 
-float parseUniformSpectrum(const Element& element) {
-    const std::string& text = element.get("value");
-    const std::string what = fmt::format("parameter '{}'", element.get("name"));
-    if (!element.find("value") || element.find("filename") || element.find("type") ||
-        text.find(':') != std::string::npos)
-        throw InputError(element.where, what + ": spectra by wavelength are not supported (quasilux computes in RGB); "
-                                               "give one number for a uniform spectrum, or an <rgb>.");
-    return toFloat(parseNumber(text, element.where, what), element);
+Rgb uniformSpectrum(float value, ColorUse use) {
+    return use == ColorUse::emission ? equalEnergyWhite * value : Rgb{value, value, value};
+}
+
+Rgb parseSpectrumParameter(const Element& element, ColorUse use, LoadContext& context) {
+    const std::string* text = element.find("value");
+    const std::string* file = element.find("filename");
+    const std::string what = whatOf(element);
+    if ((text == nullptr) == (file == nullptr))
+        throw InputError(element.where, fmt::format("{}: give either value or filename of a <spectrum>.", what));
+    if (text && text->find(':') == std::string::npos)
+        return uniformSpectrum(toFiniteFloat(parseNumber(*text, element.where, what), element.where, what), use);
+    const Spectrum spectrum = text ? parseSpectrum(*text, element.where, what)
+                                   : readSpectrumFile(context.files.resolve(*file, element.where), element.where);
+    return colorOfSpectrum([&](double wavelength) { return spectrum.at(wavelength); }, use, element.where, context);
 }
 
 } // namespace
 
-Rgb parseColor(const Element& element, ColorUse use) {
+float toFiniteFloat(double value, const SourceLocation& where, const std::string& what) {
+    const float single = static_cast<float>(value);
+    if (!std::isfinite(single))
+        throw InputError(where, fmt::format("{}: {} is out of the range of single precision.", what, value));
+    return single;
+}
+
+Rgb parseColor(const Element& element, ColorUse use, LoadContext& context) {
     if (element.tag == "rgb") return parseRgb(element);
-    if (element.tag == "spectrum") {
-        const float value = parseUniformSpectrum(element);
-        return use == ColorUse::emission ? equalEnergyWhite * value : Rgb{value, value, value};
-    }
+    if (element.tag == "spectrum") return parseSpectrumParameter(element, use, context);
     if (element.tag == "float" || element.tag == "integer") {
-        const std::string what = fmt::format("parameter '{}'", element.get("name"));
-        const float value = toFloat(parseNumber(element.get("value"), element.where, what), element);
+        const std::string what = whatOf(element);
+        const float value = toFiniteFloat(parseNumber(element.get("value"), element.where, what), element.where, what);
         return {value, value, value};
     }
     throw InputError(element.where, fmt::format("parameter '{}' is a <{}>; expected <rgb>, <spectrum> or <float>.",

@@ -22,12 +22,13 @@ public:
 
     Scene& scene;
     const FileResolver& files;
-    std::unordered_map<const Element*, int> bsdfIndex;        ///< of bsdfs that shapes use, into Scene::bsdfs
-    std::unordered_map<const Element*, int> textureIndex;     ///< of textures that bsdfs use, into Scene::textures
+    std::unordered_map<const Element*, int> bsdfIndex;    ///< of bsdfs that shapes use, into Scene::bsdfs
+    std::unordered_map<const Element*, int> textureIndex; ///< of textures in use, into Scene::textures; -1: one colour
     std::unordered_map<const Element*, unsigned> mediumIndex; ///< of media in use, into Scene::media
     std::set<const Element*> usedPhases;                      ///< that a medium has
     int defaultBsdf = -1, defaultEmitterBsdf = -1;            ///< of shapes without one; -1 until the first needs it
     std::vector<const Element*> openBsdfs;                    ///< being read now, outermost first: a cycle shows here
+    std::vector<const Element*> openTextures;                 ///< likewise
 
 private:
     void collect(const Element& element);

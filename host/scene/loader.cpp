@@ -10,6 +10,7 @@
 #include "scene/sensors/sensors.h"
 #include "scene/settings.h"
 #include "scene/shapes/shape_plugin.h"
+#include "scene/textures/constant_texture.h"
 #include "scene/textures/texture_plugin.h"
 #include "scene/xml/numbers.h"
 #include "scene/xml/upgrade.h"
@@ -79,7 +80,10 @@ void checkUnusedBsdfs(const Element& root, LoadContext& context, const std::vect
 void checkUnusedTextures(const Element& root, LoadContext& context) {
     for (const Element& element : root.children) {
         if (element.tag != "texture" || context.textureIndex.count(&element)) continue;
-        readTexture(element, context);
+        if (isConstantTexture(element))
+            readConstantTexture(element, ColorUse::emission, context);
+        else
+            readTexture(element, context);
         context.warn(element.where, fmt::format("texture '{}' is used by no bsdf.", idOf(element)));
     }
 }

@@ -9,10 +9,11 @@
 
 namespace quasilux {
 
-/// The row of `plugins` whose `name` is the element's type. Throws InputError with the nearest name if there is none.
+/// The row of `plugins` whose `name` is the element's type. Throws InputError with the nearest name if there is none, of
+/// `others` too, which are known besides.
 template <typename Plugin, size_t count>
-const Plugin& findPlugin(const Plugin (&plugins)[count], const Element& element) {
-    Names known;
+const Plugin& findPlugin(const Plugin (&plugins)[count], const Element& element, const Names& others = {}) {
+    Names known = others;
     for (const Plugin& plugin : plugins) {
         if (plugin.name == element.get("type")) return plugin;
         known.push_back(plugin.name);

@@ -1,6 +1,7 @@
 // Typed queries of a plugin's parameters.
 #include "scene/properties.h"
 
+#include "scene/textures/constant_texture.h"
 #include "scene/transform.h"
 #include "scene/xml/numbers.h"
 #include "scene/xml/tags.h"
@@ -28,10 +29,13 @@ std::string Properties::describe() const { return fmt::format("{} '{}'", element
 
 SourceLocation Properties::where(const std::string& name) const {
     const auto found = parameters_.find(name);
-    return found == parameters_.end() ? element_.where : found->second->where;
+    if (found != parameters_.end()) return found->second->where;
+    for (const Element* object : objects_)
+        if (!name.empty() && object->get("name") == name) return object->where;
+    return element_.where;
 }
 
-bool Properties::has(const std::string& name) { return find(name) != nullptr; }
+bool Properties::has(const std::string& name) { return find(name) || constantTexture(name); }
 
 const Element* Properties::find(const std::string& name) {
     knownNames_.insert(name);
@@ -48,6 +52,8 @@ const Element* Properties::find(const std::string& name, const Names& tags) {
 }
 
 double Properties::number(const std::string& name, double missing) {
+    if (const Element* constant = constantTexture(name))
+        return luminance(readConstantTexture(*constant, ColorUse::unbounded, context_));
     const Element* parameter = find(name, {"float", "integer"});
     if (!parameter) return missing;
     return parseNumber(parameter->get("value"), parameter->where, fmt::format("parameter '{}'", name));
@@ -112,8 +118,14 @@ glm::dmat4 Properties::transform(const std::string& name) {
     return matrix;
 }
 
+std::optional<Rgb> Properties::color(const std::string& name, ColorUse use) {
+    if (const Element* constant = constantTexture(name)) return readConstantTexture(*constant, use, context_);
+    if (const Element* parameter = find(name)) return parseColor(*parameter, use, context_);
+    return std::nullopt;
+}
+
 Rgb Properties::reflectance(const std::string& name, float missing) {
-    const Rgb color = positiveColor(name, {missing, missing, missing});
+    const Rgb color = positiveColor(name, {missing, missing, missing}, ColorUse::reflectance);
     if (largest(color) > 1)
         throw InputError(where(name),
                          fmt::format("parameter '{}' of {} is ({}, {}, {}); every channel must lie within [0, 1].",
@@ -121,10 +133,8 @@ Rgb Properties::reflectance(const std::string& name, float missing) {
     return color;
 }
 
-Rgb Properties::positiveColor(const std::string& name, Rgb missing) {
-    const Element* parameter = find(name);
-    if (!parameter) return missing;
-    const Rgb color = parseColor(*parameter, ColorUse::scale);
+Rgb Properties::positiveColor(const std::string& name, Rgb missing, ColorUse use) {
+    const Rgb color = this->color(name, use).value_or(missing);
     if (smallest(color) < 0)
         throw InputError(where(name), fmt::format("parameter '{}' of {} is ({}, {}, {}); no channel may be negative.",
                                                   name, describe(), color.r, color.g, color.b));
@@ -132,9 +142,7 @@ Rgb Properties::positiveColor(const std::string& name, Rgb missing) {
 }
 
 Rgb Properties::emission(const std::string& name, Rgb missing) {
-    const Element* parameter = find(name);
-    if (!parameter) return missing;
-    const Rgb color = parseColor(*parameter, ColorUse::emission);
+    const Rgb color = this->color(name, ColorUse::emission).value_or(missing);
     if (smallest(color) < 0 || isBlack(color))
         throw InputError(where(name),
                          fmt::format("parameter '{}' of {} is ({}, {}, {}); an emitter needs a positive channel "
@@ -174,6 +182,19 @@ const Element* Properties::named(const std::string& tag, const std::string& name
         found = &target;
     }
     return found;
+}
+
+const Element* Properties::texture(const std::string& name) {
+    return constantTexture(name) ? nullptr : named("texture", name);
+}
+
+const Element* Properties::constantTexture(const std::string& name) {
+    for (const Element* object : objects_) {
+        const Element& target = context_.resolve(*object);
+        if (target.tag == "texture" && object->get("name") == name && isConstantTexture(target))
+            return named("texture", name);
+    }
+    return nullptr;
 }
 
 void Properties::accept(const Names& names) { knownNames_.insert(names.begin(), names.end()); }

@@ -41,8 +41,8 @@ public:
     glm::dmat4 transform(const std::string& name);
     /// Channels within [0, 1].
     Rgb reflectance(const std::string& name, float missing);
-    /// Channels of at least 0.
-    Rgb positiveColor(const std::string& name, Rgb missing);
+    /// Channels of at least 0. `use` is for spectra.
+    Rgb positiveColor(const std::string& name, Rgb missing, ColorUse use = ColorUse::unbounded);
     /// Radiance or intensity: no channel negative, at least one positive.
     Rgb emission(const std::string& name, Rgb missing);
 
@@ -52,8 +52,8 @@ public:
     const Element* object(const std::string& tag);
 
     /// The <texture> that gives this parameter, nested or referenced, or nullptr. Throws InputError where the parameter
-    /// is given as a value too.
-    const Element* texture(const std::string& name) { return named("texture", name); }
+    /// is given as a value too. A texture that is one colour everywhere is no texture here but a colour or number.
+    const Element* texture(const std::string& name);
     /// The <medium> of that name, nested or referenced, or nullptr.
     const Element* medium(const std::string& name) { return named("medium", name); }
 
@@ -70,6 +70,8 @@ public:
 
 private:
     const Element* find(const std::string& name, const Names& tags);
+    const Element* constantTexture(const std::string& name);
+    std::optional<Rgb> color(const std::string& name, ColorUse use);
     const Element* named(const std::string& tag, const std::string& name);
     void checkObject(const Element& object) const;
 

@@ -1,5 +1,6 @@
 // The table of texture plugins, and what is common to reading any of them.
 #include "scene/plugin_lookup.h"
+#include "scene/textures/constant_texture.h"
 #include "scene/textures/texture_plugin.h"
 #include "scene/transform.h"
 
@@ -47,7 +48,7 @@ int useTexture(const Element& element, LoadContext& context) {
 } // namespace
 
 TextureDescription readTexture(const Element& element, LoadContext& context) {
-    const TexturePlugin& plugin = findPlugin(texturePlugins, element);
+    const TexturePlugin& plugin = findPlugin(texturePlugins, element, constantTextureNames());
     Properties properties(element, context);
     TextureDescription texture;
     texture.where = element.where;

@@ -31,7 +31,7 @@ const std::vector<Tag> tags = {
     {"boolean", TagKind::parameter, {"name", "value"}, {}},
     {"string", TagKind::parameter, {"name", "value"}, {}},
     {"rgb", TagKind::parameter, {"name", "value"}, {}},
-    {"spectrum", TagKind::parameter, {"name"}, {"value", "filename", "type"}},
+    {"spectrum", TagKind::parameter, {"name"}, {"value", "filename"}},
     {"point", TagKind::parameter, {"name"}, {"x", "y", "z", "value"}},
     {"vector", TagKind::parameter, {"name"}, {"x", "y", "z", "value"}},
     {"transform", TagKind::transform, {"name"}, {}},

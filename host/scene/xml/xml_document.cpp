@@ -115,6 +115,8 @@ private:
         if (!parent && element.find("version")) version_ = majorVersion(element.get("version"));
         const bool isOld = version_ == 0 || version_ == 1;
         if (isOld) upgradeNames(element);
+        if (element.tag == "spectrum" && element.find("type"))
+            element.tag = "texture"; // one kind of plugin, as in Mitsuba
         checkElement(element, parent);
         for (pugi::xml_node child : node.children()) convertChild(child, element, positions, depth);
         if (isOld) upgradeTextureCoordinates(element);
