@@ -13,7 +13,7 @@
 #define RADIUS_WINDOW 2
 /* A squared curvature below this share of its noise is taken to be as large. */
 #define CURVATURE_FLOOR 0.1f
-/* Squared bias counts this many times: it is told too low where features are narrow, and a smaller radius costs less time. */
+/* Squared bias counts this many times: it is underestimated where features are narrow, and a smaller radius costs less time. */
 #define BIAS_CARE 3.0f
 #define RADIUS_SCALE_MIN 0.3f
 

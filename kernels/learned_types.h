@@ -73,10 +73,10 @@ typedef struct {
  * brings in all; and where light that is scattered there matters, as (1 + number of a set's first opening) << 16 | probability *
  * 65535 of aiming at it. */
 #define IMPORTANCE_WORDS 4
-/* Instead of an aim: too few pilots came to tell where scattered light matters; the coarse cell does. */
+/* Instead of an aim: too few pilots came to know where scattered light matters; the coarse cell does. */
 #define IMPORTANCE_UNKNOWN 0xffffffffu
 #define IMPORTANCE_COARSE 8.0f /* size of a coarse cell to that of a fine one */
-/* The same of the cells that tell where pilots gathered at all: wide enough for discs that reach in from beside. */
+/* The same of the cells that hold where pilots gathered at all: wide enough for discs that reach in from beside. */
 #define SEEN_COARSE 4.0f
 
 /* Distances from the eye, by powers of two: nearer ones belong to the first, farther ones to the last. */

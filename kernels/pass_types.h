@@ -134,7 +134,7 @@ typedef struct {
 
 /* ---- density radius by pixel (kernels/adaptive_radius.cl) ---- */
 
-/* What the pilot tells of one class of light in one of its pixels, relative to the radiance there. */
+/* What the pilot measures of one class of light in one of its pixels, relative to the radiance there. */
 typedef struct {
     float
         curvature; /* squared: the bias at radius r, in units of MapParams::radius of the first pass, is r^2 times its root */

@@ -1,4 +1,4 @@
-/* Learning, step 1: paths from the camera to the emitters, which tell where photons should begin and where they matter.
+/* Learning, step 1: paths from the camera to the emitters, which show where photons should begin and where they matter.
  * From: the camera. To: one PilotPath each.
  *
  * A pilot path scatters with all lobes and is never cut short by the map. From the vertex on where the camera would gather diffuse
@@ -289,8 +289,8 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     state.gathers = 1;
     state.events = SCATTER_GENUINE_DIFFUSE; /* direct light at the meter is sampled */
 #else
-    state.ray = cameraRay(&params.camera, pixel,
-                          filterPlace(&params.camera, tables, pixel, rngNext2(&state.rng)).offset);
+    state.ray =
+        cameraRay(&params.camera, pixel, filterPlace(&params.camera, tables, pixel, rngNext2(&state.rng)).offset);
 #endif
     state.from = state.ray.origin;
     uint event = 0;

@@ -3,7 +3,7 @@
 
 Renders go to out/auto/ and are kept: a later run makes only what is missing (--again makes all anew), so that scenes can be done in
 several runs. After a change of the kernels take --again: renders by fixed settings come first and leave kernels compiled for those by
---auto. The error of a render is the root of relMSE: what the render tells of itself (noiseRms^2 + biasRms^2) and, where
+--auto. The error of a render is the root of relMSE: what the render estimates of itself (noiseRms^2 + biasRms^2) and, where
 the truth is known, what the image has: what `scripts/relmse.py` measures against a reference of scenes/references/, or the
 distance from a radiance that is the same everywhere.
 
@@ -65,7 +65,7 @@ class Table:
         return json.loads(statistics.read_text()), image
 
     def errors(self, scene, settings, seconds=None):
-        """Told error, true one or None, statistics."""
+        """Estimated error, true one or None, statistics."""
         statistics, image = self.render(scene, settings, seconds or self.options.time)
         told = statistics["error"]["relativeMse"]
         net = true_error(scene, image)
@@ -128,7 +128,7 @@ class Table:
                 str(settings["bdd"]), "--photons", str(report["photonsPerPass"]), "--radius-scale", f"{settings['radiusScale']:.6g}"]
 
     def mean(self, scene, runs):
-        """Roots of the mean told relMSE and of the mean true one (None where it is not known), of (settings, seed)."""
+        """Roots of the mean estimated relMSE and of the mean true one (None where it is not known), of (settings, seed)."""
         all_errors = [self.errors(scene, [*settings, "--seed", str(seed)]) for settings, seed in runs]
 
         def root(values):
@@ -193,7 +193,7 @@ def main():
     lines = [HEADER, ["---"] * len(HEADER), *rows]
     text = (
         f"{MARK}\n\n`scripts/auto_table.py --time {options.time:g}`: {measured_on(statistics, options.time, load)}. "
-        "Error: root of relMSE as told by the render; ratios are of errors.\n\n"
+        "Error: root of relMSE as estimated by the render; ratios are of errors.\n\n"
         + "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
     )
     print(text)

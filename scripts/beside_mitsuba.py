@@ -1,7 +1,7 @@
 """scenes/plate_checker.xml by quasilux and by Mitsuba 3's `volpath`, each twice for the same time, in turns.
 
 Called by scripts/beside_mitsuba.sh. Kernels of both are compiled before the clock starts. Each image is compared with the
-reference, net of its noise; and the two images of a renderer with each other, which tells their noise without any reference:
+reference, net of its noise; and the two images of a renderer with each other, which shows their noise without any reference:
 half the mean of (A - B)^2 with the weights of net relMSE.
 """
 import os

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What the area correction at borders costs and gains: density_cost.sh [PASSES, default 60].
 # Renders the modified Cornell box with the program as it is and with one built from a copy whose kernels are never
-# told of borders; prints device time by kernel and the errors of both (docs/method/density.md).
+# given borders; prints device time by kernel and the errors of both (docs/method/density.md).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 passes=${1:-60}

@@ -164,7 +164,7 @@ def main():
     print(f"sum of both at the edge: {100 * values[-1]:+.1f} +- {100 * errors[-1]:.1f} % of that far from it")
     expected = EXPECTED["10-90 %"][1]
     if errors[0] > TOLERANCE / 2 * expected:
-        print("the error is too large to tell: more seconds, seeds or photons are needed")
+        print("the error is too large to decide: more seconds, seeds or photons are needed")
     else:
         print(f"10-90 % is within {100 * TOLERANCE:g} %: {'yes' if abs(values[0] - expected) <= TOLERANCE * expected else 'no'}")
 

@@ -19,7 +19,7 @@ control() {
     fi
 }
 
-# Photons walk abreast (kernels/photon_walk.clh), which Oclgrind's device would not have of itself.
+# Photons walk by eight (kernels/photon_walk.clh), which Oclgrind's device would not have of itself.
 # Oclgrind 21.10 does not know a marker that LLVM leaves where it inlines (noalias.scope.decl): so nothing is inlined.
 asWritten="-w -cl-opt-disable -Dinline=static -DALWAYS_INLINE=static -DWALK_ANYWHERE"
 

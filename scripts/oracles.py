@@ -26,7 +26,7 @@ from oracle_scenes import (
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/quasilux"
 
-RESOLVED = 0.01  # largest standard error of a reading that tells anything
+RESOLVED = 0.01  # largest standard error of a reading that decides anything
 
 # Directional albedo of GGX with Smith's separable masking, no Fresnel factor; single scattering. By alpha and angle.
 GGX_ALBEDO = {

@@ -33,7 +33,7 @@ TEST(Prediction, NoiseFallsWithPassesAndBiasWithTheMeanSquaredRadius) {
     EXPECT_NEAR(predictAfter(pilot, 1).passes, 14, 1e-9);
 }
 
-// A bias that cannot be told from none may be there: the candidate that knows less about it is not the better one for that.
+// A bias that cannot be distinguished from none may be there: the candidate that knows less about it is not the better one for that.
 TEST(Prediction, BiasIsAtLeastWhatItsNoiseMayHide) {
     PilotMeasure pilot = evenPilot(4, 8, 0.01, 0.1);
     EXPECT_NEAR(predictAfterPasses(pilot, 4).bias, 0.01, 1e-9); // control: known well
@@ -75,7 +75,7 @@ void addScatter(PilotMeasure& pilot) {
 }
 constexpr double scatterOfSum = 0.16; // of 64 tiles
 
-// Biases that noise hides say nothing for either, nor that one radius is better. Controls: biases that are told.
+// Biases that noise hides say nothing for either, nor that one radius is better. Controls: biases that are resolved.
 TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
     PilotMeasure a = evenPilot(4, 1, 0.2, 1), b = evenPilot(4, 1, 0.3, 1);
     const auto told = predictedErrors({&a, &b}, 0);
@@ -84,7 +84,7 @@ TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
     const auto hidden = predictedErrors({&a, &b}, 0);
     EXPECT_NEAR(hidden[0], hidden[1], 1e-9);
     b.radius = std::sqrt(2.0);
-    // So many times the bias is expected of it, so it tells a's with that much less noise.
+    // So many times the bias is expected of it, so it estimates a's with that much less noise.
     const double more = std::pow(2.0, 1.4);
     const double ofA = (0.2 + more * 0.3) / (1 + more * more);
     const auto apart = predictedErrors({&a, &b}, 0);
@@ -92,7 +92,7 @@ TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
     EXPECT_NEAR(apart[1], 0.25 + more * ofA, 1e-3);
 }
 
-// Of a difference of two standard errors three quarters count. Controls: all of what is told surely; nothing below one.
+// Of a difference of two standard errors three quarters count. Controls: all of what is known exactly; nothing below one.
 TEST(Prediction, BiasesCountApartAsFarAsNoiseDoesNotExplainIt) {
     const auto apart = [](double standardErrors, bool isSure) {
         const double difference = standardErrors * std::sqrt(2.0) * scatterOfSum;
@@ -108,7 +108,7 @@ TEST(Prediction, BiasesCountApartAsFarAsNoiseDoesNotExplainIt) {
     EXPECT_NEAR(apart(0.9, false), 0, 1e-9);
 }
 
-// From 8 passes of a render what 64 tell: within 30 % of the square, 15 % of the error, since 8 passes know no better;
+// From 8 passes of a render what 64 estimate: within 30 % of the square, 15 % of the error, since 8 passes know no better;
 // the seed is fixed. One radius for all: radii by pixel, chosen in these passes, lower the noise later (docs/method/auto.md). Negative control: were noise not divided by passes, it would be 8 times too much.
 TEST(Prediction, HoldsInARender) {
     Device device(0);

@@ -1,11 +1,11 @@
-// Do renders tell their own error truly? scenes/cornell_phong.xml at 64 x 64 pixels and 24,576 photons a pass, rendered from
+// Is the error that renders estimate right? scenes/cornell_phong.xml at 64 x 64 pixels and 24,576 photons a pass, rendered from
 // ten seeds. The truth about noise is the scatter between the seeds, the truth about bias the difference of their mean from
 // the reference of cornell_test, net of the noise of both. Figures are averaged over the seeds as root mean squares.
 //
-// Where an edge crosses a pixel, the even spread of its samples over the passes makes the image surer than the passes tell
+// Where an edge crosses a pixel, the even spread of its samples over the passes gives the image less variance than the passes show
 // (docs/method/accuracy.md). In the whole image the ratio of predicted to true noise is up to 1.17 for that, its 95th percentile up to
 // 1.25, which leaves no room for scatter: percentiles and the diffuse component are held against the truth in the pixels
-// that lie within one surface. Direct light, noisy next to nowhere but at edges, is only held never to be told too low.
+// that lie within one surface. Direct light, noisy next to nowhere but at edges, is only held never to be underestimated.
 //
 // False alarms: seeds are fixed. For others the ratios would scatter by an estimated 3 %, as the scatter between ten seeds
 // is itself known to no more (ten values in some hundred patches of independent noise): the bounds 0.8 and 1.25 are 2.5
@@ -231,7 +231,8 @@ TEST(Calibration, BiasIsThatAgainstTheReference) {
         const double slope = products.both / products.estimatedSquared;
         const double left = std::sqrt(
             std::max(0.0, products.trueSquared - 2 * products.both + products.estimatedSquared) / products.trueSquared);
-        printf("%3u passes: true bias %.3f %%, told %.3f %%, from all seeds %.3f %%; true on told %.2f, left after "
+        printf("%3u passes: true bias %.3f %%, estimated %.3f %%, from all seeds %.3f %%; true on estimated %.2f, left "
+               "after "
                "correction %.2f\n",
                checkpoints[k], 100 * truth, 100 * told, 100 * std::sqrt(products.estimatedSquared), slope, left);
         EXPECT_LT(truth, 2 * told) << checkpoints[k];

@@ -193,7 +193,7 @@ TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
     }
 }
 
-// What the map holds is told before a render. With the whole phase function as quasi-specular a camera path stores one
+// What the map holds is known before a render. With the whole phase function as quasi-specular a camera path stores one
 // point in a medium by the main variant, and one at each collision by the alternative one.
 TEST_F(CommandLineTest, InfoTellsWhatTheMapHolds) {
     const auto stored = [this](const std::string& variant) {
@@ -225,7 +225,7 @@ TEST(Names, OfComponentsAndSettings) {
     }
 }
 
-// Some fifth of the photons tell of this box's light: 200 are too few for a render to know its noise, 5000 are not.
+// Some fifth of the photons contribute to this box's light: 200 are too few for a render to know its noise, 5000 are not.
 TEST_F(CommandLineTest, RareLightIsWarnedOf) {
     const auto errors = [&](const char* photons, const char* passes) {
         const Outcome outcome = run({"render", QUASILUX_SOURCE_DIR "/scenes/cornell_phong.xml", "--fixed", "--photons",
@@ -233,7 +233,7 @@ TEST_F(CommandLineTest, RareLightIsWarnedOf) {
         EXPECT_EQ(outcome.exitCode, 0);
         return outcome.errors;
     };
-    EXPECT_THAT(errors("200", "1"), HasSubstr("that light is not known, nor its error; render longer"));
+    EXPECT_THAT(errors("200", "1"), HasSubstr("too few to estimate that light or its error; render longer"));
     EXPECT_EQ(errors("5000", "1"), "");
 }
 

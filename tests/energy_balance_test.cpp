@@ -120,7 +120,7 @@ TEST(EnergyBalance, ChanceTakesAsMuchAsItGives) {
     for (const char* file : {"furnace_split.xml", "furnace_textured.xml", "furnace_medium.xml"}) {
         const MeanAndError share = lossByChance(file, PhotonRule::right);
         EXPECT_LE(std::abs(share.mean), 4 * share.standardError) << file;
-        EXPECT_LT(share.standardError, 0.005) << file << " is too noisy to tell anything";
+        EXPECT_LT(share.standardError, 0.005) << file << " is too noisy to decide anything";
     }
 }
 

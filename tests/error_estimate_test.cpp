@@ -47,7 +47,7 @@ TEST(ErrorEstimate, KnowsWhatItDoesNotKnow) {
 }
 
 // Pixels of relative noise `deviation[pixel]` per pass, rendered in so many passes; bias `bias` everywhere, of which each pass
-// tells with three times the noise of the image.
+// estimates with three times the noise of the image.
 FilmImage simulate(const std::vector<double>& deviation, unsigned passes, double bias, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;

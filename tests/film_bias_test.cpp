@@ -1,6 +1,6 @@
 // The standard error of the bias where its noise grows from pass to pass, as it does while discs shrink.
 //
-// False alarms: the mean of 12288 independent estimates of a variance scatters by 0.5 % (as many as 20 batches tell each), so
+// False alarms: the mean of 12288 independent estimates of a variance scatters by 0.5 % (each from as few as 20 batches), so
 // bounds of 2 % raise one in 15,000 runs.
 #include "render/film.h"
 #include "support/test_kernels.h"
@@ -28,7 +28,7 @@ std::vector<Float4> biasOfPass(unsigned pass, float weight, std::mt19937& random
     return bias;
 }
 
-/// Variance of the mean of all channels, as the film tells it after some passes.
+/// Variance of the mean of all channels, as the film estimates it after some passes.
 struct Told {
     double byFilm = 0, truth = 0;
     double byMeanSquares = 0; ///< as if noise were the same in all passes: squares of batches divided by their passes

@@ -49,7 +49,7 @@ class RightRule : public testing::TestWithParam<Method> {};
 TEST_P(RightRule, GivesTheClosedForm) {
     const auto result = renderFurnace(GetParam());
     EXPECT_NEAR(result.mean, truth, allowed(result)) << "standard error " << result.standardError;
-    EXPECT_LT(result.standardError, 0.01 * truth) << "too noisy to tell anything";
+    EXPECT_LT(result.standardError, 0.01 * truth) << "too noisy to decide anything";
 }
 constexpr auto emitters = DirectLight::emitters;
 constexpr auto photons = DirectLight::photons;

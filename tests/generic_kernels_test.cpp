@@ -32,7 +32,7 @@ TEST_P(GenericKernels, GiveTheImageOfTheSceneKernels) {
         const auto scene = meanRadiance(GetParam(), false, direct), generic = meanRadiance(GetParam(), true, direct);
         const double standardError = std::hypot(scene.standardError, generic.standardError);
         EXPECT_NEAR(generic.mean, scene.mean, 3.5 * standardError) << "direct light by " << name(direct);
-        EXPECT_LT(standardError, 0.01 * scene.mean) << "too noisy to tell anything";
+        EXPECT_LT(standardError, 0.01 * scene.mean) << "too noisy to decide anything";
     }
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, GenericKernels,

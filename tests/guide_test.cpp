@@ -181,7 +181,7 @@ AimSet squaresAboutAPlace() {
 }
 
 // Half of the scattered photons are aimed just above the floor of a cube with even light. Share of the light that was
-// scattered before which arrives on the floor there, over the square's share of the area; 10 or more standard errors tell 1 from 2.
+// scattered before which arrives on the floor there, over the square's share of the area; 10 or more standard errors separate 1 from 2.
 MeanAndError lightBelowAims(PhotonRule rule, const std::vector<AimSet>& aims) {
     FlattenSettings flattening;
     flattening.largestRadius = [](double) { return 0.1; };
@@ -213,7 +213,7 @@ TEST(GuidedMean, AimedPhotonsBringNoMoreLightThere) {
                              std::vector{squaresAboutAPlace(), squareAboveTheFloor}}) {
         const MeanAndError right = lightBelowAims(PhotonRule::right, aims);
         EXPECT_NEAR(right.mean, 1, 4 * right.standardError);
-        EXPECT_LT(right.standardError, 0.02) << "too noisy to tell anything";
+        EXPECT_LT(right.standardError, 0.02) << "too noisy to decide anything";
         EXPECT_GT(lightBelowAims(PhotonRule::missingAimWeight, aims).mean, 2) << "negative control";
     }
 }
@@ -284,7 +284,7 @@ MeanAndError renderRoom(PhotonRule rule) {
 TEST(GuidedMean, ARoomOfAFurnaceIsAsBrightAsItsSky) {
     const MeanAndError right = renderRoom(PhotonRule::right);
     EXPECT_NEAR(right.mean, 1, 4 * right.standardError + 0.005);
-    EXPECT_LT(right.standardError, 0.01) << "too noisy to tell anything";
+    EXPECT_LT(right.standardError, 0.01) << "too noisy to decide anything";
     for (const PhotonRule rule : {PhotonRule::missingGuideWeight, PhotonRule::missingSplitWeight}) {
         const MeanAndError wrong = renderRoom(rule);
         EXPECT_GT(std::abs(wrong.mean - 1), 4 * wrong.standardError + 0.005)

@@ -120,7 +120,7 @@ TEST_P(Placed, AThinPaneTransmits) {
         const auto result =
             renderGroups(placedScene(text, GetParam()), RenderSettings{}, std::vector<int>(64 * 64, 0), 10, 4).front();
         EXPECT_NEAR(result.mean, transmittance, std::max(bound * transmittance, 3 * result.standardError)) << degrees;
-        EXPECT_LT(result.standardError, 0.004) << "too noisy to tell anything";
+        EXPECT_LT(result.standardError, 0.004) << "too noisy to decide anything";
     }
 }
 
@@ -142,7 +142,7 @@ TEST_P(Placed, ALampCloseToAFloor) {
         renderGroups(placedScene(closeLamp(200), GetParam()), countingSettings(1000), std::vector<int>(256, 0), 10, 40)
             .front();
     EXPECT_NEAR(result.mean, 1, std::max(bound, 3 * result.standardError));
-    EXPECT_LT(result.standardError, 0.003) << "too noisy to tell anything";
+    EXPECT_LT(result.standardError, 0.003) << "too noisy to decide anything";
     Renderer renderer(testDevice(), placedScene(closeLamp(GetParam().turned ? 200 : 2000), GetParam()),
                       countingSettings(20'000));
     renderer.renderPass(0);
@@ -188,7 +188,7 @@ TEST(HardCases, ANearMirrorInAUniformSky) {
     const auto result =
         renderGroups(placedScene(text, ordinary), countingSettings(4000), std::vector<int>(256, 0), 10, 20).front();
     EXPECT_NEAR(result.mean, 1, std::max(bound, 3 * result.standardError));
-    EXPECT_LT(result.standardError, 0.005) << "too noisy to tell anything";
+    EXPECT_LT(result.standardError, 0.005) << "too noisy to decide anything";
 }
 
 // Lossless, so radiance 1 everywhere: optical depths 1e-3 and 100, peaks both ways and exactly none.
@@ -214,7 +214,7 @@ TEST(HardCases, LosslessMediaInAUniformSky) {
         settings.variant = Variant::alternative;
         const auto result = renderGroups(scene, settings, std::vector<int>(64, 0), 10, 10).front();
         EXPECT_NEAR(result.mean, 1, std::max(bound, 3 * result.standardError)) << c.sigmaT << ' ' << c.g;
-        EXPECT_LT(result.standardError, 0.015) << "too noisy to tell anything";
+        EXPECT_LT(result.standardError, 0.015) << "too noisy to decide anything";
     }
 }
 

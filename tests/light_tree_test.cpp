@@ -215,7 +215,7 @@ MeanAndError furnaceMean(const Change& change) {
 TEST(ManyEmitters, FurnaceIsAsBrightAsItsWalls) {
     const MeanAndError right = furnaceMean([](const auto&) {});
     EXPECT_NEAR(right.mean, 1, 4 * right.standardError + 0.003);
-    EXPECT_LT(right.standardError, 0.004) << "too noisy to tell anything";
+    EXPECT_LT(right.standardError, 0.004) << "too noisy to decide anything";
     const MeanAndError wrong = furnaceMean([](std::vector<shared::LightChoice>& choices) {
         for (size_t k = 0; k < choices.size(); k += LIGHT_CHOICES) choices[k].probability = 0.5f;
     });

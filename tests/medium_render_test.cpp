@@ -2,7 +2,7 @@
 // Beer's law; and paths of very many collisions.
 //
 // A right render passes within 0.5 % or 3 standard errors (from 20 batches: two-sided Student t, 0.7 % a case); the seeds
-// are fixed. A render with a standard error above 1.5 % tells nothing and fails.
+// are fixed. A render with a standard error above 1.5 % decides nothing and fails.
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
@@ -57,7 +57,7 @@ TEST_P(MediumFurnace, IsInBalance) {
     const Case& c = GetParam();
     const auto result = measure(c);
     EXPECT_NEAR(result.mean, c.radiance, allowed(c, result)) << "standard error " << result.standardError;
-    EXPECT_LT(result.standardError, 0.015 * c.radiance) << "too noisy to tell anything";
+    EXPECT_LT(result.standardError, 0.015 * c.radiance) << "too noisy to decide anything";
 }
 
 const Parameters inside = {{"border", "glass"}, {"eye", "0,0,0.3"}, {"fov", "60"}};

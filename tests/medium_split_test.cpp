@@ -98,7 +98,7 @@ TEST(MediumSplit, GlobalSettings) {
 TEST(MediumSplit, AListNamesMediaAndLeavesTheOthersToAuto) {
     const auto decisions = decideMediumSplit(threeMedia(), "milk,glass", true);
     EXPECT_EQ(decisions[2].level, 0);
-    EXPECT_EQ(decisions[2].why, "listed");
+    EXPECT_EQ(decisions[2].why, "setting: listed");
     EXPECT_EQ(decisions[0].level, static_cast<float>(autoPhaseLevel));
 }
 

@@ -1,4 +1,4 @@
-// Memory is told before it is taken, of the device and of the process, and a render that does not fit does not start.
+// Memory is forecast before it is taken, of the device and of the process, and a render that does not fit does not start.
 #include "support/program_runner.h"
 
 #include <algorithm>
@@ -78,12 +78,12 @@ TEST_F(MemoryTest, IsToldBeforeItIsTaken) {
         SCOPED_TRACE(name);
         taken(arguments); // kernels come from the runtime's cache from now on: compiling them takes memory, too
         const Bytes told = forecast(arguments), real = taken(arguments);
-        EXPECT_TRUE(isClose(told.device, real.device)) << told.device << " told, taken " << real.device;
-        EXPECT_TRUE(isClose(told.host, real.host)) << told.host << " told, taken " << real.host;
+        EXPECT_TRUE(isClose(told.device, real.device)) << told.device << " forecast, taken " << real.device;
+        EXPECT_TRUE(isClose(told.host, real.host)) << told.host << " forecast, taken " << real.host;
     }
 }
 
-// Negative control: the forecast of a film, or of photons, that differ by a fifth is told from the right one.
+// Negative control: the forecast of a film, or of photons, that differ by a fifth is distinguished from the right one.
 TEST_F(MemoryTest, OfAnotherRenderDiffers) {
     const Bytes film = taken(cases()[0].arguments), photons = taken(cases()[1].arguments);
     const Bytes smaller = forecast({scene("cornell_phong.xml"), "-D", "resolution=540", "--photons", "50000"});

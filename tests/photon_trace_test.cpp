@@ -58,7 +58,7 @@ TEST(PhotonTrace, StoredFluxIsTheEmittedFluxTimesItsSeries) {
     EXPECT_NEAR(quasiCaustic.mean / emitted, 0.3 / 0.7, 4 * quasiCaustic.standardError / emitted);
     const auto diffuse = overPasses(flux, LIGHT_DIFFUSE);
     EXPECT_NEAR(diffuse.mean / emitted, 2.5 - 1 - 0.3 / 0.7, 4 * diffuse.standardError / emitted);
-    EXPECT_LT(diffuse.standardError / emitted, 0.01) << "too noisy to tell anything";
+    EXPECT_LT(diffuse.standardError / emitted, 0.01) << "too noisy to decide anything";
     // Negative control: reflectance 3 % off would be seen.
     EXPECT_GT(std::abs(quasiCaustic.mean / emitted - 0.309 / 0.691), 4 * quasiCaustic.standardError / emitted);
 }

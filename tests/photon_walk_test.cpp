@@ -1,4 +1,4 @@
-// Photons that walk through a medium eight abreast (kernels/photon_walk.clh) do what they do on their own: the same numbers
+// Photons that walk through a medium by eight (kernels/photon_walk.clh) do what they do on their own: the same numbers
 // are drawn, so paths differ by rounding only, which grows from collision to collision. And thinning keeps the mean.
 //
 // Walks are compiled on every device here (-DWALK_ANYWHERE); photons on their own by the option that the kernels have for
@@ -74,7 +74,7 @@ TEST(PhotonWalk, AbreastPhotonsDoWhatTheyDoOnTheirOwn) {
         ASSERT_GT(abreast()[0][slot].size(), 300u) << "too few photons of class " << lightClass;
         const MeanAndError ratio = fluxRatio(abreast(), alone, slot);
         EXPECT_NEAR(ratio.mean, 1, 4 * ratio.standardError + 1e-6) << "class " << lightClass;
-        EXPECT_LT(ratio.standardError, 0.02) << "too noisy to tell anything about class " << lightClass;
+        EXPECT_LT(ratio.standardError, 0.02) << "too noisy to decide anything about class " << lightClass;
     }
     const unsigned first = VOLUME_SLOT(LIGHT_CAUSTIC); // first collisions: nothing has scattered before
     EXPECT_GT(sharePaired(abreast()[0][first], alone[0][first]), 0.99);
@@ -102,7 +102,7 @@ TEST(PhotonWalk, ThinningKeepsTheMean) {
             const unsigned slot = VOLUME_SLOT(lightClass);
             const MeanAndError ratio = fluxRatio(thinned, abreast(), slot);
             EXPECT_NEAR(ratio.mean, 1, 4 * ratio.standardError) << "class " << lightClass << options;
-            EXPECT_LT(ratio.standardError, 0.012) << "too noisy to tell anything about class " << lightClass;
+            EXPECT_LT(ratio.standardError, 0.012) << "too noisy to decide anything about class " << lightClass;
             // Negative control: flux divided by a share 5 % off would be seen.
             EXPECT_GT(std::abs(1.05 * ratio.mean - 1), 4 * ratio.standardError) << "class " << lightClass << options;
             const double share = double(thinned[0][slot].size()) / double(abreast()[0][slot].size());

@@ -100,7 +100,7 @@ TEST_P(RoughGlass, InterfaceShowsTheSkyAsItsLobeSharesIt) {
         const auto shares = sharesOf(front, ggx());
         const double truth = shares.reflected + shares.transmitted;
         EXPECT_NEAR(result.mean, truth, allowed(result, truth)) << "front " << front << " " << result.standardError;
-        EXPECT_LT(result.standardError, 0.015 * truth) << "too noisy to tell anything";
+        EXPECT_LT(result.standardError, 0.015 * truth) << "too noisy to decide anything";
         // Negative controls: refraction without 1 / eta^2, and light from one side only.
         const double wrong = shares.reflected + (front ? eta * eta : 1 / (eta * eta)) * shares.transmitted;
         EXPECT_GT(std::abs(result.mean - wrong), allowed(result, wrong));
@@ -115,7 +115,7 @@ TEST_P(RoughGlass, BallHasTheRadianceOfItsEquation) {
     const double truth = truths[ggx()];
     const auto result = render(loadUnderSky("sphere", glass(ggx()), "0,0,5", halfWidth), method(), 0.5);
     EXPECT_NEAR(result.mean, truth, allowed(result, truth)) << result.standardError;
-    EXPECT_LT(result.standardError, 0.015 * truth) << "too noisy to tell anything";
+    EXPECT_LT(result.standardError, 0.015 * truth) << "too noisy to decide anything";
     // GGX loses 18 % by single scattering, Beckmann 3 %: the equation and not the lossless ball is what is seen.
     if (ggx()) {
         EXPECT_GT(std::abs(result.mean - 1), allowed(result, 1));
@@ -189,14 +189,14 @@ TEST(RoughGlassOverAFloor, IsTheSameForwardBackwardAndSplit) {
     const auto bound = [&](const MeanAndError& other) {
         return 3.5 * std::hypot(backward.standardError, other.standardError) + 0.005 * backward.mean;
     };
-    EXPECT_LT(backward.standardError, 0.01 * backward.mean) << "too noisy to tell anything";
+    EXPECT_LT(backward.standardError, 0.01 * backward.mean) << "too noisy to decide anything";
     for (const Method& method : {Method{"forward", 0, Variant::main, "none", emitters},
                                  Method{"forward, direct light too", 0, Variant::main, "none", photons},
                                  Method{"split", 0, Variant::main, "glass", emitters},
                                  Method{"split, further", 2, Variant::alternative, "glass", photons}}) {
         const auto other = renderFloor(method);
         EXPECT_NEAR(other.mean, backward.mean, bound(other)) << method.name;
-        EXPECT_LT(other.standardError, 0.015 * other.mean) << method.name << ": too noisy to tell anything";
+        EXPECT_LT(other.standardError, 0.015 * other.mean) << method.name << ": too noisy to decide anything";
     }
     const auto darker = renderFloor({"", 0, Variant::main, "none", emitters}, 0.8f);
     EXPECT_GT(std::abs(darker.mean - backward.mean), bound(darker)) << "light through the ball must matter";

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 struct Truth {
     double secondsPerPass = 0.1, noisePerPass = 1, bias = 0;
-    double firstNoise = 0; // told before `honestFrom` passes, all of it even; 0: honest from the start
+    double firstNoise = 0; // estimated before `honestFrom` passes, all of it even; 0: honest from the start
     unsigned honestFrom = 0;
 };
 using World = std::function<Truth(const RenderSettings&)>;
@@ -236,7 +236,7 @@ TEST(Search, BeginsWithPhotonsByPixelsWhereTheyAreFree) {
     EXPECT_EQ(photons({}, small, everything, byPasses), 0u);
 }
 
-// Besides the two passes that tell what passes cost.
+// Besides the two passes that measure what passes cost.
 TEST(Search, KeepsToItsShareOfTheTime) {
     const World world = [](const RenderSettings&) { return Truth{}; };
     for (const double seconds : {5.0, 10.0, 50.0, 400.0}) {
@@ -246,7 +246,7 @@ TEST(Search, KeepsToItsShareOfTheTime) {
     }
     // Where two candidates do not fit, the first passes are those of the image.
     EXPECT_THAT(search(world, 1.5).report.line(),
-                HasSubstr("(1 candidate, 0 passes, 0.0 s, then the time for pilots was up)"));
+                HasSubstr("; tried 1 setting in 0.0 s (0 passes; the search's time limit)"));
 }
 
 // What decided is no part of the image: pilots have random numbers of their own, the choice the user's.

@@ -56,7 +56,7 @@ class Sky : public testing::TestWithParam<Method> {};
 TEST_P(Sky, WhiteFurnaceIsWhite) {
     const auto result = render(furnace(), GetParam());
     EXPECT_NEAR(result.mean, 1, allowed(result, 1)) << "standard error " << result.standardError;
-    EXPECT_LT(result.standardError, 0.01) << "too noisy to tell anything";
+    EXPECT_LT(result.standardError, 0.01) << "too noisy to decide anything";
 }
 
 TEST_P(Sky, ConvexObjectShowsItsAlbedoByDirectLight) {

@@ -2,7 +2,7 @@
 // function, both variants of the law, and BDD 0 and 1.
 //
 // A right render passes within 0.5 % or 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case); the seeds
-// are fixed, so a case that passes goes on passing. A render with a standard error above 2 % tells nothing and fails.
+// are fixed, so a case that passes goes on passing. A render with a standard error above 2 % decides nothing and fails.
 //
 // QUASILUX_SLAB_TABLE=N in the environment runs every slab with every method instead, N passes a batch, and prints a row
 // of figures for each.
@@ -104,7 +104,7 @@ TEST_P(SlabRender, IsRight) {
                exact, 100 * (result.mean / exact - 1), 100 * result.standardError / exact);
     EXPECT_NEAR(result.mean, exact, allowed(c, result));
     if (tablePasses() == 0) {
-        EXPECT_LT(result.standardError, 0.02 * exact) << "too noisy to tell anything";
+        EXPECT_LT(result.standardError, 0.02 * exact) << "too noisy to decide anything";
     }
 }
 INSTANTIATE_TEST_SUITE_P(Slab, SlabRender, testing::ValuesIn(chosenCases()), label);
@@ -118,7 +118,7 @@ TEST(SlabEnergy, ReflectanceAndTransmittanceOfALosslessPlateAddUpToOne) {
         const double error = std::hypot(r.standardError, t.standardError);
         fmt::print("{}: R + T = {:.5f}, standard error {:.5f}\n", plate, r.mean + t.mean, error);
         EXPECT_NEAR(r.mean + t.mean, 1, std::max(1e-3, 3 * error)) << plate << ", standard error " << error;
-        EXPECT_LT(error, 0.01) << "too noisy to tell anything";
+        EXPECT_LT(error, 0.01) << "too noisy to decide anything";
     }
 }
 

@@ -72,7 +72,7 @@ class TexturedPlane : public testing::TestWithParam<DirectLight> {};
 TEST_P(TexturedPlane, ReflectsAsItsSquares) {
     const auto quarters = renderQuarters(GetParam());
     expectRatios(quarters, true, 4);
-    EXPECT_LT(quarters[0].standardError, 0.01 * quarters[0].mean) << "too noisy to tell anything";
+    EXPECT_LT(quarters[0].standardError, 0.01 * quarters[0].mean) << "too noisy to decide anything";
 }
 TEST_P(TexturedPlane, SwappedColoursAreSeen) {
     expectRatios(renderQuarters(GetParam(), {{"color0", "0.2,0.2,0.2"}, {"color1", "0.8,0.8,0.8"}}), false, 4);

@@ -67,7 +67,7 @@ TEST_P(WrongLearning, LeavesTheMeanAsItIs) {
     const auto wrong = form.wrongWeights > 0 ? measured(PhotonRule::right, form.wrongWeights)
                                              : measured(PhotonRule::missingGuideWeight, 1);
     EXPECT_NEAR(right.mean, form.truth, allowed(right));
-    EXPECT_LT(right.standardError, 0.02 * form.truth) << "too noisy to tell anything";
+    EXPECT_LT(right.standardError, 0.02 * form.truth) << "too noisy to decide anything";
     EXPECT_GT(std::abs(wrong.mean - form.truth), allowed(wrong)) << "negative control";
 }
 INSTANTIATE_TEST_SUITE_P(
@@ -212,7 +212,7 @@ TEST(UnseenLamp, ByTwoMirrorsIsAsBrightAsItsImage) {
     const auto right = measured(PhotonRule::right), wrong = measured(PhotonRule::missingGuideWeight);
     const auto allowed = [&](const MeanAndError& result) { return 4 * result.standardError + 0.005 * truth; };
     EXPECT_NEAR(right.mean, truth, allowed(right));
-    EXPECT_LT(right.standardError, 0.05 * truth) << "too noisy to tell anything";
+    EXPECT_LT(right.standardError, 0.05 * truth) << "too noisy to decide anything";
     EXPECT_GT(std::abs(wrong.mean - truth), allowed(wrong)) << "negative control";
 }
 

@@ -17,7 +17,7 @@ public:
     /// Of all pixels.
     virtual std::vector<float> radiance() const = 0;
     virtual unsigned photonsPerPass() const = 0;
-    /// Preparing and compiling, as far as the first pass told.
+    /// Preparing and compiling, as far as measured by the first pass.
     virtual double openingSeconds() const = 0;
 };
 
@@ -34,14 +34,14 @@ public:
     unsigned photonsPerPass() const override { return renderer_->report().photonsPerPass; }
     double openingSeconds() const override;
 
-    /// Nothing may be asked of the pilot then.
+    /// The pilot may not be used then.
     std::unique_ptr<Renderer> release() { return std::move(renderer_); }
 
 private:
     struct PassSeconds {
         double photons = 0;    ///< traced and sorted
         double camera = 0;     ///< all else, but for choosing radii by pixel
-        double wideCamera = 0; ///< camera paths with the largest discs, as far as choosing radii told
+        double wideCamera = 0; ///< camera paths with the largest discs, as far as measured while radii were chosen
     };
     double lateMedian(double PassSeconds::*part) const;
     double secondsPerPass() const;

@@ -60,11 +60,11 @@ double passesAfter(const PilotMeasure& pilot, double seconds) {
     }
 }
 
-// Below this share of its noise the bias of an image of many pixels cannot be told from 0 (docs/method/accuracy.md).
+// Below this share of its noise the bias of an image of many pixels cannot be distinguished from 0 (docs/method/accuracy.md).
 constexpr double resolvedBias = 1.0 / 25;
 
-// The bias that cannot be told from 0: of small images it is more, as their tiles scatter. What is less counts as so much:
-// taken for what it is told, a candidate would win for knowing less about its bias.
+// The bias that cannot be distinguished from 0: of small images it is more, as their tiles scatter. What is less counts as so much:
+// taken as estimated, a candidate would win for knowing less about its bias.
 double leastBias(const PilotMeasure& pilot) {
     const double n = static_cast<double>(pilot.bias.size()), mean = sum(pilot.bias) / std::max(1.0, n);
     double squares = 0;
@@ -75,7 +75,7 @@ double leastBias(const PilotMeasure& pilot) {
 struct Estimate {
     double value = 0, standardError = 0;
 
-    // What cannot be told from 0 counts as much as it may be.
+    // What cannot be distinguished from 0 counts as much as it may be.
     double counted() const { return std::max(value, standardError); }
 };
 

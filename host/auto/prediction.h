@@ -7,7 +7,7 @@
 
 namespace quasilux {
 
-/// What a few passes tell: error by tile of the image, as shares of relMSE, so that the tiles' sum is the image's.
+/// What a few passes estimate: error by tile of the image, as shares of relMSE, so that the tiles' sum is the image's.
 struct PilotMeasure {
     unsigned passes = 0;
     double secondsPerPass = 0;       ///< of the second half of these passes
@@ -47,7 +47,7 @@ private:
     double weight_ = 0;
 };
 
-/// relMSE of each after `seconds` more on the clock. Biases that differ by less than what can be told, but for what their radii
+/// relMSE of each after `seconds` more on the clock. Biases that differ by less than what can be resolved, but for what their radii
 /// explain, count as one.
 std::vector<double> predictedErrors(const std::vector<const PilotMeasure*>& pilots, double seconds);
 

@@ -36,7 +36,7 @@ public:
     /// `stop` must not be by passes.
     Search(SearchWorld world, const Scene& scene, Freedom freedom, const StopRule& stop);
 
-    /// `start` is the pilot of `settings`, without passes. Its first ones tell whether there is time for a search; they are those of the
+    /// `start` is the pilot of `settings`, without passes. Its first ones show whether there is time for a search; they are those of the
     /// image, so the search itself has other random numbers.
     SearchResult run(const RenderSettings& settings, std::unique_ptr<Pilot> start);
 
@@ -51,7 +51,7 @@ private:
     };
     using Field = std::vector<Contender>;
 
-    /// Successive halving (Karnin et al. 2013) among these, for so many seconds. All begin anew, as all is told differently by fewer
+    /// Successive halving (Karnin et al. 2013) among these, for so many seconds. All begin anew, as estimates differ after fewer
     /// passes: like must be held against like. All but the first one must have a relMSE that is `leastGain` times less to win.
     void race(const std::vector<RenderSettings>& candidates, unsigned fewestPasses, double leastGain, double seconds);
     /// Among the best ones so far and those beside it; whether one of these has won.

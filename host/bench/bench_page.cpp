@@ -17,7 +17,7 @@ svg .grid { stroke: #ddd; } svg .title { font-size: 14px; font-weight: 600; }
 )";
 
 std::string errorPlots(const BenchReport& report, const std::string& scene) {
-    std::vector<PlotSeries> measured, told;
+    std::vector<PlotSeries> measured, estimated;
     for (const BenchRun* run : runsOf(report, scene)) {
         PlotSeries against{runTitle(report, *run), {}}, itself = against;
         for (const BenchPoint& point : run->points) {
@@ -25,12 +25,13 @@ std::string errorPlots(const BenchReport& report, const std::string& scene) {
             itself.points.push_back({point.seconds, point.estimate.relativeMse()});
         }
         measured.push_back(against);
-        told.push_back(itself);
+        estimated.push_back(itself);
     }
     std::string out;
     if (report.references.count(scene) > 0)
         out += logLogPlot({"error against the reference", "seconds", "relMSE, net of the reference's noise"}, measured);
-    return out + logLogPlot({"error as the renders tell it", "seconds", "relMSE: noise and bias, told"}, told);
+    return out +
+           logLogPlot({"error as the renders estimate it", "seconds", "relMSE: noise and bias, estimated"}, estimated);
 }
 
 /// All images of a scene with the tone curve of its first run.

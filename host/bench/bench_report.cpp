@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double targets[] = {0.01, 0.001}; ///< relative errors whose time is told
+constexpr double targets[] = {0.01, 0.001}; ///< relative errors whose time is reported
 
 std::string percentText(double ratio) { return fmt::format("{:.3g} %", 100 * ratio); }
 
@@ -99,7 +99,7 @@ std::optional<DeviceDifference> deviceDifference(const BenchReport& report, cons
 }
 
 std::vector<TableRow> runRows(const BenchReport& report, const std::string& scene) {
-    std::vector<TableRow> rows{{"method", "device", "passes", "seconds", "CPU seconds", "relMSE", "told", "noise",
+    std::vector<TableRow> rows{{"method", "device", "passes", "seconds", "CPU seconds", "relMSE", "estimated", "noise",
                                 "bias", "slope", "to 1 %", "to 0.1 %", "stored a pass", "buffers"}};
     for (const BenchRun* run : runsOf(report, scene)) {
         const BenchPoint& last = run->points.back();

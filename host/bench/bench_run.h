@@ -45,7 +45,7 @@ struct BenchReference {
 RadianceImage radianceOf(const FilmImage& image);
 
 /// Renders until `seconds` have passed on the clock, or `interrupted`; at least one pass. `reference` may be null.
-/// `onProgress` is told the passes and the seconds so far.
+/// `onProgress` gets the passes and the seconds so far.
 BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, double seconds,
                     const BenchReference* reference, const std::function<void(unsigned, double)>& onProgress,
                     const std::atomic<bool>& interrupted);

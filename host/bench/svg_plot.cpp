@@ -12,7 +12,7 @@ namespace quasilux {
 
 namespace {
 
-// Told apart also by those who do not see all colours (Okabe & Ito 2008).
+// Distinguishable also for those who do not see all colours (Okabe & Ito 2008).
 constexpr std::array<const char*, 8> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#000000", "#999933"};
 constexpr double width = 640, height = 420, left = 70, right = 190, top = 34, bottom = 50;
@@ -70,7 +70,7 @@ std::string line(const Frame& frame, const PlotSeries& series, size_t index) {
         marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>", x, y, colour);
     }
     const double legend = top + 10 + 18 * static_cast<double>(index);
-    // From the ninth series on colours come again: dashes tell them apart.
+    // From the ninth series on colours come again: dashes distinguish them.
     const char* dash = index >= colours.size() ? " stroke-dasharray=\"5 3\"" : "";
     return fmt::format("<path d=\"{0}\" fill=\"none\" stroke=\"{1}\" stroke-width=\"1.8\"{2}/>{3}\n"
                        "<line x1=\"{4}\" x2=\"{5}\" y1=\"{6}\" y2=\"{6}\" stroke=\"{1}\" stroke-width=\"1.8\"{2}/>"

@@ -76,7 +76,7 @@ void declareBench(CLI::App& app, BenchOptions& options) {
         .add_option("--reference", options.references,
                     "Image that counts as right, one for each scene in their order, - for none (default: none; errors "
                     "are those "
-                    "that renders tell)")
+                    "that renders estimate)")
         ->type_name("FILE")
         ->allow_extra_args(false);
     command

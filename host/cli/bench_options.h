@@ -1,4 +1,4 @@
-// What `quasilux bench` can be told.
+// Options of `quasilux bench`.
 #pragma once
 
 #include <CLI/CLI.hpp>

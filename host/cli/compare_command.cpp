@@ -73,7 +73,7 @@ std::vector<std::string> exceededLimits(const CompareOptions& options, const Com
     return lines;
 }
 
-/// Noise in the denominators is told where it is more than this share of a region's net relMSE.
+/// Noise in the denominators is reported where it is more than this share of a region's net relMSE.
 constexpr double muchOfNet = 0.1;
 
 void warnOfDenominators(const CompareOptions& options, const Comparison& comparison) {

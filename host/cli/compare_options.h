@@ -1,4 +1,4 @@
-// What `quasilux compare` can be told.
+// Options of `quasilux compare`.
 #pragma once
 
 #include <CLI/CLI.hpp>

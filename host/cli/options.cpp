@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t maximumCount = 1000000000;
 
 void declareSettings(CLI::App& command, SceneOptions& options) {
-    const char* group = "Method (overrides what the scene says)";
+    const char* group = "Method (overrides the scene's settings)";
     command
         .add_option("--bdd", options.bdd,
                     "Backward diffuse depth: genuine diffuse scatterings that a camera path follows before it takes "
@@ -90,8 +90,8 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
     auto* all = command
                     .add_flag("--auto", options.autoAll,
                               "Search BDD, variant, split, photons per pass and radius by pilot passes, but for those "
-                              "given here; what the scene says is where the search starts (default: search what "
-                              "neither these options nor the scene say)")
+                              "given here; the search starts at the scene's settings (default: search what "
+                              "neither these options nor the scene fix)")
                     ->group(group);
     command.add_flag("--fixed", options.fixed, "Search nothing: what is given, else the defaults (default: off)")
         ->group(group)
@@ -254,7 +254,7 @@ void declareOptions(CLI::App& app, Options& options) {
     devices.add_flag("--json", options.devicesJson, "The list on stdout as a JSON array (default: off, a table)");
 
     CLI::App& info =
-        *app.add_subcommand("info", "Say what a scene needs and what is chosen for it, after a trial pass");
+        *app.add_subcommand("info", "Print what a scene needs and what is chosen for it, after a trial pass");
     declareScene(info, options.info);
     declareSettings(info, options.info);
     declareDevice(info, options.info);

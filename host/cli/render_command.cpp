@@ -135,10 +135,11 @@ void warnOfCounters(const RenderOptions& options, const RenderCounters& counters
                          "the rest",
                          counters.clipped));
     if (counters.meterCaustics && *counters.meterCaustics < causticsPerPixel * pixels)
-        warn(options, fmt::format("{} photons of caustics have met the meter's {} pixels: that light is not known, nor "
-                                  "its error; take a larger meter or cells, more --photons or passes, or, for "
-                                  "quasi-caustics, --variant alternative",
-                                  *counters.meterCaustics, pixels));
+        warn(options,
+             fmt::format("{} photons of caustics have hit the meter's {} pixels: too few to estimate that light or "
+                         "its error; use a larger meter or cells, more --photons or passes, or, for "
+                         "quasi-caustics, --variant alternative",
+                         *counters.meterCaustics, pixels));
     if (counters.cutPaths > 0)
         warn(options,
              fmt::format(
@@ -157,13 +158,12 @@ void warnOfRarePhotons(const RenderOptions& options, const RenderRecord& record)
     if (!learned.effectivePhotons || learned.lightOfPhotons < lightThatMatters) return;
     const double effective = *learned.effectivePhotons * static_cast<double>(record.counters.passes);
     if (effective >= fewestEffectivePhotons) return;
-    warn(
-        options,
-        fmt::format(
-            "{:.2g} % of the image's light comes by photons, and only about {:.2g} have brought any: that light is not "
-            "known, nor its error; render longer, take more --photons, or follow such paths from the camera (--bdd 1, "
-            "or --quasi-specular all --variant alternative)",
-            100 * learned.lightOfPhotons, effective));
+    warn(options, fmt::format("{:.2g} % of the image's light comes from photons, but effectively only {:.2g} photons "
+                              "contribute: too few to estimate "
+                              "that light or its error; render longer, use more --photons, or follow such paths from "
+                              "the camera (--bdd 1, "
+                              "or --quasi-specular all --variant alternative)",
+                              100 * learned.lightOfPhotons, effective));
 }
 
 RenderRecord makeRecord(const RenderOptions& options, Device& device, const AutoRender& render, MeterKind meter) {

@@ -29,7 +29,7 @@ std::vector<DeviceInfo> listDevices();
 struct KernelTiming {
     uint64_t launches = 0;
     double seconds = 0;
-    uint64_t privateBytes = 0; ///< private memory of a work-item, as the runtime tells; 0 where it does not
+    uint64_t privateBytes = 0; ///< private memory of a work-item, as the runtime reports; 0 where it does not
 };
 
 /// Device memory; its bytes count as in use until the last copy is gone.

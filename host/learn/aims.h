@@ -27,7 +27,7 @@ struct AimSet {
 /// The way of a photon from vertex `v` of a pilot path to the one before; none where it brings nothing.
 std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, std::size_t v, double weight);
 
-/// Sets of openings that light should come through: those that light from outside comes through, and what the paths tell beside them.
+/// Sets of openings that light should come through: those that light from outside comes through, and what the paths found beside them.
 /// `pathWeights`: 1 / brightness of each path's pixel, over the number of paths; `radius`: of the order of the scene.
 std::vector<AimSet> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
                              const std::vector<Opening>& fromOutside, double radius);

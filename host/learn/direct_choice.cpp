@@ -10,7 +10,7 @@ namespace quasilux {
 namespace {
 
 constexpr double findsOfBlock = 256;    // paths that a block of pixels is to have
-constexpr double fewestFinds = 8;       // that tell how strong the halves of a group of emitters are
+constexpr double fewestFinds = 8;       // to know how strong the halves of a group of emitters are
 constexpr double leastUnlearned = 0.05; // least probability that an emitter is chosen as if nothing were known
 // Relative variance of a sample above which photons are the better estimate: they leave far less, but blur.
 constexpr double mostVariance = 1;
@@ -94,7 +94,7 @@ Block about(const Blocks& blocks, size_t b) {
 }
 
 // Emitters between which the light tree chooses, or a single one. A block's list begins with the whole tree and all others; the strongest
-// group is replaced by its children as long as there is room and pilots can tell these apart.
+// group is replaced by its children as long as there is room and pilots can distinguish these.
 struct Group {
     unsigned first = 0, count = 1, node = 0;
     double strength = 0, finds = 0;

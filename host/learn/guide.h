@@ -23,7 +23,7 @@ public:
 
     /// Records whose weights estimate one measure: all those of one round of pilots.
     void add(const std::vector<shared::EmissionRecord>& records);
-    /// The guide that all rounds so far tell.
+    /// The guide learned from all rounds so far.
     GuideTables guide();
     /// Of emitters that shine from outside, as far as known.
     std::vector<Opening> openingsFromOutside() const;

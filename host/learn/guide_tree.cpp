@@ -10,7 +10,7 @@ namespace quasilux {
 namespace {
 
 constexpr size_t bins = 64;
-// A cut must tell more than chance does: twice the log likelihood that it gains is chi-squared for samples without structure, and
+// A cut must be significant: twice the log likelihood that it gains is chi-squared for samples without structure, and
 // the best of all cuts is taken.
 constexpr double leastEvidence = 16;
 

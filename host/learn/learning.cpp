@@ -164,7 +164,7 @@ void Learning::traceRounds(const PhotonRound& round) {
         if (!pays) continue;
         gain.add(result.photons, scene_.emitters);
         learnFrom(result.photons);
-        pays = k + 2 != photonRounds || gain.ratio() >= leastGuidingGain; // what is left tells the densities then
+        pays = k + 2 != photonRounds || gain.ratio() >= leastGuidingGain; // what is left measures the densities then
         if (!pays) forget();
     }
     if (seenShare < mostSeenShare) return;

@@ -43,7 +43,7 @@ struct LearnedScene {
     double usualWorth = 0;
     /// Share of the image's light that photons are to bring, as camera paths saw it: each pixel's relative to its brightness.
     double lightOfPhotons = 0;
-    /// As many equal ones as tell as much of that light, over the photons of the last round; below 0: not known.
+    /// As many equal ones as have the same variance for that light, over the photons of the last round; below 0: not known.
     double effectiveShare = -1;
 };
 
@@ -53,7 +53,7 @@ public:
     Learning(Device& device, const Program& program, DeviceScene& scene, SceneBuffers buffers,
              const shared::CameraParams& params);
 
-    /// Follows paths from the camera; `scene` then has what they tell: the guide, the importance, how direct light is to be taken,
+    /// Follows paths from the camera; `scene` then has what they found: the guide, the importance, how direct light is to be taken,
     /// of some emitters from photons if it may.
     void followPilots(bool directMayUsePhotons);
     /// Rounds of photons, each guided by all before.

@@ -51,7 +51,7 @@ void writePoint(std::ostream& out, const IlluminanceGrid& grid, unsigned i, unsi
     if (hasError)
         writeTriple(out, reading.standardError);
     else
-        out << ",,,"; // one pass tells nothing of the error
+        out << ",,,"; // one pass gives no estimate of the error
     for (unsigned c = 0; c < components; ++c) writeTriple(out, reading.components[c]);
     out << '\n';
 }

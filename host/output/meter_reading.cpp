@@ -70,7 +70,7 @@ nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image) {
     const std::string key = isIrradiance(record.meter) ? "illuminance" : "luminance";
     json[key] = reading.photometricValue;
     json[key + "StandardError"] = nullptr;
-    if (image.passes > 1) { // one pass tells nothing of the error
+    if (image.passes > 1) { // one pass gives no estimate of the error
         json["standardError"] = reading.standardError;
         json[key + "StandardError"] = reading.photometricStandardError;
     }

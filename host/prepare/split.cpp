@@ -36,9 +36,9 @@ LobeDecision byScene(const LobeDescription& lobe) {
     const auto& choice = lobe.quasiSpecular;
     switch (choice.kind) {
     case QuasiSpecularChoice::Kind::yes:
-        return {SCATTER_QUASI_SPECULAR, "the bsdf says yes"};
+        return {SCATTER_QUASI_SPECULAR, "the scene: yes"};
     case QuasiSpecularChoice::Kind::no:
-        return {SCATTER_GENUINE_DIFFUSE, "the bsdf says no"};
+        return {SCATTER_GENUINE_DIFFUSE, "the scene: no"};
     case QuasiSpecularChoice::Kind::automatic:
         return byWidth(lobe);
     case QuasiSpecularChoice::Kind::lobes:
@@ -55,10 +55,11 @@ LobeDecision decide(const Bsdf& bsdf, const LobeDescription& lobe, const std::st
     if (lobe.device.scattering == SCATTER_SPECULAR) return {SCATTER_SPECULAR, "delta"};
     if (lobe.quasiSpecular.stated && (!overridesScene || setting == "auto")) return byScene(lobe);
     if (setting == "auto") return byWidth(lobe);
-    if (setting == "none") return {SCATTER_GENUINE_DIFFUSE, "none asked for"};
-    if (setting == "all") return {SCATTER_QUASI_SPECULAR, "all asked for"};
+    if (setting == "none") return {SCATTER_GENUINE_DIFFUSE, "setting: none"};
+    if (setting == "all") return {SCATTER_QUASI_SPECULAR, "setting: all"};
     const bool listed = isListed(list, bsdf, lobe);
-    return {listed ? SCATTER_QUASI_SPECULAR : SCATTER_GENUINE_DIFFUSE, listed ? "listed" : "not listed"};
+    return {listed ? SCATTER_QUASI_SPECULAR : SCATTER_GENUINE_DIFFUSE,
+            listed ? "setting: listed" : "setting: not listed"};
 }
 
 } // namespace

@@ -76,11 +76,11 @@ MediumDecision byAuto(const MediumDescription& medium) {
 MediumDecision byScene(const MediumDescription& medium) {
     switch (medium.quasiSpecular.kind) {
     case QuasiSpecularChoice::Kind::yes:
-        return allQuasiSpecular("the medium says yes");
+        return allQuasiSpecular("the scene: yes");
     case QuasiSpecularChoice::Kind::no:
-        return allGenuineDiffuse("the medium says no");
+        return allGenuineDiffuse("the scene: no");
     case QuasiSpecularChoice::Kind::level:
-        return byLevel(medium, medium.quasiSpecular.level, "the medium's level");
+        return byLevel(medium, medium.quasiSpecular.level, "the scene");
     case QuasiSpecularChoice::Kind::automatic:
     case QuasiSpecularChoice::Kind::lobes: // the loader gives lists to bsdfs only
         break;
@@ -91,10 +91,10 @@ MediumDecision byScene(const MediumDescription& medium) {
 MediumDecision decide(const MediumDescription& medium, const std::string& setting, const std::vector<std::string>& list,
                       bool overridesScene) {
     if (medium.quasiSpecular.stated && (!overridesScene || setting == "auto")) return byScene(medium);
-    if (setting == "none") return allGenuineDiffuse("none asked for");
-    if (setting == "all") return allQuasiSpecular("all asked for");
-    if (isPhaseLevel(setting)) return byLevel(medium, parsePhaseLevel(setting, {}), "asked for");
-    if (std::find(list.begin(), list.end(), medium.id) != list.end()) return allQuasiSpecular("listed");
+    if (setting == "none") return allGenuineDiffuse("setting: none");
+    if (setting == "all") return allQuasiSpecular("setting: all");
+    if (isPhaseLevel(setting)) return byLevel(medium, parsePhaseLevel(setting, {}), "setting");
+    if (std::find(list.begin(), list.end(), medium.id) != list.end()) return allQuasiSpecular("setting: listed");
     return byAuto(medium);
 }
 

@@ -16,7 +16,7 @@ struct ErrorPart {
     double biasNoiseRms = 0;      ///< that noise: what the bias of a single pixel is known to
 };
 
-/// All infinite where fewer than two passes tell nothing; all 0 for a black image.
+/// All infinite where fewer than two passes give no estimate; all 0 for a black image.
 struct ErrorEstimate {
     ErrorPart total;
     std::array<ErrorPart, LIGHT_CLASSES> components; ///< by LIGHT_*; zeros where the image has no such light

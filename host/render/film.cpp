@@ -18,8 +18,8 @@ constexpr size_t classBatch = totalBatch + 3;
 constexpr size_t biasSums = classBatch + LIGHT_CLASSES * 3;
 constexpr size_t biasFloats = LIGHT_CLASSES * 9 + 6;
 
-// Pixel positions are spread evenly over passes in a row, so batches tell more truly how the mean varies; but of few passes
-// single ones tell more surely. Bias is estimated in the middle half of each batch of four, about whose middle
+// Pixel positions are spread evenly over passes in a row, so batches estimate the variance of the mean with less bias; but of few passes
+// single ones estimate it with less variance. Bias is estimated in the middle half of each batch of four, about whose middle
 // the radii are even, and in all passes before: half the cost, and no change of its mean.
 constexpr unsigned singlePasses = 16, batchPasses = 4;
 
@@ -46,9 +46,9 @@ struct BiasCounts {
 
 // Standard error of the mean bias from the sum over passes and the squares of batches S_b of m_b passes. Its noise grows
 // as discs shrink, and early passes make up more batches than late ones: divided by m_b, as those of the image are,
-// squares told 0.77 of its variance after 64 passes. For independent batches with one mean and any variances,
+// the squares estimated 0.77 of its variance after 64 passes. For independent batches with one mean and any variances,
 //     E [sum S_b^2 - q S^2] = (1 - q) Var S,    q = sum m_b^2 / n^2.
-// That is sure as long as a pass's noise is not much less than its mean, which holds for the bias, but not for the image.
+// The estimate has little variance as long as a pass's noise is not much less than its mean, which holds for the bias, but not for the image.
 float biasStandardError(double sum, double squares, double open, const BiasCounts& n) {
     const double share = n.squares / (n.passes * n.passes);
     if (share >= 1) return 0;

@@ -17,7 +17,7 @@ unsigned compiledClasses(const Features& features, const RenderSettings& setting
 
 /// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
 bool estimatesBias(const Features& features, const RenderSettings& settings);
-/// Whether the density radius may be chosen by pixel, so that borders must be known for the largest one: told before the
+/// Whether the density radius may be chosen by pixel, so that borders must be known for the largest one: known before the
 /// scene is flattened.
 bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);
 /// Is it chosen by pixel? Only where mayAdaptRadius(), and some photons are stored.

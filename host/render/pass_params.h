@@ -1,4 +1,4 @@
-// What the kernels of a pass are told, but for what changes from pass to pass.
+// Parameters of the kernels of a pass, but for what changes from pass to pass.
 #pragma once
 
 #include "pass_types.h"

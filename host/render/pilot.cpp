@@ -7,7 +7,7 @@ namespace quasilux {
 
 namespace {
 
-// Kept of a class, per photon emitted: those of one path tell much the same (docs/method/media.md).
+// Kept of a class, per photon emitted: those of one path are strongly correlated (docs/method/media.md).
 constexpr double volumePhotonsPerPath = 3;
 // Standard deviations of room: what does not fit is traced again, which takes time only.
 constexpr double spread = 4;

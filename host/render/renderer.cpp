@@ -59,7 +59,7 @@ struct Renderer::Stages {
             prepareCameraMap(path, photon, classes);
         else
             preparePhotonMap(path, photon, classes);
-        device.resetTimings(std::move(timingsBefore)); // those of passes alone tell
+        device.resetTimings(std::move(timingsBefore)); // only those of passes count
         flat.bvh = {};                                 // on the device now
         flat.tables = {};
         flat.borders = {};

@@ -17,7 +17,7 @@ namespace quasilux {
 
 struct LearnedScene;
 
-/// Memory that the whole render takes at most, told before its first pass.
+/// Memory that the whole render takes at most, forecast before its first pass.
 struct MemoryForecast {
     uint64_t deviceBytes = 0;
     uint64_t hostPeakBytes = 0; ///< of the process; buffers of a CPU device included
@@ -54,7 +54,7 @@ struct SceneReport {
         unsigned directSamples = 1;
         bool hasWeightWindows = false;
         double lightOfPhotons = 0; ///< LearnedScene
-        /// As many equal photons as tell as much of it, of a pass; where known.
+        /// Effective number of photons of a pass for it: as many equal ones have the same variance; where known.
         std::optional<double> effectivePhotons;
         std::vector<std::pair<double, double>> radiusFactors; ///< at these distances from the eye; empty: 1
         double seconds = 0;

@@ -38,7 +38,7 @@ unsigned countOf(const Instruction& instruction, std::string_view key) {
     return static_cast<unsigned>(parseUnsigned(valueOf(instruction, key), 1, maximumPoints, instruction.where, key));
 }
 
-/// `normal` only tells the two sides apart: photons are counted where they cross the grid.
+/// `normal` only chooses one of the two sides: photons are counted where they cross the grid.
 bool isFlipped(const Instruction& instruction, const IlluminanceGrid& grid) {
     const bool given = std::any_of(instruction.entries.begin(), instruction.entries.end(),
                                    [](const Attribute& entry) { return entry.name == "normal"; });

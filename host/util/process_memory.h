@@ -5,7 +5,7 @@
 
 namespace quasilux {
 
-/// Bytes in physical memory now; 0 where the system does not tell.
+/// Bytes in physical memory now; 0 where the system does not report it.
 uint64_t residentBytes();
 
 /// The most that ever were.

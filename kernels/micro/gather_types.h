@@ -1,4 +1,4 @@
-/* What the micro-benchmark of gathering asks for and is told; shared by host and device like shared_types.h. */
+/* Queries and results of the micro-benchmark of gathering; shared by host and device like shared_types.h. */
 #ifndef QUASILUX_GATHER_TYPES_H
 #define QUASILUX_GATHER_TYPES_H
 

@@ -57,7 +57,7 @@ inline void expectReading(const Scene& scene, const Method& method, double truth
     const Reading reading = measure(scene, method, passes, photons);
     EXPECT_TRUE(agrees(reading, truth, biased))
         << reading.value << " +- " << reading.standardError << ", expected " << truth;
-    EXPECT_LT(reading.standardError, knownTo * truth) << "too noisy to tell anything";
+    EXPECT_LT(reading.standardError, knownTo * truth) << "too noisy to decide anything";
     EXPECT_FALSE(agrees(reading, truth / 1.02, biased)) << "a light that is 2 % too strong would pass";
 }
 

@@ -25,7 +25,7 @@ const std::vector<std::string>& microParts();
 /// "" or "all": every part; else names between commas. Throws InputError that says what was expected.
 std::vector<std::string> parseMicroParts(const std::string& text);
 
-using MicroProgress = std::function<void(const std::string&)>; ///< told what is measured next
+using MicroProgress = std::function<void(const std::string&)>; ///< gets what is measured next
 
 MicroReport runMicro(const MicroSettings& settings, const MicroProgress& progress,
                      const std::atomic<bool>& interrupted);

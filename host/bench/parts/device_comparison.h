@@ -8,7 +8,7 @@
 
 namespace quasilux {
 
-/// Of two images of the same passes: only rounding tells them apart, until it turns a path another way.
+/// Of two images of the same passes: they differ by rounding only, until it turns a path another way.
 struct SamePassDifference {
     double mean = 0;    ///< of mean luminance, relative
     double rms = 0;     ///< relative, the root of relMSE

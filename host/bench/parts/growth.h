@@ -25,7 +25,7 @@ struct GrowthSeries {
 /// Names that measureGrowth takes.
 const std::vector<std::string>& growthSubjects();
 
-/// The first `steps` sizes, each for `seconds`. `onSize` is told each before it is measured.
+/// The first `steps` sizes, each for `seconds`. `onSize` gets each before it is measured.
 GrowthSeries measureGrowth(const std::string& subject, int device, unsigned steps, double seconds,
                            const std::function<void(double)>& onSize, const std::atomic<bool>& interrupted);
 

@@ -16,7 +16,7 @@ struct PartScene {
     const Scene* scene = nullptr;
 };
 
-/// Told before each step of a part, for the progress line.
+/// Called before each step of a part, for the progress line.
 using OnStep = std::function<void(const std::string&)>;
 
 /// measurePass of the scene as it is on this device (-1: the default one), in a process of its own with these
