@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""`--auto` against fixed settings at equal time, for every scene of scenes/: the table at the end of docs/method/auto.md.
+"""`--auto` against fixed settings at equal time, for every scene of scenes/: the table at the end of docs/notes/search.md.
 
 Renders go to out/auto/ and are kept: a later run makes only what is missing (--again makes all anew), so that scenes can be done in
 several runs. After a change of the kernels take --again: renders by fixed settings come first and leave kernels compiled for those by
@@ -180,7 +180,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=2, help="renders that each figure is the mean of (default 2)")
     parser.add_argument("--again", action="store_true", help="render anew what out/auto/ has")
     parser.add_argument("--program", default=str(ROOT / "build" / "release" / "quasilux"), help="the built program")
-    parser.add_argument("--print", action="store_true", help="leave docs/method/auto.md as it is (a trial)")
+    parser.add_argument("--print", action="store_true", help="leave docs/notes/search.md as it is (a trial)")
     options = parser.parse_args()
     unknown = set(options.scenes) - set(scenes())
     if unknown:
@@ -198,7 +198,7 @@ def main():
     )
     print(text)
     if not options.print:
-        page = ROOT / "docs" / "method" / "auto.md"
+        page = ROOT / "docs" / "notes" / "search.md"
         page.write_text(page.read_text().split(MARK)[0] + text)
 
 
