@@ -222,13 +222,13 @@ typedef struct {
     float nearClip, farClip; /* depths along `forward` */
     unsigned int orthographic;
     unsigned int width, height;
-    unsigned int filter; /* FILTER_* */
-    float filterRadius;  /* pixels */
-    float filterStddev;  /* pixels, Gaussian only */
+    unsigned int filter;      /* FILTER_* */
+    float filterRadius;       /* pixels */
+    float filterStddev;       /* pixels, Gaussian only */
     unsigned int filterSteps; /* FILTER_TABLE: word offset of its FilterStep records into the scene tables */
     unsigned int filterReach; /* and cells on either side of the pixel's centre */
     unsigned int filterEnds;  /* and 1: it ends at the edge of the image */
-    unsigned int medium; /* in which it stands: index or MEDIUM_NONE */
+    unsigned int medium;      /* in which it stands: index or MEDIUM_NONE */
 } Camera;
 
 /* ---- irradiance meters (kernels/meter.clh) ----------------------------------------------------------------------- */
