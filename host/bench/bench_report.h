@@ -49,7 +49,7 @@ std::vector<TableRow> deviceRows(const BenchReport& report, const std::string& s
 /// The scenes in order, each once.
 std::vector<std::string> scenesOf(const BenchReport& report);
 
-/// Keys: docs/notes/benchmark.md.
+/// Keys: docs/reference/benchmarks.md.
 nlohmann::json benchJson(const BenchReport& report);
 
 /// HTML with plots and pictures inside: error over time, equal-time images and, with references, their errors.

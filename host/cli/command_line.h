@@ -1,4 +1,4 @@
-// The program's commands: render, compare, devices, info.
+// The program's commands: render, compare, bench, devices, info (docs/reference/command-line.md).
 #pragma once
 
 namespace quasilux {

@@ -1,4 +1,4 @@
-// One OpenCL device with its context, queue, kernels and timing table. The only folder that calls OpenCL.
+// One OpenCL device with its context, queue, kernels and timing table. The only folder that calls OpenCL (docs/notes/devices.md).
 #pragma once
 
 #include "device/launch_pace.h"

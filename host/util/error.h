@@ -1,4 +1,4 @@
-// Errors shown to users. Every one says what is wrong, what was expected and what to do.
+// Errors shown to users. Every one says what is wrong, what was expected and what to do (CONTRIBUTING.md).
 #pragma once
 
 #include <functional>

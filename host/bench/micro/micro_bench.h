@@ -1,4 +1,4 @@
-// Micro-benchmarks of single stages, each against the best native way to do the same (docs/notes/benchmark.md).
+// Micro-benchmarks of single stages, each against the best native way to do the same (docs/reference/benchmarks.md).
 #pragma once
 
 #include "bench/micro/micro_report.h"

@@ -31,7 +31,7 @@ std::vector<std::string> partsOf(const MicroReport& report);
 /// A part as a table, headings first.
 std::vector<TableRow> microTable(const MicroReport& report, const std::string& part);
 
-/// Keys: docs/notes/benchmark.md.
+/// Keys: docs/reference/benchmarks.md.
 nlohmann::json microJson(const MicroReport& report);
 
 /// A section of a page.

@@ -1,4 +1,4 @@
-// Reading of bsdfs. A new plugin is one file here and one line in the list below.
+// Reading of bsdfs. A new plugin is one file here and one line in the list below (CONTRIBUTING.md; lobes: docs/method/bsdf.md).
 #pragma once
 
 #include "scene/properties.h"

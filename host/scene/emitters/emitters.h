@@ -1,4 +1,4 @@
-// Reading of emitters. A new plugin is one file here and one line in the table of emitters.cpp.
+// Reading of emitters. A new plugin is one file here and one line in the table of emitters.cpp (docs/reference/scene-language.md).
 #pragma once
 
 #include "scene/properties.h"

@@ -1,4 +1,4 @@
-// Reading of shapes. A new plugin is one file here and one line in shape_table.cpp.
+// Reading of shapes. A new plugin is one file here and one line in shape_table.cpp (docs/reference/scene-language.md).
 #pragma once
 
 #include "scene/properties.h"

@@ -1,5 +1,5 @@
 // Reading of textures, and of reflectances that may be one. A new plugin is one file here and one line in the table of
-// texture_table.cpp.
+// texture_table.cpp (docs/reference/scene-language.md).
 #pragma once
 
 #include "scene/properties.h"

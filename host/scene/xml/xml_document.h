@@ -1,4 +1,4 @@
-// Reads scene files: XML with positions, `<include>`, `<default>` and `$parameters`.
+// Reads scene files: XML with positions, `<include>`, `<default>` and `$parameters` (docs/reference/scene-language.md, "Document").
 #pragma once
 
 #include "scene/xml/element.h"
