@@ -3,7 +3,7 @@
  *
  * The bias of a pixel at radius r is c r^2, its variance v / r^2 a pass. Both are known from the estimate of bias
  * (docs/method/accuracy.md): its mean is c r^2, and its variance BIAS_VARIANCE times that of the density estimate. The mean
- * square error of many passes is least where r^6 = v / (2 c^2) * noiseToCurvature (docs/method/density.md). */
+ * square error of many passes is least where r^6 = v / (2 c^2) * noiseToCurvature (docs/method/radius.md). */
 #include "adaptive_radius.clh"
 #include "film.clh"
 

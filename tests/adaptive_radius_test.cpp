@@ -52,7 +52,7 @@ std::vector<float> chooseRadii(const std::vector<float>& film, double largest = 
     return scales.read();
 }
 
-// docs/method/density.md: r^6 = N v / (2 * 3 c^2), with c^2 net of the noise of its estimate, and not below a tenth of it.
+// docs/method/radius.md: r^6 = N v / (2 * 3 c^2), with c^2 net of the noise of its estimate, and not below a tenth of it.
 double bestRadius(const Light& light) {
     const double noise =
         3 * 1.6 * light.variance * inverseSquares / passes / passes * std::pow(passes / squaredRadii, 2);

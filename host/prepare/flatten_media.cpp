@@ -1,4 +1,4 @@
-// Media into the kernels' table, with the first size of their density kernels (docs/method/density.md).
+// Media into the kernels' table, with the first size of their density kernels (docs/method/volume-density.md).
 #include "prepare/device_scene.h"
 #include "prepare/medium_shape.h"
 #include "prepare/pack.h"

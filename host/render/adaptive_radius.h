@@ -1,4 +1,4 @@
-// Density radius by block of pixels and class of light, chosen from a pilot (docs/method/density.md, "Radius by pixel"). The pilot's passes
+// Density radius by block of pixels and class of light, chosen from a pilot (docs/method/radius.md, "Radius by pixel"). The pilot's passes
 // follow each other from 0 on, with the photons of the passes of these numbers. So the radii of a pass are a function of scene,
 // settings and seed, whichever passes have been rendered.
 #pragma once

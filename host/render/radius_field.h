@@ -1,4 +1,4 @@
-// Density radii by distance from the eye, as photons lie there (kernels/radius_field.clh, docs/method/density.md).
+// Density radii by distance from the eye, as photons lie there (kernels/radius_field.clh, docs/method/radius.md).
 #pragma once
 
 #include "learn/learning.h"
