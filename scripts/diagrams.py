@@ -44,21 +44,21 @@ class Drawing:
         words = words.replace("&", "&amp;").replace("<", "&lt;")
         self.add(f'<text x="{x}" y="{y}" font-family="{family}" font-size="{size}" fill="{colour}" text-anchor="{anchor}"{weight}>{words}</text>')
 
-    def save(self, name):
+    def save(self, folder, name):
         arrows = "".join(
             f'<marker id="arrow-{c[1:]}" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="7" markerHeight="7" orient="auto-start-reverse">'
             f'<path d="M0,0 L10,5 L0,10 Z" fill="{c}"/></marker>'
             for c in (INK, GREY, DIFFUSE, QUASI, SPECULAR, LIGHT)
         )
         body = "\n".join(self.parts)
-        (FIGURES / name).write_text(
+        (folder / name).write_text(
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.height}" width="{self.width}" height="{self.height}" role="img">\n'
             f"<title>{self.title}</title>\n<defs>{arrows}</defs>\n"
             f'<rect width="{self.width}" height="{self.height}" fill="{PAPER}"/>\n{body}\n</svg>\n'
         )
 
 
-def draw_pass():
+def draw_pass(folder):
     d = Drawing(880, 400, "The flow of a pass, with photons stored (above) and with camera points stored (below)")
 
     def row(y, name, stages):
@@ -86,10 +86,10 @@ def draw_pass():
         ("4 Film", ["own light + splats", "of each pixel"], "film.clh", INK),
     ])
     d.text(20, 366, "Every pass is numbered and seeded by its number. The image is the mean of all passes; their scatter is its noise.", 13, GREY)
-    d.save("pass.svg")
+    d.save(folder, "pass.svg")
 
 
-def draw_classes():
+def draw_classes(folder):
     d = Drawing(880, 400, "The four classes of light, by what a photon has met since it left the emitter")
     panels = [
         ("direct", "in E0", [], "nothing"),
@@ -125,7 +125,7 @@ def draw_classes():
         x = 30 + k * 270
         d.line([(x, 374), (x + 26, 374)], colours[event], 4)
         d.text(x + 36, 379, name, 13)
-    d.save("classes.svg")
+    d.save(folder, "classes.svg")
 
 
 def polar(x, y, value, angles, scale, axis=math.pi / 2):
@@ -137,7 +137,7 @@ def henyey_greenstein(g, cosine):
     return (1 - g * g) / (4 * math.pi * (1 + g * g - 2 * g * cosine) ** 1.5)
 
 
-def draw_split():
+def draw_split(folder):
     d = Drawing(880, 430, "The split of a lobe and of a phase function into a genuine diffuse and a quasi-specular part")
     # A bsdf: Lambert plus Phong about the mirror direction at 40 degrees.
     d.text(30, 40, "A bsdf: lobe by lobe", 16, bold=True)
@@ -176,14 +176,16 @@ def draw_split():
     d.text(left, 370, "p_d = min(p, c): genuine diffuse", 13, DIFFUSE)
     d.text(left, 390, "p_qs = max(p - c, 0): the peak, quasi-specular", 13, QUASI)
     d.text(left, 412, "Henyey & Greenstein, g = 0.7, c = 0.1; the top (1.5) is cut", 12, GREY)
-    d.save("split.svg")
+    d.save(folder, "split.svg")
 
 
 def main():
-    argparse.ArgumentParser(description=__doc__).parse_args()
-    draw_pass()
-    draw_classes()
-    draw_split()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", nargs="?", type=Path, default=FIGURES, help="where to (default docs/figures)")
+    folder = parser.parse_args().folder
+    draw_pass(folder)
+    draw_classes(folder)
+    draw_split(folder)
 
 
 if __name__ == "__main__":

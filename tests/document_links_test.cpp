@@ -1,7 +1,11 @@
 // Links of the documents lead where they say: to headings that exist, to symbols that the linked source file has, and from
-// docs/README.md to every page. Pages of the guide can be read in ten minutes.
+// docs/README.md to every page. Pages of the guide can be read in ten minutes. Diagrams are those of their script.
+#include "util/temporary_folder.h"
+
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -151,6 +155,21 @@ TEST(DocumentLinks, TheIndexHasEveryPage) {
     EXPECT_THAT(pagesNotIn(index), testing::IsEmpty());
     EXPECT_THAT(pagesNotIn(std::regex_replace(index, std::regex("method/theory\\.md"), "method/gone.md")),
                 testing::ElementsAre("docs/method/theory.md"));
+}
+
+bool isDrawnBy(const std::string& script, const fs::path& folder) {
+    return std::system(fmt::format("python3 '{}' '{}'", script, folder.string()).c_str()) == 0;
+}
+
+TEST(Diagrams, AreThoseThatTheScriptDraws) {
+    const TemporaryFolder drawn;
+    ASSERT_TRUE(isDrawnBy((root / "scripts" / "diagrams.py").string(), drawn.path()));
+    for (const char* name : {"pass.svg", "classes.svg", "split.svg"}) {
+        const std::string kept = readText(root / "docs" / "figures" / name);
+        EXPECT_GT(kept.size(), 1000u) << name;
+        EXPECT_EQ(readText(drawn.path() / name), kept) << name << ": run scripts/diagrams.py";
+    }
+    EXPECT_FALSE(isDrawnBy((root / "scripts" / "no-such.py").string(), drawn.path()));
 }
 
 size_t wordsOf(const std::string& text) {
