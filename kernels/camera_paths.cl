@@ -1,4 +1,4 @@
-/* Stage 3 of a pass: trace one camera path per pixel by the law and take light at its hits.
+/* Stage 3 of a pass: trace camera paths, one or several per pixel, by the law and take light at its hits.
  * From: camera rays, photon map. To: film.
  * With MAP_CAMERA it is stage 1: where light would be taken from the photon map, camera points are stored for the photons
  * that come later. To: camera points, samples; at the end of the pass addSamples adds these and the splats to the film.
@@ -74,7 +74,7 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
     return scatterCameraPath(world, path, &s, &frame, wo, lobes, &choice, rng);
 }
 
-/* Paths of a pixel in a pass: one, of a meter several. */
+/* Work-items of a pixel in a pass: one, of a meter several. */
 inline uint pathsPerPixel(const CameraParams* params) {
 #ifdef HAS_METER
     return params->scene.meter.samples;
@@ -87,20 +87,20 @@ inline uint pathCount(const CameraParams* params) {
     return params->camera.width * params->camera.height * pathsPerPixel(params);
 }
 
-/* Light that a path takes, by component, and its bias; paths of a pixel follow each other. Returns the throughput, mean of R, G, B, with
- * which it was cut, or -1 where it ended by itself. */
-inline float traceCameraPath(const World* world, uint index, float3* components) {
+/* Light that a path takes, by component, and its bias; paths of a pixel follow each other in `index`. `number`: of the path among all that
+ * have the same index, over the passes. Returns the throughput, mean of R, G, B, with which it was cut, or -1 where it ended by itself. */
+inline float traceCameraPath(const World* world, uint index, uint number, float3* components) {
     const CameraParams* params = world->params;
     const uint pixel = index / pathsPerPixel(params);
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
-    Rng rng = rngMake(seed, params->pass, STREAM_CAMERA, index);
+    Rng rng = rngMake(seed, number, STREAM_CAMERA, index);
     CameraPath path;
-    const float4 even = pixelNumbers(index, params->pass, seed);
+    const float4 even = pixelNumbers(index, number, seed);
     const FilterPlace place = filterPlace(&params->camera, world->tables, pixel, even.xy);
     path.ray = cameraRay(&params->camera, pixel, place.offset);
     path.firstChoice = even.z;
-    path.lightChoice = evenChoice(pixelChoiceShift(index, seed), params->pass * params->directSamples);
-    path.strata = strataOfPath(seed, params->pass, index);
+    path.lightChoice = evenChoice(pixelChoiceShift(index, seed), number * params->directSamples);
+    path.strata = strataOfPath(seed, number, index);
 #ifdef ADAPTIVE_RADIUS
     path.radiusBlock = radiusBlock(params, pixel);
 #endif
@@ -146,6 +146,18 @@ inline void countCut(__global CameraCounters* counters, float cut) {
     atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
 }
 
+/* The mean of a pixel's paths in this pass. They look up the same photons, so photons, which cost more, are traced once for all. */
+inline void tracePixel(const World* world, uint pixel, __global CameraCounters* counters, float3* mean) {
+    const uint paths = world->params->cameraPaths;
+    for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] = 0;
+    for (uint path = 0; path < paths; ++path) {
+        float3 components[FILM_SAMPLES];
+        countCut(counters, traceCameraPath(world, pixel, world->params->pass * paths + path, components));
+        for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] += components[k];
+    }
+    for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] /= paths;
+}
+
 /* A sample that is not finite counts as none, but the batch of passes that it may end is closed all the same. */
 inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel, float3* components,
                             float batchWeight) {
@@ -181,7 +193,7 @@ __kernel void traceMeterPaths(__global const BvhNode* nodes, __global const Prim
     if (index >= pathCount(&params)) return;
     const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
     float3 components[FILM_COMPONENTS];
-    countCut(counters, traceCameraPath(&world, index, components));
+    countCut(counters, traceCameraPath(&world, index, params.pass, components));
     for (uint k = 0; k < FILM_COMPONENTS; ++k) vstore3(components[k], k, samples + (size_t)index * SAMPLE_FLOATS);
 }
 
@@ -219,7 +231,7 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
 #endif
                          &params};
     float3 components[FILM_SAMPLES];
-    countCut(counters, traceCameraPath(&world, pixel, components));
+    tracePixel(&world, pixel, counters, components);
     addFiniteSample(film, counters, pixel, components, params.batchWeight);
 }
 #else
@@ -247,7 +259,7 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
     for (uint index = first; index < last; ++index) {
         own.pixel = index / pathsPerPixel(&params);
         float3 components[FILM_SAMPLES];
-        const float cut = traceCameraPath(&world, index, components);
+        const float cut = traceCameraPath(&world, index, params.pass, components);
         if (cut >= 0) {
             ++own.count.cutPaths;
             own.count.cutThroughput += cut;

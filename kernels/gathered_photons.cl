@@ -19,5 +19,5 @@ __kernel void markGathered(__global const BvhNode* nodes, __global const Primiti
 #endif
                          &params};
     float3 components[FILM_SAMPLES];
-    traceCameraPath(&world, index, components);
+    traceCameraPath(&world, index, params.pass, components);
 }

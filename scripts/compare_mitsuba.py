@@ -2,29 +2,22 @@
 
 For each scene: difference of the mean, and the worst of the blocks of 10 x 10 pixels, in per cent and in standard errors of the
 difference. They agree where the mean is within 0.5 % or three standard errors, and each block within 2 % or four. Exit code 1 where one does not.
+With --equal-time SECONDS also the error of both after that time, by the same reference (scripts/equal_time.py).
 """
+import argparse
 import pathlib
-import subprocess
 import sys
 
 import mitsuba
 import numpy as np
 
-from relmse import by_block, read_channels
+from equal_time import Reference, at_equal_time, render_quasilux
+from relmse import by_block
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENES = ROOT / "tests" / "scenes" / "compare"
-PROGRAM = ROOT / "build" / "release" / "quasilux"
 OUT = ROOT / "out" / "compare"
 BLOCK, SAMPLES, SEEDS, SECONDS = 10, 512, 8, 3
-
-
-def render_quasilux(scene, seed):
-    OUT.mkdir(parents=True, exist_ok=True)
-    image = OUT / f"{scene.stem}_{seed}.exr"
-    command = [PROGRAM, "render", scene, "--time", SECONDS, "--seed", seed, "--output", image, "--quiet"]
-    subprocess.run([str(part) for part in command], check=True)
-    return read_channels(image, ["R", "G", "B"])
 
 
 def mean_and_error(values):
@@ -32,10 +25,11 @@ def mean_and_error(values):
     return np.mean(values, axis=0), np.std(values, axis=0, ddof=1) / np.sqrt(len(values))
 
 
-def compare(path):
+def compare(path, seconds):
+    """Prints a row; 1 where the numbers agree. `seconds`: for errors at equal time, or None."""
     scene = mitsuba.load_file(str(path))
     theirs = [np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=seed), np.float64)[..., :3] for seed in range(SEEDS)]
-    ours = [render_quasilux(path, seed) for seed in range(1, SEEDS // 2 + 1)]
+    ours = [render_quasilux(path, SECONDS, seed, OUT)[0] for seed in range(1, SEEDS // 2 + 1)]
     rows = []
     for measure in (np.mean, lambda image: by_block(image, BLOCK).mean(axis=2)):
         (a, error_a), (b, error_b) = (mean_and_error([measure(image) for image in images]) for images in (ours, theirs))
@@ -44,16 +38,27 @@ def compare(path):
     blocks, block_errors = rows[1]
     worst = np.argmax(np.abs(blocks) - 4 * block_errors)
     agree = abs(mean) <= max(0.005, 3 * mean_error) and np.all(np.abs(blocks) <= np.maximum(0.02, 4 * block_errors))
-    print(f"| {path.stem} | {100 * mean:+.2f} ± {100 * mean_error:.2f} % | {100 * blocks[worst]:+.2f} ± {100 * block_errors[worst]:.2f} % | "
-          f"{'agree' if agree else 'DIFFER'} |", flush=True)
+    cells = [path.stem, f"{100 * mean:+.2f} ± {100 * mean_error:.2f} %", f"{100 * blocks[worst]:+.2f} ± {100 * block_errors[worst]:.2f} %",
+             "agree" if agree else "DIFFER"]
+    if seconds:
+        result = at_equal_time(path, Reference(*mean_and_error(theirs), BLOCK), seconds, OUT)
+        cells += [f"{result.noise:.1e}", f"{result.bias:.1e}", f"{result.estimated:.2f}", f"{result.peer:.1e}", f"{result.ratio:.2g}"]
+    print("| " + " | ".join(cells) + " |", flush=True)
     return agree
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", metavar="SCENE")
+    parser.add_argument("--equal-time", type=float, metavar="SECONDS")
+    arguments = parser.parse_args()
     mitsuba.set_variant("llvm_ad_rgb")
-    names = sys.argv[1:] or sorted(path.stem for path in SCENES.glob("*.xml"))
-    print("| scene | mean | worst block | |\n|---|---|---|---|")
-    results = [compare(SCENES / f"{name}.xml") for name in names]
+    names = arguments.scenes or sorted(path.stem for path in SCENES.glob("*.xml"))
+    heads = ["scene", "mean", "worst block", ""]
+    if arguments.equal_time:
+        heads += ["noise", "bias", "estimated / found noise", "Mitsuba's error", "error over Mitsuba's"]
+    print("| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|")
+    results = [compare(SCENES / f"{name}.xml", arguments.equal_time) for name in names]
     sys.exit(0 if all(results) else 1)
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The small scenes of tests/scenes/compare/ by quasilux and by Mitsuba 3: compare_mitsuba.sh [SCENE...]. Mitsuba comes from PyPI, below build/.
+# The small scenes of tests/scenes/compare/ by quasilux and by Mitsuba 3: compare_mitsuba.sh [SCENE...] [--equal-time SECONDS]. Mitsuba comes from PyPI, below build/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

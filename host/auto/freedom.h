@@ -16,9 +16,9 @@ enum class AutoMode {
 
 /// true: may be changed by the search.
 struct Freedom {
-    bool bdd = false, split = false, variant = false, photons = false, radius = false;
+    bool bdd = false, split = false, variant = false, photons = false, radius = false, cameraPaths = false;
 
-    bool any() const { return bdd || split || variant || photons || radius; }
+    bool any() const { return bdd || split || variant || photons || radius || cameraPaths; }
 };
 
 /// What the scene leaves open in this mode; options of the command line close more.

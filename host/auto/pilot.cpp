@@ -44,6 +44,7 @@ void RendererPilot::renderPass() {
 PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const {
     const double photons = lateMedian(&PassSeconds::photons), camera = lateMedian(&PassSeconds::camera);
     PilotMeasure pilot = measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness);
+    pilot.secondsOfPhotons = photons;
     pilot.radius = radiusOf(renderer_->report());
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());
     return pilot;

@@ -107,6 +107,18 @@ struct Common {
     }
 };
 
+// More camera paths than this leave too few passes for the estimate of the error, whatever else they do.
+constexpr unsigned fewestPassesOfImage = 64, mostCameraPaths = 64;
+
+// Of the total noise. Classes of light that photons carry have noise of camera paths too, which counts as the photons' here.
+double shareOfPhotons(const ErrorEstimate& error) {
+    double ofPhotons = 0;
+    for (unsigned c = LIGHT_DIRECT + 1; c < LIGHT_CLASSES; ++c)
+        ofPhotons += error.components[c].noiseRms * error.components[c].noiseRms;
+    const double total = error.total.noiseRms * error.total.noiseRms;
+    return total > 0 ? std::min(1.0, ofPhotons / total) : 1;
+}
+
 // Biases of radius 1.
 std::vector<Estimate> biasesOf(const std::vector<const PilotMeasure*>& pilots) {
     std::vector<Estimate> biases;
@@ -131,6 +143,7 @@ PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsP
     const TileErrors tiles = errorByTile(image, tilesPerSide, brightness);
     PilotMeasure pilot;
     pilot.passes = image.passes;
+    pilot.noiseOfPhotons = shareOfPhotons(error);
     pilot.secondsPerPass = secondsPerPass;
     pilot.noise = tiles.noise;
     pilot.bias = tiles.bias;
@@ -174,6 +187,32 @@ std::vector<double> predictedErrors(const std::vector<const PilotMeasure*>& pilo
         errors.push_back(growth.noise * sum(pilot.noise) + growth.bias * ofRadius * biases[k].counted());
     }
     return errors;
+}
+
+PilotMeasure withCameraPaths(PilotMeasure pilot, double factor) {
+    const double ofCamera = pilot.secondsPerPass - pilot.secondsOfPhotons;
+    const double noise = pilot.noiseOfPhotons + (1 - pilot.noiseOfPhotons) / factor;
+    pilot.secondsPerPass = pilot.secondsOfPhotons + factor * ofCamera;
+    pilot.secondsWithRadius *= factor;
+    for (double& ofTile : pilot.noise) ofTile *= noise;
+    pilot.noiseOfPhotons /= noise;
+    return pilot;
+}
+
+unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double seconds) {
+    unsigned best = 1;
+    double least = INFINITY;
+    for (unsigned paths = 1; paths <= mostCameraPaths; paths *= 2) {
+        const PilotMeasure changed = withCameraPaths(pilot, double(paths) / cameraPaths);
+        const double passes = passesAfter(changed, seconds) - pilot.passes; // those of the pilot are thrown away
+        if (paths > 1 && passes < fewestPassesOfImage) break;
+        const double error = predictAfterPasses(changed, std::max(passes, 1.0)).relativeMse();
+        if (error < least) {
+            least = error;
+            best = paths;
+        }
+    }
+    return best;
 }
 
 double secondsToError(const PilotMeasure& pilot, double relativeError, double limit) {

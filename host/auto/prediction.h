@@ -11,8 +11,10 @@ namespace quasilux {
 struct PilotMeasure {
     unsigned passes = 0;
     double secondsPerPass = 0;       ///< of the second half of these passes
+    double secondsOfPhotons = 0;     ///< the part of them that does not grow with the camera paths of a pixel
     double secondsWithRadius = 0;    ///< the part of them that falls as radii shrink, in proportion to the discs
     std::vector<double> noise, bias; ///< by tile; the bias of a tile is net of noise and may come out below 0
+    double noiseOfPhotons = 0;       ///< share of the noise that more camera paths with the same photons do not lower
     double biasNoise = 0;            ///< relMSE that the estimate of the bias has as noise
     double radius = 1;               ///< of the first pass's density estimate, in any unit
     bool inVolume = false;           ///< kernels shrink in three dimensions
@@ -50,6 +52,13 @@ private:
 /// relMSE of each after `seconds` more on the clock. Biases that differ by less than what can be resolved, but for what their radii
 /// explain, count as one.
 std::vector<double> predictedErrors(const std::vector<const PilotMeasure*>& pilots, double seconds);
+
+/// As it would be with so many times the camera paths of a pixel in a pass.
+PilotMeasure withCameraPaths(PilotMeasure pilot, double factor);
+
+/// Camera paths of a pixel in a pass, a power of 2, with which a render of so many seconds by this pilot's settings, which have
+/// `cameraPaths` of them, has the least error. Photons, which all paths of a pass share, cost the same however many there are.
+unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double seconds);
 
 /// Seconds until relMSE falls to the square of `relativeError`; never above `limit`.
 double secondsToError(const PilotMeasure& pilot, double relativeError, double limit);

@@ -53,7 +53,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
 
     const auto all = methods(settings, scene_, freedom_);
     const double time = pilotShare * report_.horizon, ofMethods = shareOfMethods * time;
-    const bool hasOthers = all.size() > 1 || !numbersBeside(settings, startPhotons_, freedom_).empty();
+    const bool hasOthers = all.size() > 1 || freedom_.cameraPaths || !numbersBeside(settings, startPhotons_, freedom_).empty();
     report_.outOfTime = hasOthers && 2 * fewestPasses * startPassSeconds_ > ofMethods;
     if (!begun || !hasOthers || report_.outOfTime || report_.horizon < leastSeconds)
         return {settings, report_, std::move(first.pilot)};
@@ -61,10 +61,12 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
 
     report_.rows.front().passes = 0;
     const double began = world_.clock();
-    if (all.size() > 1) race(all, fewestPasses, 1, ofMethods);
+    if (all.size() > 1 || freedom_.cameraPaths) race(all, fewestPasses, 1, ofMethods);
+    chooseCameraPaths();
     // Each step that pays is followed by the next one.
     while (!interrupted() && raceOfNumbers(time - (world_.clock() - began))) {
     }
+    chooseCameraPaths();
     report_.seconds = world_.clock() - began;
     for (const PilotRow& row : report_.rows) report_.passes += row.passes;
     if (!best_.pilot) return {settings, report_, nullptr}; // interrupted, or there was no time
@@ -73,6 +75,15 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     RenderSettings chosen = best_.settings;
     chosen.seed = settings.seed;
     return {chosen, report_, nullptr};
+}
+
+// Known from the best one's noise and times alone. Two of its passes may not know the noise well; with those of a race of numbers it is
+// chosen anew.
+void Search::chooseCameraPaths() {
+    if (!best_.pilot || !freedom_.cameraPaths) return;
+    const unsigned paths = bestCameraPaths(best_.measure, best_.settings.cameraPaths, secondsLeft());
+    best_.measure = withCameraPaths(best_.measure, double(paths) / best_.settings.cameraPaths);
+    best_.settings.cameraPaths = report_.rows[best_.row].settings.cameraPaths = paths;
 }
 
 bool Search::raceOfNumbers(double seconds) {

@@ -54,6 +54,7 @@ private:
     /// Successive halving (Karnin et al. 2013) among these, for so many seconds. All begin anew, as estimates differ after fewer
     /// passes: like must be held against like. All but the first one must have a relMSE that is `leastGain` times less to win.
     void race(const std::vector<RenderSettings>& candidates, unsigned fewestPasses, double leastGain, double seconds);
+    void chooseCameraPaths();
     /// Among the best ones so far and those beside it; whether one of these has won.
     bool raceOfNumbers(double seconds);
     Field enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain, double end);

@@ -4,6 +4,7 @@
 #include "cli/option_checks.h"
 
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace quasilux {
 
@@ -62,6 +63,13 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
                     "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)")
         ->type_name("N")
         ->transform(wholeNumber(1, maximumCount))
+        ->group(group);
+    command
+        .add_option("--camera-paths", options.cameraPaths,
+                    "Camera paths of a pixel in each pass, which share its photons, a count (default: the scene's, else "
+                    "searched, else 1)")
+        ->type_name("N")
+        ->transform(wholeNumber(1, 1024))
         ->group(group);
     command
         .add_option("--seed", options.seed,
@@ -208,6 +216,11 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (map) result.map = parseMapOrder(*map);
     if (emission) result.emission = parseEmission(*emission);
     if (photons) result.photonsPerPass = *photons;
+    if (cameraPaths) result.cameraPaths = *cameraPaths;
+    if (result.cameraPaths > 1 && !mayHaveCameraPaths(loaded.sensor.meter != MeterKind::none, result))
+        throw InputError(fmt::format("{} camera paths of a pixel are asked for, by --camera-paths or the scene's camera-paths; meters and "
+                                     "--map camera have their own number, leave it out",
+                                     result.cameraPaths));
     if (seed) result.seed = *seed;
     if (quasiSpecular) {
         result.quasiSpecular = *quasiSpecular;
@@ -227,6 +240,7 @@ Freedom SceneOptions::freedom(const Scene& loaded) const {
     freedom.split &= !quasiSpecular;
     freedom.variant &= !variant;
     freedom.photons &= !photons;
+    freedom.cameraPaths &= !cameraPaths;
     freedom.radius &= !radiusScale;
     return freedom;
 }

@@ -18,7 +18,7 @@ namespace quasilux {
 struct SceneOptions {
     std::string scene;
     std::vector<std::string> definitions; ///< "name=value"
-    std::optional<unsigned> bdd, photons;
+    std::optional<unsigned> bdd, photons, cameraPaths;
     std::optional<uint64_t> seed;
     std::optional<std::string> variant, direct, map, emission, quasiSpecular, radius;
     std::optional<double> radiusScale;

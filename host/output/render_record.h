@@ -44,6 +44,7 @@ struct RenderRecord {
         visit("quasiSpecular", settings.quasiSpecular);
         visit("seed", settings.seed);
         visit("photonsPerPass", photonsPerPass());
+        visit("cameraPaths", settings.cameraPaths);
         visit("radius", name(settings.radius));
         visit("radiusScale", settings.radiusScale);
         visit("auto", search.line());

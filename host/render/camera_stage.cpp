@@ -52,11 +52,12 @@ bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->pi
 size_t CameraStage::chooseRadius(unsigned pass, const PhotonStage& photons) {
     params(pass, photons);
     const size_t paths = radii_->pilotFilm().pixels();
-    const shared::Camera camera = params_.camera;
+    const shared::CameraParams ofImage = params_;
     params_.camera = radii_->pilotCamera();
-    params_.radiusBlock = 1;
+    params_.radiusBlock = params_.cameraPaths = 1;
     runOn(radii_->pilotFilm(), &radii_->pilotScales(), photons);
-    params_.camera = camera;
+    params_.camera = ofImage.camera;
+    params_.cameraPaths = ofImage.cameraPaths;
     radii_->endPilotPass();
     return paths;
 }

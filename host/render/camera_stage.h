@@ -21,7 +21,7 @@ public:
     /// Of a pass's camera paths, with its photons.
     const shared::CameraParams& params(unsigned pass, const PhotonStage& photons);
 
-    /// One path per pixel.
+    /// CameraParams::cameraPaths of each pixel.
     void run(unsigned pass, const PhotonStage& photons);
 
     /// Are radii by pixel to be chosen with the photons of this pass? Then chooseRadius() is to follow run().

@@ -118,6 +118,11 @@ struct Renderer::Stages {
         row.seconds = seconds;
     }
 
+    uint64_t pathsPerPixel() const {
+        const bool isMeter = flat.offsets.meter.kind != METER_NONE;
+        return mayHaveCameraPaths(isMeter, settings) ? settings.cameraPaths : flat.offsets.meter.samples;
+    }
+
     // Samples of emitters where a path gathers: several where each must choose one of many, as they share the choices out.
     unsigned directSamples() const { return learned->tables.lights.empty() ? 1 : samplesOfManyEmitters; }
 
@@ -368,7 +373,7 @@ void Renderer::renderPass(unsigned pass) {
     counters.cutPaths += dropped.cutPaths - s.dropped.cutPaths;
     counters.throughputCut += double(dropped.cutThroughput - s.dropped.cutThroughput) / CUT_THROUGHPUT_STEPS;
     s.dropped = dropped;
-    counters.cameraPaths += s.film.pixels() * s.flat.offsets.meter.samples;
+    counters.cameraPaths += s.film.pixels() * s.pathsPerPixel();
     counters.fluxEmitted += s.flat.emittedFlux;
     const double seconds = since(start);
     if (counters.passes++ == 0) counters.firstPassSeconds = seconds;

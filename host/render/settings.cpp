@@ -18,6 +18,7 @@ RenderSettings settingsFromScene(const Scene& scene) {
         if (said.map) settings.map = parseMapOrder(*said.map);
         if (said.quasiSpecular) settings.quasiSpecular = *said.quasiSpecular;
         if (said.photons) settings.photonsPerPass = *said.photons;
+        if (said.cameraPaths) settings.cameraPaths = *said.cameraPaths;
         if (said.seed) settings.seed = *said.seed;
         settings.photometric = said.units == "photometric";
     } catch (const InputError& error) {

@@ -48,6 +48,7 @@ struct RenderSettings {
     std::string quasiSpecular = "auto";        ///< auto | none | all | ID,ID,…
     bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
     unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
+    unsigned cameraPaths = 1;                  ///< of a pixel in each pass; of meters and with the camera map it is 1
     uint64_t seed = 1;
     RadiusChoice radius = RadiusChoice::adaptive;
     double radiusScale = 1.0;    ///< factor on the initial density radius
@@ -72,6 +73,12 @@ struct StopRule {
     std::optional<unsigned> passes;
     std::optional<double> relativeError; ///< ErrorEstimate::sum()
 };
+
+/// Whether a pass may have several camera paths for a pixel: meters have a number of paths of their own, and the camera map would store the
+/// points of all.
+inline bool mayHaveCameraPaths(bool isMeter, const RenderSettings& settings) {
+    return !isMeter && settings.map == MapOrder::photons;
+}
 
 /// Defaults, then what the scene says. The command line writes over the result.
 RenderSettings settingsFromScene(const Scene& scene);

@@ -178,6 +178,7 @@ struct SceneSettings {
     std::optional<std::string> direct;        ///< "emitters", "photons"
     std::optional<std::string> map;           ///< "photons", "camera"
     std::optional<unsigned> photons;          ///< emitted per pass
+    std::optional<unsigned> cameraPaths;      ///< of a pixel in each pass
     std::optional<uint64_t> seed;
     std::optional<std::string> units; ///< of radiance and intensity: "radiometric" (default), "photometric"
 };

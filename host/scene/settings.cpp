@@ -14,7 +14,7 @@ namespace quasilux {
 
 namespace {
 
-const Names settingNames = {"bdd", "variant", "quasi-specular", "direct", "map", "photons", "seed", "units"};
+const Names settingNames = {"bdd", "variant", "quasi-specular", "direct", "map", "photons", "camera-paths", "seed", "units"};
 
 std::string oneOf(const Attribute& entry, const Names& known, const SourceLocation& where) {
     if (std::find(known.begin(), known.end(), entry.value) == known.end())
@@ -34,7 +34,7 @@ std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& whe
 }
 
 void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& settings) {
-    constexpr uint64_t maximumPhotons = 1000000000; // as of --photons
+    constexpr uint64_t maximumPhotons = 1000000000, maximumCameraPaths = 1024; // as of the options
     if (entry.name == "bdd")
         settings.bdd = static_cast<unsigned>(parseUnsigned(entry.value, 0, 1000, where, "bdd"));
     else if (entry.name == "variant")
@@ -49,6 +49,9 @@ void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& s
         settings.units = oneOf(entry, {"radiometric", "photometric"}, where);
     else if (entry.name == "photons")
         settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, maximumPhotons, where, "photons"));
+    else if (entry.name == "camera-paths")
+        settings.cameraPaths =
+            static_cast<unsigned>(parseUnsigned(entry.value, 1, maximumCameraPaths, where, "camera-paths"));
     else if (entry.name == "seed")
         settings.seed = parseUnsigned(entry.value, 0, std::numeric_limits<uint64_t>::max(), where, "seed");
     else

@@ -1,0 +1,70 @@
+// Several camera paths of a pixel in a pass (RenderSettings::cameraPaths): the same paths as with one in as many passes, and how many are
+// best.
+#include "auto/prediction.h"
+#include "support/even_pilot.h"
+#include "support/render_statistics.h"
+#include "support/test_kernels.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace quasilux {
+namespace {
+
+FilmImage render(unsigned cameraPaths, unsigned passes) {
+    RenderSettings settings;
+    settings.photonsPerPass = 4000;
+    settings.bdd = 1;
+    settings.cameraPaths = cameraPaths;
+    Renderer renderer(testDevice(), projectScene("cornell_phong.xml", {{"resolution", "32"}}), settings);
+    for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
+    EXPECT_EQ(renderer.counters().cameraPaths, uint64_t{32} * 32 * cameraPaths * passes);
+    return renderer.develop();
+}
+
+double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
+    double largest = 0;
+    for (size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(double(a[k]) - b[k]) / (0.01 + b[k]));
+    return largest;
+}
+
+// Light that needs no photons depends on nothing but the paths, so it is that of the same paths in other passes, but for rounding.
+TEST(CameraPaths, AreThoseOfAsManyPasses) {
+    const FilmImage four = render(4, 4), one = render(1, 16), fewer = render(1, 12);
+    for (const unsigned component : {LIGHT_DIRECT, FILM_EMISSION}) {
+        EXPECT_LT(largestDifference(four.components[component], one.components[component]), 1e-5);
+        EXPECT_GT(largestDifference(four.components[component], fewer.components[component]), 0.01) << "control";
+    }
+}
+
+// A pass costs photons + K camera seconds and leaves a variance of photons + camera / K, which is best at K^2 = (camera variance / photon
+// variance) (photon seconds / camera seconds); Kahn 1955 on splitting.
+PilotMeasure pilotOf(double photonSeconds, double cameraSeconds, double photonNoise, double cameraNoise) {
+    PilotMeasure pilot = evenPilot(16, photonNoise + cameraNoise, 0, photonSeconds + cameraSeconds);
+    pilot.secondsOfPhotons = photonSeconds;
+    pilot.noiseOfPhotons = photonNoise / (photonNoise + cameraNoise);
+    return pilot;
+}
+
+TEST(CameraPaths, BestNumberIsTheSquareRootOfBothRatios) {
+    constexpr double seconds = 1e4;
+    EXPECT_EQ(bestCameraPaths(pilotOf(0.04, 0.01, 1, 16), 1, seconds), 8u);
+    EXPECT_EQ(bestCameraPaths(pilotOf(0.01, 0.01, 1, 16), 1, seconds), 4u);
+    EXPECT_EQ(bestCameraPaths(pilotOf(0.01, 0.01, 16, 1), 1, seconds), 1u);
+    // The same one, told by a pilot that has four of them.
+    EXPECT_EQ(bestCameraPaths(withCameraPaths(pilotOf(0.04, 0.01, 1, 16), 4), 4, seconds), 8u);
+    // Few passes would not know their error.
+    EXPECT_EQ(bestCameraPaths(pilotOf(0.04, 0.01, 1, 16), 1, 3), 1u);
+}
+
+TEST(CameraPaths, PilotChangesToOtherNumbersAndBack) {
+    const PilotMeasure pilot = pilotOf(0.04, 0.01, 1, 16), back = withCameraPaths(withCameraPaths(pilot, 8), 1. / 8);
+    EXPECT_NEAR(withCameraPaths(pilot, 8).secondsPerPass, 0.12, 1e-12);
+    EXPECT_NEAR(predictAfterPasses(withCameraPaths(pilot, 8), 16).noise, 3. / 16, 1e-12);
+    EXPECT_NEAR(back.secondsPerPass, pilot.secondsPerPass, 1e-12);
+    EXPECT_NEAR(back.noise[0], pilot.noise[0], 1e-12);
+    EXPECT_NEAR(back.noiseOfPhotons, pilot.noiseOfPhotons, 1e-12);
+}
+
+} // namespace
+} // namespace quasilux
