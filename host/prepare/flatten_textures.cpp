@@ -2,21 +2,25 @@
 #include "prepare/device_scene.h"
 
 #include <algorithm>
+#include <map>
 
 namespace quasilux {
 
 TextureTables flattenTextures(const Scene& scene, const std::vector<shared::Lobe>& lobes) {
     TextureTables tables;
+    std::map<const void*, unsigned> placed; // images that several textures share, by Texels::identity
     for (unsigned k = 0; k < scene.textures.size(); ++k) {
         const auto used = [&](const shared::Lobe& lobe) {
             return lobe.reflectanceTexture == k + 1 || lobe.transmittanceTexture == k + 1;
         };
         shared::Texture record = scene.textures[k].device;
-        record.firstTexel = static_cast<unsigned>(tables.texels.size());
+        const Texels& texels = scene.textures[k].texels;
+        if (std::any_of(lobes.begin(), lobes.end(), used)) {
+            const auto [image, isNew] = placed.emplace(texels.identity(), static_cast<unsigned>(tables.texels.size()));
+            record.firstTexel = image->second;
+            if (isNew) tables.texels.insert(tables.texels.end(), texels.begin(), texels.end());
+        }
         tables.textures.push_back(record);
-        const auto& texels = scene.textures[k].texels;
-        if (std::any_of(lobes.begin(), lobes.end(), used))
-            tables.texels.insert(tables.texels.end(), texels.begin(), texels.end());
     }
     return tables;
 }

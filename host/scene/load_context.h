@@ -5,10 +5,20 @@
 #include "scene/xml/element.h"
 #include "scene/xml/file_resolver.h"
 
+#include <map>
 #include <set>
 #include <unordered_map>
 
 namespace quasilux {
+
+/// An image as it is looked up: linear, row by row from the top, three channels.
+struct Image {
+    unsigned width = 0, height = 0;
+    Texels pixels;
+    unsigned clamped = 0; ///< pixels that were above 1
+};
+
+struct MeshSource;
 
 class LoadContext {
 public:
@@ -29,6 +39,11 @@ public:
     int defaultBsdf = -1, defaultEmitterBsdf = -1;            ///< of shapes without one; -1 until the first needs it
     std::vector<const Element*> openBsdfs;                    ///< being read now, outermost first: a cycle shows here
     std::vector<const Element*> openTextures;                 ///< likewise
+    std::map<std::pair<std::string, bool>, Image> images;     ///< read already, by path and `raw`
+    std::set<const Element*> usedGroups;                      ///< shapegroups that an instance places
+    std::optional<glm::dmat4> placement;                      ///< of the instance whose shapes are being read
+    /// Of the files that instances place more than once, by path and options.
+    std::map<std::string, std::shared_ptr<const MeshSource>> instancedMeshes;
 
 private:
     void collect(const Element& element);

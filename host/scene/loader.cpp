@@ -47,9 +47,11 @@ struct PlacedSensor {
 void readObject(const Element& object, LoadContext& context, std::vector<PlacedSensor>& sensors,
                 std::vector<const Element*>& integrators) {
     if (object.tag == "shape") {
-        const Element* sensor = nullptr;
-        context.scene.shapes.push_back(readShape(object, context, sensor));
-        if (sensor) sensors.push_back({sensor, static_cast<unsigned>(context.scene.shapes.size() - 1)});
+        for (PlacedShape& placed : readShapes(object, context)) {
+            context.scene.shapes.push_back(std::move(placed.shape));
+            if (placed.sensor)
+                sensors.push_back({placed.sensor, static_cast<unsigned>(context.scene.shapes.size() - 1)});
+        }
     } else if (object.tag == "emitter")
         readSceneEmitter(object, context);
     else if (object.tag == "sensor")
@@ -64,6 +66,15 @@ void readObject(const Element& object, LoadContext& context, std::vector<PlacedS
                          fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, texture, medium, "
                                      "phase, emitter, sensor or integrator.",
                                      object.tag));
+}
+
+/// Groups that no instance places, likewise.
+void checkUnusedGroups(const Element& root, LoadContext& context) {
+    for (const Element& element : root.children)
+        if (element.tag == "shape" && element.get("type") == "shapegroup" && !context.usedGroups.count(&element)) {
+            checkUnusedGroup(element, context);
+            context.warn(element.where, fmt::format("shapegroup '{}' is used by no instance.", idOf(element)));
+        }
 }
 
 /// Bsdfs that no shape uses are checked all the same, and reported.
@@ -160,6 +171,7 @@ Scene readScene(const SceneDocument& document, const std::string& path, const gl
     std::vector<const Element*> integrators, nestedBsdfs;
     for (const Element& child : root.children) readObject(child, context, sensors, integrators);
     collectNested(root, context, nestedBsdfs);
+    checkUnusedGroups(root, context);
     checkUnusedBsdfs(root, context, nestedBsdfs);
     checkUnusedTextures(root, context);
     readSensors(sensors, context);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,10 +54,30 @@ struct AreaEmitter {
     SourceLocation where;
 };
 
+/// Pixels of an image, row by row from v = 0 on, linear. Copies share them.
+class Texels {
+public:
+    Texels() = default;
+    Texels(std::vector<Rgb> pixels) : pixels_(std::make_shared<const std::vector<Rgb>>(std::move(pixels))) {}
+
+    operator const std::vector<Rgb>&() const { return *pixels_; }
+    /// The same for copies, different for others.
+    const void* identity() const { return pixels_.get(); }
+    bool empty() const { return pixels_->empty(); }
+    size_t size() const { return pixels_->size(); }
+    const Rgb& at(size_t i) const { return pixels_->at(i); }
+    const Rgb& operator[](size_t i) const { return (*pixels_)[i]; }
+    auto begin() const { return pixels_->begin(); }
+    auto end() const { return pixels_->end(); }
+
+private:
+    std::shared_ptr<const std::vector<Rgb>> pixels_ = std::make_shared<const std::vector<Rgb>>();
+};
+
 /// A factor of reflectance over a surface, in [0, 1].
 struct TextureDescription {
     shared::Texture device{};
-    std::vector<Rgb> texels; ///< bitmap: row by row from v = 0 on, linear
+    Texels texels; ///< bitmap
     SourceLocation where;
 };
 

@@ -128,9 +128,12 @@ private:
 } // namespace
 
 void readObj(Properties& properties, ShapeDescription& shape) {
-    const MeshFile file = readMeshFile(properties, true);
-    ObjReader reader(file.path, readFile(file.path, file.where, "mesh"), file.flipTexCoords);
-    shape.mesh = fileMesh(reader.read(), file.toWorld, shape.flipNormals, file.faceNormals, shape.where);
+    MeshFile file = readMeshFile(properties);
+    file.flipTexCoords = properties.boolean("flip_tex_coords", true);
+    const auto read = [&] {
+        return ObjReader(file.path, readFile(file.path, file.where, "mesh"), file.flipTexCoords).read();
+    };
+    shape.mesh = placeMeshFile(file, read, properties, shape);
 }
 
 } // namespace quasilux

@@ -107,10 +107,13 @@ private:
 } // namespace
 
 void readPly(Properties& properties, ShapeDescription& shape) {
-    const MeshFile file = readMeshFile(properties, false);
-    PlyReader reader(file.path, readFile(file.path, file.where, "mesh"));
-    shape.mesh = fileMesh(PlyMeshReader(reader, file.flipTexCoords).read(), file.toWorld, shape.flipNormals,
-                          file.faceNormals, shape.where);
+    MeshFile file = readMeshFile(properties);
+    file.flipTexCoords = properties.boolean("flip_tex_coords", false);
+    const auto read = [&] {
+        PlyReader reader(file.path, readFile(file.path, file.where, "mesh"));
+        return PlyMeshReader(reader, file.flipTexCoords).read();
+    };
+    shape.mesh = placeMeshFile(file, read, properties, shape);
 }
 
 } // namespace quasilux

@@ -20,13 +20,13 @@ struct ShapePlugin {
 
 constexpr ShapePlugin shapePlugins[] = {
     {"rectangle", readRectangle}, {"cube", readCube}, {"disk", readDisk}, {"cylinder", readCylinder},
-    {"sphere", readSphere},       {"obj", readObj},   {"ply", readPly},
+    {"sphere", readSphere},       {"obj", readObj},   {"ply", readPly},   {"serialized", readSerialized},
 };
 
 } // namespace
 
 ShapeDescription readShape(const Element& element, LoadContext& context, const Element*& sensor) {
-    const ShapePlugin& plugin = findPlugin(shapePlugins, element);
+    const ShapePlugin& plugin = findPlugin(shapePlugins, element, {"instance", "shapegroup", "merge"});
     Properties properties(element, context);
     ShapeDescription shape;
     shape.id = idOf(element);

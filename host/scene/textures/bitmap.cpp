@@ -22,14 +22,18 @@ void readBitmap(Properties& properties, TextureDescription& texture) {
     const bool raw = properties.boolean("raw", false);
     properties.accept({"format", "accel"});
 
-    Image image = readImage(properties.context().files.resolve(name, where), raw, where);
-    if (image.clamped > 0)
+    const std::string path = properties.context().files.resolve(name, where);
+    auto known = properties.context().images.find({path, raw});
+    const bool isNew = known == properties.context().images.end();
+    if (isNew) known = properties.context().images.emplace(std::pair(path, raw), readImage(path, raw, where)).first;
+    const Image& image = known->second;
+    if (isNew && image.clamped > 0)
         properties.context().warn(where, fmt::format("{} of the {} pixels of '{}' are above 1 and are taken as 1: a "
                                                      "surface cannot reflect more light than it gets.",
                                                      image.clamped, image.pixels.size(), name));
     texture.device.width = image.width;
     texture.device.height = image.height;
-    texture.texels = std::move(image.pixels);
+    texture.texels = image.pixels;
 }
 
 } // namespace quasilux

@@ -47,7 +47,8 @@ Image readImage(const std::string& path, bool raw, const SourceLocation& where) 
     const auto step = static_cast<size_t>(channels);
     const size_t green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2; // one channel, or grey and alpha
     Image image{static_cast<unsigned>(spec.width), static_cast<unsigned>(spec.height), {}, 0};
-    image.pixels.reserve(static_cast<size_t>(count));
+    std::vector<Rgb> pixels;
+    pixels.reserve(static_cast<size_t>(count));
     for (size_t i = 0; i < values.size(); i += step) {
         float pixel[3] = {values[i], values[i + green], values[i + blue]};
         bool above = false;
@@ -62,8 +63,9 @@ Image readImage(const std::string& path, bool raw, const SourceLocation& where) 
             value = std::min(value, 1.f);
         }
         image.clamped += above;
-        image.pixels.push_back({pixel[0], pixel[1], pixel[2]});
+        pixels.push_back({pixel[0], pixel[1], pixel[2]});
     }
+    image.pixels = std::move(pixels);
     return image;
 }
 

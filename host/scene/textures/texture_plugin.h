@@ -25,13 +25,6 @@ struct Reflectance {
 /// The parameter `name`, a colour or a texture within [0, 1]; `missing` where it is not given.
 Reflectance readReflectance(Properties& properties, const std::string& name, float missing);
 
-/// An image as it is looked up: linear, row by row from the top, three channels.
-struct Image {
-    unsigned width = 0, height = 0;
-    std::vector<Rgb> pixels;
-    unsigned clamped = 0; ///< pixels that were above 1
-};
-
 /// Reads an image file. Files of integers are taken as sRGB encoded unless `raw`; one channel is grey, alpha is left
 /// out. Throws InputError at `where` where the file cannot be read, or has negative or non-finite values.
 Image readImage(const std::string& path, bool raw, const SourceLocation& where);
