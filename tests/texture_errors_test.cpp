@@ -1,4 +1,5 @@
 // What is wrong with a texture is said at file:line:column.
+#include "prepare/device_scene.h"
 #include "support/scene_files.h"
 
 #include <OpenImageIO/imageio.h>
@@ -91,6 +92,29 @@ TEST(Textures, BrightPixelsAreClampedWithAWarning) {
     EXPECT_THAT(scene.warnings[0], HasSubstr("scene.xml:6:1: 1 of the 2 pixels of 'bright.exr' are above 1"));
     EXPECT_EQ(scene.textures.at(0).texels.at(0).g, 1);
     EXPECT_EQ(scene.textures.at(0).texels.at(0).b, 0.25f);
+}
+
+TEST(Textures, AnImageIsHeldOnceHoweverManyTexturesShowIt) {
+    SceneFiles files;
+    writeFloats(files.path("a.exr"), 2, {0.5f, 0.4f, 0.25f, 0.5f, 0.5f, 0.5f});
+    const auto shape = [&](const char* name, const char* parameters) {
+        return std::string("<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture type=\"bitmap\" "
+                           "name=\"reflectance\"><string name=\"filename\" value=\"") +
+               name + "\"/>" + parameters + "</texture></bsdf></shape>";
+    };
+    writeFloats(files.path("b.exr"), 2, {0.1f, 0.4f, 0.25f, 0.5f, 0.5f, 0.5f});
+    const Scene scene = loadScene(
+        files.write("scene.xml", sceneWith(shape("a.exr", "") + shape("b.exr", "") +
+                                           shape("a.exr", "<string name=\"filter_type\" value=\"nearest\"/>"))));
+    ASSERT_EQ(scene.textures.size(), 3u);
+    EXPECT_EQ(scene.textures[0].texels.identity(), scene.textures[2].texels.identity());
+    std::vector<shared::Lobe> lobes(3);
+    for (unsigned k = 0; k < 3; ++k) lobes[k].reflectanceTexture = k + 1;
+    const TextureTables tables = flattenTextures(scene, lobes);
+    EXPECT_EQ(tables.texels.size(), 4u); // two images of two pixels
+    EXPECT_EQ(tables.textures[0].firstTexel, tables.textures[2].firstTexel);
+    EXPECT_EQ(tables.texels[tables.textures[1].firstTexel].r, 0.1f);
+    EXPECT_EQ(tables.textures[2].filter, TEXTURE_NEAREST);
 }
 
 TEST(Textures, ASharedOneIsReadOnceAndAnUnusedOneIsReported) {

@@ -11,6 +11,7 @@ namespace quasilux {
 
 struct BenchOptions {
     std::vector<std::string> scenes, methods, definitions;
+    bool lenient = false;
     std::vector<std::string> references; ///< one for each scene, or none; "-" = none for this one
     std::vector<double> referenceNoise;  ///< one for each reference, or none
     std::vector<int> devices;            ///< empty = the default one

@@ -143,6 +143,9 @@ void declareScene(CLI::App& command, SceneOptions& options) {
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false)
         ->check(definition());
+    command.add_flag("--lenient", options.lenient,
+                     "Plugins, parameters and elements of the scene that are not known are left out or replaced by the "
+                     "nearest that are, with a warning at each (default: off, an error)");
     command.add_flag("--json", options.json, "The result on stdout as one JSON object (default: off, text)");
     command.add_flag("--quiet", options.quiet,
                      "No progress, no warnings and no summary; errors and --json are still printed (default: off)");

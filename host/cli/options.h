@@ -18,6 +18,7 @@ namespace quasilux {
 struct SceneOptions {
     std::string scene;
     std::vector<std::string> definitions; ///< "name=value"
+    bool lenient = false;                 ///< what the scene says and is not known is left out
     std::optional<unsigned> bdd, photons, cameraPaths;
     std::optional<uint64_t> seed;
     std::optional<std::string> variant, direct, map, emission, quasiSpecular, radius;
@@ -32,6 +33,7 @@ struct SceneOptions {
 
     /// `definitions` as loadScene takes them.
     std::vector<std::pair<std::string, std::string>> parameters() const;
+    Unknown unknown() const { return lenient ? Unknown::forgiven : Unknown::refused; }
     /// The scene's settings, overridden by what was given here. Throws InputError.
     RenderSettings settings(const Scene& loaded) const;
     /// What is left to a search.

@@ -194,7 +194,7 @@ int renderCommand(const RenderOptions& options) {
     ProgressLine progress(stderr, !options.quiet);
     progress.update({.phase = "loading"});
     const auto start = Clock::now();
-    Scene scene = loadScene(options.scene, options.parameters());
+    Scene scene = loadScene(options.scene, options.parameters(), options.unknown());
     if (!options.grid.empty()) measureGrid(scene);
     const double loadSeconds = secondsSince(start);
     progress.clear();

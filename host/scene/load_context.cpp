@@ -51,6 +51,11 @@ void LoadContext::warn(const SourceLocation& where, const std::string& message) 
     scene.warnings.push_back(where.text() + ": " + message);
 }
 
+void LoadContext::refuseUnknown(const SourceLocation& where, const std::string& message, const std::string& instead) {
+    if (unknown == Unknown::refused) throw InputError(where, message);
+    forgiven.push_back(fmt::format("{}: {} It is {}.", where.text(), message, instead));
+}
+
 std::string idOf(const Element& element) {
     const std::string* id = element.find("id");
     return id ? *id : fmt::format("{}@{}", element.get("type"), element.where.line);

@@ -29,6 +29,11 @@ public:
     const Element& resolve(const Element& element) const;
 
     void warn(const SourceLocation& where, const std::string& message);
+    /// Throws InputError with this message, or notes it and what is done instead where the unknown is forgiven.
+    void refuseUnknown(const SourceLocation& where, const std::string& message, const std::string& instead);
+
+    Unknown unknown = Unknown::refused;
+    std::vector<std::string> forgiven; ///< "file:line:column: …", in the order of reading
 
     Scene& scene;
     const FileResolver& files;
@@ -40,6 +45,7 @@ public:
     std::vector<const Element*> openBsdfs;                    ///< being read now, outermost first: a cycle shows here
     std::vector<const Element*> openTextures;                 ///< likewise
     std::map<std::pair<std::string, bool>, Image> images;     ///< read already, by path and `raw`
+    std::set<const Element*> usedEmitters;                    ///< that a shape has
     std::set<const Element*> usedGroups;                      ///< shapegroups that an instance places
     std::optional<glm::dmat4> placement;                      ///< of the instance whose shapes are being read
     /// Of the files that instances place more than once, by path and options.

@@ -52,9 +52,10 @@ void readObject(const Element& object, LoadContext& context, std::vector<PlacedS
             if (placed.sensor)
                 sensors.push_back({placed.sensor, static_cast<unsigned>(context.scene.shapes.size() - 1)});
         }
-    } else if (object.tag == "emitter")
-        readSceneEmitter(object, context);
-    else if (object.tag == "sensor")
+    } else if (object.tag == "emitter") {
+        const bool isShared = isShapeEmitter(object) && object.find("id");
+        if (!isShared && !leavesOutEmitter(object, context)) readSceneEmitter(object, context);
+    } else if (object.tag == "sensor")
         sensors.push_back({&object, std::nullopt});
     else if (object.tag == "integrator")
         integrators.push_back(&object);
@@ -93,9 +94,18 @@ void checkUnusedTextures(const Element& root, LoadContext& context) {
         if (element.tag != "texture" || context.textureIndex.count(&element)) continue;
         if (isConstantTexture(element))
             readConstantTexture(element, ColorUse::emission, context);
-        else
+        else if (!replacesTexture(element, context))
             readTexture(element, context);
         context.warn(element.where, fmt::format("texture '{}' is used by no bsdf.", idOf(element)));
+    }
+}
+
+/// Emitters for shapes that no shape has, likewise.
+void checkUnusedEmitters(const Element& root, LoadContext& context) {
+    for (const Element& element : root.children) {
+        if (element.tag != "emitter" || !isShapeEmitter(element) || context.usedEmitters.count(&element)) continue;
+        readShapeEmitter(element, context);
+        context.warn(element.where, fmt::format("emitter '{}' is used by no shape.", idOf(element)));
     }
 }
 
@@ -147,13 +157,25 @@ void checkEmitters(const Scene& scene) {
             "<emitter type=\"point\">, <emitter type=\"directional\"> or <emitter type=\"constant\">.");
 }
 
+/// The last warnings: what was unknown, and how much of it.
+void listForgiven(LoadContext& context) {
+    if (context.forgiven.empty()) return;
+    std::vector<std::string>& warnings = context.scene.warnings;
+    warnings.push_back(fmt::format(
+        "{} unknown in the scene, so that its image is not the one that is meant:",
+        context.forgiven.size() == 1 ? "1 thing is" : fmt::format("{} things are", context.forgiven.size())));
+    warnings.insert(warnings.end(), context.forgiven.begin(), context.forgiven.end());
+}
+
 /// The scene in coordinates of the file less `origin`.
-Scene readScene(const SceneDocument& document, const std::string& path, const glm::dvec3& origin) {
+Scene readScene(const SceneDocument& document, const std::string& path, Unknown unknown, const glm::dvec3& origin) {
     const Element& root = document.root;
     Scene scene;
     scene.path = path;
     scene.origin = origin;
     LoadContext context(root, document.files, scene);
+    context.unknown = unknown;
+    context.forgiven = document.forgiven;
     checkVersion(root, context);
     std::vector<Instruction> settings;
     for (const Instruction& instruction : root.instructions) {
@@ -174,32 +196,35 @@ Scene readScene(const SceneDocument& document, const std::string& path, const gl
     checkUnusedGroups(root, context);
     checkUnusedBsdfs(root, context, nestedBsdfs);
     checkUnusedTextures(root, context);
+    checkUnusedEmitters(root, context);
     readSensors(sensors, context);
     checkUnusedMedia(root, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
     if (!integrators.empty()) scene.maxDepth = readMaxDepth(*integrators[0], context);
     checkEmitters(scene);
+    listForgiven(context);
     return scene;
 }
 
 /// The scene about the origin of the file. Where that is so far away that a shape has no area left, about the sensor.
-Scene readSceneAnywhere(const SceneDocument& document, const std::string& path) {
+Scene readSceneAnywhere(const SceneDocument& document, const std::string& path, Unknown unknown) {
     try {
-        return readScene(document, path, glm::dvec3(0));
+        return readScene(document, path, unknown, glm::dvec3(0));
     } catch (const InputError&) {
         const glm::dvec3 place = placeOfSensor(document.root);
         if (place == glm::dvec3(0)) throw;
-        return readScene(document, path, place);
+        return readScene(document, path, unknown, place);
     }
 }
 
 } // namespace
 
-Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters) {
-    const SceneDocument document = readSceneDocument(path, parameters);
-    Scene scene = readSceneAnywhere(document, path);
+Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters,
+                Unknown unknown) {
+    const SceneDocument document = readSceneDocument(path, parameters, unknown);
+    Scene scene = readSceneAnywhere(document, path, unknown);
     const glm::dvec3 origin = chooseOrigin(scene);
-    return origin == scene.origin ? scene : readScene(document, path, origin);
+    return origin == scene.origin ? scene : readScene(document, path, unknown, origin);
 }
 
 } // namespace quasilux

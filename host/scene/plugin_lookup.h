@@ -1,6 +1,7 @@
 // Finds the plugin that an element names in the table of its kind.
 #pragma once
 
+#include "scene/load_context.h"
 #include "scene/xml/element.h"
 #include "scene/xml/names.h"
 
@@ -20,6 +21,20 @@ const Plugin& findPlugin(const Plugin (&plugins)[count], const Element& element,
     }
     throw InputError(element.where, fmt::format("unknown {} plugin '{}'.{}", element.tag, element.get("type"),
                                                 knownNames(element.get("type"), known)));
+}
+
+/// The same, or nullptr where the unknown is forgiven; `instead` is what the caller does then.
+template <typename Plugin, size_t count>
+const Plugin* findPlugin(const Plugin (&plugins)[count], const Element& element, LoadContext& context,
+                         const std::string& instead, const Names& others = {}) {
+    try {
+        return &findPlugin(plugins, element, others);
+    } catch (const InputError&) {
+        if (context.unknown == Unknown::refused) throw;
+    }
+    context.refuseUnknown(element.where, fmt::format("unknown {} plugin '{}'.", element.tag, element.get("type")),
+                          instead);
+    return nullptr;
 }
 
 } // namespace quasilux

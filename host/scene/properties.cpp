@@ -202,7 +202,8 @@ void Properties::accept(const Names& names) { knownNames_.insert(names.begin(), 
 
 void Properties::refuse(const std::string& name, const std::string& why) {
     if (find(name))
-        throw InputError(where(name), fmt::format("parameter '{}' of {} is not supported: {}.", name, describe(), why));
+        context_.refuseUnknown(
+            where(name), fmt::format("parameter '{}' of {} is not supported: {}.", name, describe(), why), "ignored");
 }
 
 void Properties::acceptAll() {
@@ -219,16 +220,17 @@ void Properties::checkObject(const Element& object) const {
     const std::string given = name.empty() ? "without a name" : "as '" + name + "'";
     Names names;
     if (byName != knownNamed_.end()) names.assign(byName->second.begin(), byName->second.end());
-    if (tag == "texture")
-        throw InputError(object.where, fmt::format("{} takes no texture {}. Parameters of it that may be textures: {}.",
-                                                   describe(), given, names.empty() ? "none" : joinNames(names)));
-    if (!names.empty())
-        throw InputError(object.where, fmt::format("{} takes no {} {}; name it.{}", describe(), tag, given,
-                                                   quasilux::knownNames(name, names)));
     Names tags(knownTags_.begin(), knownTags_.end());
     for (const auto& entry : knownNamed_) tags.push_back(entry.first);
-    throw InputError(object.where, fmt::format("{} takes no <{}>. Objects that it takes: {}.", describe(), tag,
-                                               tags.empty() ? "none" : joinNames(tags)));
+    std::string message = fmt::format("{} takes no <{}>. Objects that it takes: {}.", describe(), tag,
+                                      tags.empty() ? "none" : joinNames(tags));
+    if (tag == "texture")
+        message = fmt::format("{} takes no texture {}. Parameters of it that may be textures: {}.", describe(), given,
+                              names.empty() ? "none" : joinNames(names));
+    else if (!names.empty())
+        message =
+            fmt::format("{} takes no {} {}; name it.{}", describe(), tag, given, quasilux::knownNames(name, names));
+    context_.refuseUnknown(object.where, message, "ignored");
 }
 
 void Properties::finish() const {
@@ -241,8 +243,10 @@ void Properties::finish() const {
         const std::string& name = child.get("name");
         if (knownNames_.count(name)) continue;
         const Names known(knownNames_.begin(), knownNames_.end());
-        throw InputError(child.where, fmt::format("unknown parameter '{}' of {}.{}", name, describe(),
-                                                  quasilux::knownNames(name, known)));
+        context_.refuseUnknown(
+            child.where,
+            fmt::format("unknown parameter '{}' of {}.{}", name, describe(), quasilux::knownNames(name, known)),
+            "ignored");
     }
 }
 

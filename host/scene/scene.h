@@ -221,9 +221,13 @@ struct Scene {
     std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
 };
 
+/// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is known.
+enum class Unknown { refused, forgiven };
+
 /// Loads a Mitsuba 3 scene (docs/reference/scene-language.md). Throws InputError at file:line:column.
 /// `parameters` replace `<default>` values, as `-D name=value` does.
-Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {});
+Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {},
+                Unknown unknown = Unknown::refused);
 
 /// Makes the grid of the scene its sensor. Throws InputError where the scene has none.
 void measureGrid(Scene& scene);

@@ -41,16 +41,23 @@ int addBsdf(BsdfLobes lobes, std::string id, std::string plugin, const SourceLoc
     return static_cast<int>(scene.bsdfs.size()) - 1;
 }
 
+BsdfLobes greyLobes(float reflectance) {
+    BsdfLobes lobes;
+    lobes.front = {makeLobe(LOBE_LAMBERT, "diffuse", Rgb{reflectance, reflectance, reflectance}, lambertHalfWidth)};
+    return lobes;
+}
+
 } // namespace
 
 BsdfLobes readBsdfLobes(const Element& element, LoadContext& context) {
     std::vector<const Element*>& open = context.openBsdfs;
     if (std::find(open.begin(), open.end(), &element) != open.end())
         throw InputError(element.where, fmt::format("bsdf '{}' contains itself; remove one <ref>.", idOf(element)));
+    const BsdfPlugin* plugin = findPlugin(bsdfPlugins, element, context, "a grey diffuse bsdf of reflectance 0.5");
+    if (!plugin) return greyLobes(0.5f);
     open.push_back(&element);
-    const BsdfPlugin& plugin = findPlugin(bsdfPlugins, element);
     Properties properties(element, context);
-    BsdfLobes lobes = plugin.read(properties);
+    BsdfLobes lobes = plugin->read(properties);
     properties.finish();
     applyQuasiSpecular(element, lobes.front, lobes.back);
     open.pop_back();
@@ -69,10 +76,8 @@ int useBsdf(const Element& element, LoadContext& context) {
 int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context) {
     int& index = emits ? context.defaultEmitterBsdf : context.defaultBsdf;
     if (index >= 0) return index;
-    const float reflectance = emits ? 0.0f : 0.5f;
-    BsdfLobes lobes;
-    lobes.front = {makeLobe(LOBE_LAMBERT, "diffuse", Rgb{reflectance, reflectance, reflectance}, lambertHalfWidth)};
-    index = addBsdf(std::move(lobes), emits ? "default (emitters)" : "default", "diffuse", shape.where, context.scene);
+    index = addBsdf(greyLobes(emits ? 0.0f : 0.5f), emits ? "default (emitters)" : "default", "diffuse", shape.where,
+                    context.scene);
     return index;
 }
 

@@ -1,6 +1,7 @@
 // The tables of emitter plugins: those of shapes, and those that stand alone.
 #include "scene/emitters/emitters.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -45,9 +46,25 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
 
 } // namespace
 
+bool isShapeEmitter(const Element& element) {
+    return std::any_of(std::begin(shapeEmitters), std::end(shapeEmitters),
+                       [&](const ShapeEmitterPlugin& plugin) { return plugin.name == element.get("type"); });
+}
+
+bool leavesOutEmitter(const Element& element, LoadContext& context) {
+    const auto isNamed = [&](const auto& entry) { return entry.name == element.get("type"); };
+    if (context.unknown == Unknown::refused ||
+        std::any_of(std::begin(shapeEmitters), std::end(shapeEmitters), isNamed) ||
+        std::any_of(std::begin(sceneEmitters), std::end(sceneEmitters), isNamed))
+        return false;
+    context.refuseUnknown(element.where, fmt::format("unknown emitter plugin '{}'.", element.get("type")), "left out");
+    return true;
+}
+
 AreaEmitter readShapeEmitter(const Element& element, LoadContext& context) {
     for (const ShapeEmitterPlugin& plugin : shapeEmitters) {
         if (plugin.name != element.get("type")) continue;
+        context.usedEmitters.insert(&element);
         Properties properties(element, context);
         AreaEmitter emitter = plugin.read(properties);
         properties.finish();

@@ -5,6 +5,10 @@
 
 namespace quasilux {
 
+/// Whether the plugin is unknown, and forgiven.
+bool leavesOutEmitter(const Element& element, LoadContext& context);
+/// Whether its plugin is one for shapes: directly in the scene it is there to be referenced.
+bool isShapeEmitter(const Element& element);
 /// The emitter nested in a shape. Throws InputError unless it is an `area` emitter.
 AreaEmitter readShapeEmitter(const Element& element, LoadContext& context);
 /// An emitter of its own, directly in the scene; it is added to context.scene.

@@ -21,12 +21,13 @@ constexpr MediumPlugin mediumPlugins[] = {{"homogeneous", readHomogeneous}};
 } // namespace
 
 MediumDescription readMedium(const Element& element, LoadContext& context) {
-    const MediumPlugin& plugin = findPlugin(mediumPlugins, element);
-    Properties properties(element, context);
     MediumDescription medium;
     medium.id = idOf(element);
     medium.where = element.where;
-    plugin.read(properties, medium);
+    const MediumPlugin* plugin = findPlugin(mediumPlugins, element, context, "taken as empty");
+    if (!plugin) return medium;
+    Properties properties(element, context);
+    plugin->read(properties, medium);
     if (const Element* phase = properties.object("phase")) readPhase(*phase, context, medium);
     properties.accept({"sample_emitters", "has_spectral_extinction"});
     properties.finish();

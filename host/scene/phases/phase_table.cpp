@@ -19,11 +19,12 @@ constexpr PhasePlugin phasePlugins[] = {
 } // namespace
 
 void readPhase(const Element& element, LoadContext& context, MediumDescription& medium) {
-    const PhasePlugin& plugin = findPlugin(phasePlugins, element);
-    Properties properties(element, context);
-    plugin.read(properties, medium);
-    properties.finish();
     context.usedPhases.insert(&element);
+    const PhasePlugin* plugin = findPlugin(phasePlugins, element, context, "isotropic");
+    if (!plugin) return;
+    Properties properties(element, context);
+    plugin->read(properties, medium);
+    properties.finish();
 }
 
 } // namespace quasilux

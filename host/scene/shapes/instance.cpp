@@ -19,8 +19,10 @@ std::vector<PlacedShape> readGroup(const Element& group, const Element& instance
     std::vector<PlacedShape> placed;
     for (const Element* element : shapes) {
         if (isPlugin(*element, "instance") || isPlugin(*element, "shapegroup") || isPlugin(*element, "merge"))
-            throw InputError(element->where, fmt::format("a {} within a shapegroup; put its shapes there instead.",
-                                                         element->get("type")));
+            throw InputError(element->where,
+                             fmt::format("<shape type=\"{}\"> within a shapegroup; put its shapes there instead.",
+                                         element->get("type")));
+        if (leavesOutShape(*element, context)) continue;
         const Element* sensor = nullptr;
         ShapeDescription shape = readShape(*element, context, sensor);
         if (shape.emitter || sensor)
@@ -69,6 +71,7 @@ std::vector<PlacedShape> readShapes(const Element& element, LoadContext& context
     if (isPlugin(element, "shapegroup")) return {};
     if (isPlugin(element, "instance")) return readInstance(element, context);
     if (isPlugin(element, "merge")) return readMerge(element, context);
+    if (leavesOutShape(element, context)) return {};
     std::vector<PlacedShape> one(1);
     one[0].shape = readShape(element, context, one[0].sensor);
     return one;

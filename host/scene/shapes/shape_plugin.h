@@ -12,6 +12,9 @@ namespace quasilux {
 /// InputError for anything that is not right with it.
 ShapeDescription readShape(const Element& element, LoadContext& context, const Element*& sensor);
 
+/// Whether the plugin is unknown, and forgiven.
+bool leavesOutShape(const Element& element, LoadContext& context);
+
 /// A shape and what lies on it.
 struct PlacedShape {
     ShapeDescription shape;

@@ -23,10 +23,17 @@ constexpr ShapePlugin shapePlugins[] = {
     {"sphere", readSphere},       {"obj", readObj},   {"ply", readPly},   {"serialized", readSerialized},
 };
 
+/// Plugins that readShapes takes apart.
+Names compoundShapes() { return {"instance", "shapegroup", "merge"}; }
+
 } // namespace
 
+bool leavesOutShape(const Element& element, LoadContext& context) {
+    return !findPlugin(shapePlugins, element, context, "left out", compoundShapes());
+}
+
 ShapeDescription readShape(const Element& element, LoadContext& context, const Element*& sensor) {
-    const ShapePlugin& plugin = findPlugin(shapePlugins, element, {"instance", "shapegroup", "merge"});
+    const ShapePlugin& plugin = findPlugin(shapePlugins, element, compoundShapes());
     Properties properties(element, context);
     ShapeDescription shape;
     shape.id = idOf(element);
@@ -36,6 +43,7 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     plugin.read(properties, shape);
     const Element* bsdf = properties.object("bsdf");
     const Element* emitter = properties.object("emitter");
+    if (emitter && leavesOutEmitter(*emitter, context)) emitter = nullptr;
     sensor = properties.object("sensor");
     const Element* interior = properties.medium("interior");
     const Element* exterior = properties.medium("exterior");

@@ -9,6 +9,9 @@ namespace quasilux {
 /// Reads a <texture>. Throws InputError for unknown plugins and parameters, and for images that cannot be read.
 TextureDescription readTexture(const Element& element, LoadContext& context);
 
+/// Whether the plugin is unknown, and forgiven: a grey of 0.5 then.
+bool replacesTexture(const Element& element, LoadContext& context);
+
 void readCheckerboard(Properties& properties, TextureDescription& texture);
 void readBitmap(Properties& properties, TextureDescription& texture);
 

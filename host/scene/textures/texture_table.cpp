@@ -47,6 +47,10 @@ int useTexture(const Element& element, LoadContext& context) {
 
 } // namespace
 
+bool replacesTexture(const Element& element, LoadContext& context) {
+    return !findPlugin(texturePlugins, element, context, "0.5 everywhere", constantTextureNames());
+}
+
 TextureDescription readTexture(const Element& element, LoadContext& context) {
     const TexturePlugin& plugin = findPlugin(texturePlugins, element, constantTextureNames());
     Properties properties(element, context);
@@ -61,6 +65,7 @@ TextureDescription readTexture(const Element& element, LoadContext& context) {
 Reflectance readReflectance(Properties& properties, const std::string& name, float missing) {
     const Element* texture = properties.texture(name);
     if (!texture) return properties.reflectance(name, missing);
+    if (replacesTexture(*texture, properties.context())) return Rgb{0.5f, 0.5f, 0.5f};
     const int index = useTexture(*texture, properties.context());
     const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
     return {static_cast<unsigned>(index) + 1, largestValue(read)};

@@ -101,6 +101,10 @@ const Tag& tagOf(const Element& element) {
                      fmt::format("unknown element <{}>.{}", element.tag, knownNames(element.tag, namesOf(tags))));
 }
 
+bool isKnownTag(std::string_view name) {
+    return name == "lookAt" || std::any_of(tags.begin(), tags.end(), [&](const Tag& tag) { return tag.name == name; });
+}
+
 void checkElement(const Element& element, const Element* parent) {
     const Tag& tag = tagOf(element);
     checkAttributes(element, tag);

@@ -17,6 +17,8 @@ struct Tag {
 /// The tag of `element`. Throws InputError for an unknown or unsupported tag.
 const Tag& tagOf(const Element& element);
 
+bool isKnownTag(std::string_view name);
+
 /// Checks tag and attributes of `element` and whether it may stand in `parent` (nullptr: root of a file).
 void checkElement(const Element& element, const Element* parent);
 

@@ -47,7 +47,8 @@ struct Parameter {
 
 class DocumentReader {
 public:
-    DocumentReader(const std::string& path, const SceneParameters& parameters) : files_(path) {
+    DocumentReader(const std::string& path, const SceneParameters& parameters, Unknown unknown)
+        : files_(path), unknown_(unknown) {
         for (const auto& [name, value] : parameters) {
             for (const Parameter& earlier : parameters_)
                 if (earlier.name == name)
@@ -85,6 +86,7 @@ public:
     }
 
     const FileResolver& files() const { return files_; }
+    const std::vector<std::string>& forgiven() const { return forgiven_; }
 
     void checkAllUsed() const {
         for (const Parameter& parameter : parameters_) {
@@ -139,6 +141,7 @@ private:
                 positions.at(child.offset_debug()),
                 fmt::format("text '{}' in <{}>; values are written as attributes.", text.substr(0, 40), parent.tag));
         } else if (child.type() == pugi::node_element) {
+            if (leavesOut(child, parent, positions)) return;
             Element element = convert(child, &parent, positions, depth + 1);
             if (element.tag == "default")
                 define(element);
@@ -149,6 +152,20 @@ private:
             else
                 parent.children.push_back(std::move(element));
         }
+    }
+
+    /// Whether the element is unknown, and forgiven.
+    bool leavesOut(pugi::xml_node node, const Element& parent, const TextPositions& positions) {
+        Element element;
+        element.tag = node.name();
+        element.where = positions.at(node.offset_debug() - 1);
+        if (unknown_ == Unknown::refused || isKnownTag(element.tag) || parent.tag == "transform") return false;
+        try {
+            tagOf(element);
+        } catch (const InputError& error) {
+            forgiven_.push_back(fmt::format("{} It is left out.", error.what()));
+        }
+        return true;
     }
 
     void define(const Element& element) {
@@ -206,18 +223,20 @@ private:
     std::vector<Parameter> parameters_;
     std::vector<std::string> openFiles_;
     FileResolver files_;
+    Unknown unknown_;
+    std::vector<std::string> forgiven_;
     int version_ = 3; ///< the first number of that of the file that is being read
 };
 
 } // namespace
 
-SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters) {
-    DocumentReader reader(path, parameters);
+SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters, Unknown unknown) {
+    DocumentReader reader(path, parameters, unknown);
     Element root = reader.readRoot(path, {});
     if (root.tag != "scene")
         throw InputError(root.where, fmt::format("the outermost element is <{}>; expected <scene>.", root.tag));
     reader.checkAllUsed();
-    return {std::move(root), reader.files()};
+    return {std::move(root), reader.files(), reader.forgiven()};
 }
 
 Instruction parseInstruction(std::string_view text, const SourceLocation& where) {

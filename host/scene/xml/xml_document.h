@@ -1,6 +1,7 @@
 // Reads scene files: XML with positions, `<include>`, `<default>` and `$parameters` (docs/reference/scene-language.md, "Document").
 #pragma once
 
+#include "scene/scene.h"
 #include "scene/xml/element.h"
 #include "scene/xml/file_resolver.h"
 
@@ -14,10 +15,13 @@ using SceneParameters = std::vector<std::pair<std::string, std::string>>;
 struct SceneDocument {
     Element root;
     FileResolver files;
+    std::vector<std::string> forgiven; ///< unknown elements, which are left out: "file:line:column: …"
 };
 
-/// Throws InputError for a missing file, malformed XML, include loops, unknown names and unused `parameters`.
-SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters);
+/// Throws InputError for a missing file, malformed XML, include loops, unknown names unless they are forgiven, and unused
+/// `parameters`.
+SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters,
+                                Unknown unknown = Unknown::refused);
 
 /// Entries of `<?quasilux …?>`. Throws InputError at `where` if they are not a list of key="value".
 Instruction parseInstruction(std::string_view text, const SourceLocation& where);

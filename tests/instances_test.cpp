@@ -1,0 +1,120 @@
+// Groups of shapes, their instances, and merges.
+#include "support/scene_files.h"
+
+#include <gmock/gmock.h>
+
+namespace quasilux {
+namespace {
+
+using test::expectNear;
+using test::SceneFiles;
+using test::sceneWith;
+using testing::HasSubstr;
+
+const char* const group = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"cube\" id=\"box\"><transform "
+                          "name=\"to_world\"><scale value=\"0.5\"/></transform><bsdf type=\"diffuse\" "
+                          "id=\"paint\"/></shape><shape type=\"sphere\"/></shape>";
+
+std::string instance(const std::string& operations) {
+    return "<shape type=\"instance\" id=\"i\"><ref id=\"g\"/><transform name=\"to_world\">" + operations +
+           "</transform></shape>";
+}
+
+TEST(Instances, ShapesAreWhereTheTransformsOfInstanceAndShapePutThem) {
+    const Scene scene = test::loadBody(group + instance("<translate x=\"3\"/>") +
+                                       instance("<scale value=\"2\"/><translate y=\"10\"/>").replace(27, 1, "j"));
+    ASSERT_EQ(scene.shapes.size(), 4u); // and none of the group itself
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(scene.shapes[0].id, "i/box");
+    expectNear(scene.shapes[0].mesh.positions[7], {3.5f, 0.5f, 0.5f}); // shape first, then instance
+    expectNear(scene.shapes[1].sphere->center, {3, 0, 0});
+    EXPECT_EQ(scene.shapes[2].id, "j/box");
+    expectNear(scene.shapes[2].mesh.positions[7], {1, 11, 1});
+    EXPECT_FLOAT_EQ(scene.shapes[3].sphere->radius, 2);
+    EXPECT_EQ(scene.shapes[0].bsdf, scene.shapes[2].bsdf); // read once
+}
+
+TEST(Instances, OfMirroringTransformsKeepNormalsOutside) {
+    const Scene scene = test::loadBody(group + instance("<scale x=\"-1\"/>"));
+    const Mesh& cube = scene.shapes.at(0).mesh;
+    for (const glm::uvec3& t : cube.triangles) {
+        const glm::vec3 a = cube.positions[t.x], normal = glm::cross(cube.positions[t.y] - a, cube.positions[t.z] - a);
+        EXPECT_GT(glm::dot(normal, a), 0);
+    }
+}
+
+TEST(Instances, FarFromTheOriginAreWhereTheyBelong) {
+    const Scene scene = test::loadBody(group + instance("<translate x=\"1000000\"/>"));
+    EXPECT_NEAR(scene.origin.x, 1e6, 1);
+    EXPECT_NEAR(scene.origin.x + scene.shapes.at(0).mesh.positions[7].x, 1e6 + 0.5, 1e-6);
+}
+
+TEST(Instances, OfAMeshFileReadItOnce) {
+    SceneFiles files;
+    const std::string obj = files.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    std::string body = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"obj\"><string name=\"filename\" "
+                       "value=\"t.obj\"/></shape></shape>";
+    for (int k = 0; k < 3; ++k)
+        body += "<shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\"><translate x=\"" +
+                std::to_string(k) + "\"/></transform></shape>";
+    const Scene scene = loadScene(files.write("scene.xml", sceneWith(body)));
+    ASSERT_EQ(scene.shapes.size(), 3u);
+    for (size_t k = 0; k < 3; ++k) expectNear(scene.shapes[k].mesh.positions[0], {float(k), 0, 0});
+}
+
+TEST(Merges, AreTheShapesInThem) {
+    const Scene scene = test::loadBody("<shape type=\"merge\"><shape type=\"cube\"/><shape type=\"sphere\"><emitter "
+                                       "type=\"area\"/></shape></shape>");
+    ASSERT_EQ(scene.shapes.size(), 2u);
+    EXPECT_EQ(scene.shapes[0].plugin, "cube");
+    EXPECT_TRUE(scene.shapes[1].emitter.has_value());
+}
+
+// As in Mitsuba's own Cornell box.
+TEST(SharedEmitters, StandInTheSceneForShapesToReference) {
+    const std::string emitter = "<emitter type=\"area\" id=\"e\"><rgb name=\"radiance\" value=\"3\"/></emitter>";
+    const Scene scene = test::loadBody("<shape type=\"cube\"><ref id=\"e\"/></shape><shape type=\"sphere\"><ref "
+                                       "id=\"e\"/></shape>" +
+                                       emitter);
+    ASSERT_EQ(scene.shapes.size(), 2u);
+    for (const ShapeDescription& shape : scene.shapes) EXPECT_EQ(shape.emitter.value().radiance.g, 3);
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_THAT(test::loadBody(emitter).warnings, testing::ElementsAre(HasSubstr("emitter 'e' is used by no shape")));
+}
+
+TEST(Instances, AGroupWithoutAnyIsReported) {
+    const Scene scene = test::loadBody(group);
+    EXPECT_TRUE(scene.shapes.empty());
+    EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("shapegroup 'g' is used by no instance")));
+}
+
+struct BadGroup {
+    const char *name, *body, *message;
+};
+class BadGroups : public testing::TestWithParam<BadGroup> {};
+TEST_P(BadGroups, AreRefusedAtTheirPlace) {
+    SceneFiles files;
+    EXPECT_THAT(test::errorOf(files.write("scene.xml", sceneWith(GetParam().body))), HasSubstr(GetParam().message));
+}
+#define GROUP(inside)                                                                                                  \
+    "<shape type=\"shapegroup\" id=\"g\">" inside "</shape>\n<shape type=\"instance\"><ref id=\"g\"/></shape>"
+INSTANTIATE_TEST_SUITE_P(
+    Instances, BadGroups,
+    testing::Values(
+        BadGroup{"NoGroup", "<shape type=\"instance\"/>", "scene.xml:4:1: an instance needs one shapegroup"},
+        BadGroup{"OtherShape", "<shape type=\"instance\"><shape type=\"cube\"/></shape>",
+                 "scene.xml:4:1: an instance needs one shapegroup"},
+        BadGroup{"Empty", GROUP(""), "scene.xml:4:1: shapegroup 'g' has no shape"},
+        BadGroup{"Emitter", GROUP("\n<shape type=\"cube\" id=\"c\"><emitter type=\"area\"/></shape>"),
+                 "scene.xml:5:1: shape 'c' of a shapegroup has an emitter"},
+        BadGroup{"Nested", GROUP("\n<shape type=\"instance\"><ref id=\"g\"/></shape>"),
+                 "scene.xml:5:1: <shape type=\"instance\"> within a shapegroup"},
+        BadGroup{"Itself", "<shape type=\"merge\" id=\"m\">\n<ref id=\"m\"/></shape>", "a merge within a merge"},
+        BadGroup{"TransformOfMerge", "<shape type=\"merge\">\n<transform name=\"to_world\"/></shape>",
+                 "scene.xml:5:1: unknown parameter 'to_world' of shape 'merge'"},
+        BadGroup{"UnusedHasErrors", "<shape type=\"shapegroup\">\n<shape type=\"cubo\"/></shape>",
+                 "scene.xml:5:1: unknown shape plugin 'cubo'. Did you mean 'cube'"}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+} // namespace
+} // namespace quasilux
