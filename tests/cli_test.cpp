@@ -193,6 +193,22 @@ TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
     }
 }
 
+// A scheduler that ends the render is told that it has not got to its end; what there is has been written.
+TEST_F(CommandLineTest, OtherSignalsEndItWithTheirCode) {
+    for (const int signal : {SIGTERM, SIGHUP}) {
+        const Outcome outcome =
+            run({"render", "scene.xml", "-o", "a.exr", "--time", "500", "--fixed", "--json"}, 8, signal);
+        EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome.errors;
+        const bool isWritten = fs::exists(folder / "a.exr");
+        EXPECT_EQ(isWritten, !outcome.output.empty());
+        if (isWritten) {
+            EXPECT_EQ(nlohmann::json::parse(outcome.output)["interrupted"], true);
+        }
+        fs::remove(folder / "a.exr");
+        EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+    }
+}
+
 // What the map holds is known before a render. With the whole phase function as quasi-specular a camera path stores one
 // point in a medium by the main variant, and one at each collision by the alternative one.
 TEST_F(CommandLineTest, InfoTellsWhatTheMapHolds) {

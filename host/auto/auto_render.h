@@ -14,6 +14,7 @@ struct AutoRender {
     SceneReport report;      ///< of the renderer chosen
     RenderCounters counters; ///< of the passes of the image
     SearchReport search;
+    std::exception_ptr failure;            ///< RenderOutcome
     uint64_t peakBufferBytes = 0;          ///< of the device, until the image was done
     std::optional<GatheredCount> gathered; ///< by a pass that follows, where RenderSettings::countGathered asks for it
 };

@@ -7,6 +7,7 @@
 #include "cli/info_command.h"
 #include "cli/options.h"
 #include "cli/render_command.h"
+#include "util/error.h"
 #include "util/nearest.h"
 
 #include <fmt/format.h>
@@ -84,7 +85,7 @@ int runCommandLine(int argc, char** argv) {
     } catch (const InputError& error) {
         return fail(exitBadInput, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(exitFailed, "the computer's memory is exhausted, try a smaller image or scene");
+        return fail(exitFailed, memoryExhausted);
     } catch (const std::exception& error) {
         return fail(exitFailed, error.what());
     }

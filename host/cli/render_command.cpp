@@ -11,6 +11,7 @@
 #include "output/meter_reading.h"
 #include "output/progress_line.h"
 #include "output/statistics.h"
+#include "util/error.h"
 #include "util/process_memory.h"
 
 #include <chrono>
@@ -82,6 +83,7 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
                            {"error", errorJson(record.error)},
                            {"auto", record.search.line()},
                            {"interrupted", record.interrupted},
+                           {"failure", record.failure.empty() ? nlohmann::json() : nlohmann::json(record.failure)},
                            {"nonFinite", record.counters.nonFinite},
                            {"cutPaths", record.counters.cutPaths},
                            {"files", written.paths}};
@@ -114,6 +116,7 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
     fmt::print("{} {}, {:.1f} s", record.counters.passes, record.counters.passes == 1 ? "pass" : "passes",
                record.counters.renderSeconds);
     if (record.interrupted) fmt::print(", interrupted");
+    if (!record.failure.empty()) fmt::print(", ended by a failure");
     printError(record.error);
     if (record.meter != MeterKind::none) fmt::print("{}", meterText(record, image));
     for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
@@ -179,10 +182,12 @@ RenderRecord makeRecord(const RenderOptions& options, Device& device, const Auto
     record.search = render.search;
     record.error = estimateError(render.image);
     record.meter = meter;
-    record.kernels = device.timings();
     record.peakBufferBytes = render.peakBufferBytes;
     record.peakHostBytes = peakResidentBytes();
     record.interrupted = interruptFlag();
+    if (render.failure) record.failure = failureOf([&] { std::rethrow_exception(render.failure); }).value_or("");
+    const auto lost = failureOf([&] { record.kernels = device.timings(); });
+    if (lost && record.failure.empty()) record.failure = *lost;
     return record;
 }
 
@@ -225,7 +230,7 @@ int renderCommand(const RenderOptions& options) {
                                          onProgress, onChosen, interruptFlag());
     const FilmImage& image = render.image;
     if (image.passes == 0) {
-        if (interruptFlag()) return 130;
+        if (interruptFlag()) return exitCodeWithoutResult();
         throw std::runtime_error("no pass was rendered before the stop rule was reached");
     }
 
@@ -240,7 +245,8 @@ int renderCommand(const RenderOptions& options) {
         printJsonSummary(record, image, written);
     else if (!options.quiet)
         printSummary(record, image, written);
-    return 0;
+    if (render.failure) std::rethrow_exception(render.failure); // what there is has been written
+    return exitCodeWhenWritten();
 }
 
 } // namespace quasilux

@@ -107,6 +107,7 @@ Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias, 
 }
 
 Film::Pass Film::beginPass(unsigned pass) {
+    isWhole_ = false;
     Pass now{0, 1};
     const bool single = pass < singlePasses;
     if (!single) now.biasWeight = pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f;
@@ -124,6 +125,12 @@ Film::Pass Film::beginPass(unsigned pass) {
 
 FilmImage Film::develop(unsigned passes) const {
     FilmImage image;
+    developOver(image, passes);
+    return image;
+}
+
+void Film::developOver(FilmImage& image, unsigned passes) const {
+    const auto film = sums_.read();
     image.width = width_;
     image.height = height_;
     image.passes = passes;
@@ -138,7 +145,6 @@ FilmImage Film::develop(unsigned passes) const {
         for (auto& bias : image.componentBias) bias.resize(values);
         for (auto& error : image.componentBiasError) error.resize(values);
     }
-    const auto film = sums_.read();
     const double openBatch = openPasses_ > 0 ? 1 : 0;
     const Counts counts{double(std::max(1u, passes)), batches_ + openBatch, openBatch / std::max(openPasses_, 1.0)};
     const BiasCounts biasCounts{std::max(1.0, biasPasses_), biasSquares_ + openBiasPasses_ * openBiasPasses_};
@@ -155,7 +161,6 @@ FilmImage Film::develop(unsigned passes) const {
         image.componentBias[k].clear();
         image.componentBiasError[k].clear();
     }
-    return image;
 }
 
 } // namespace quasilux

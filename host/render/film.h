@@ -19,11 +19,16 @@ public:
         float batchWeight; ///< shared::CameraParams::batchWeight
         float biasWeight;  ///< shared::MapParams::biasWeight
     };
-    /// To be called once before each pass is added.
+    /// To be called once before each pass is added, and after it.
     Pass beginPass(unsigned pass);
+    void endPass() { isWhole_ = true; }
+    /// All passes that have begun have ended; or else a part of one may be in the sums.
+    bool isWhole() const { return isWhole_; }
 
     /// Means over `passes`, their standard errors and bias.
     FilmImage develop(unsigned passes) const;
+    /// The same over an older image, which stays as it is if the film cannot be read.
+    void developOver(FilmImage& image, unsigned passes) const;
     /// Samples dropped and paths cut since the beginning.
     shared::CameraCounters counters() const { return counters_.read().front(); }
 
@@ -35,6 +40,7 @@ private:
     unsigned width_, height_;
     bool estimatesBias_;
     size_t pixelFloats_;
+    bool isWhole_ = true;
     double batches_ = 0, openPasses_ = 0; ///< batches that are complete; passes of the one that is not
     double biasPasses_ = 0;               ///< sum of the weights of passes in the estimate of bias
     double openBiasPasses_ = 0;           ///< in the batch that is open

@@ -31,13 +31,20 @@ double secondsLeft(const StopRule& stop, const Progress& now) {
     return left;
 }
 
-} // namespace
+// The image as it was last read back: what is left where the film is lost in the middle of a pass.
+struct LastKnown {
+    FilmImage image;
+    RenderCounters counters;
 
-FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
-                      const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
-                      const RenderedBefore& before) {
-    StopRule stop = stopAt;
-    if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
+    const FilmImage& note(const Renderer& renderer) {
+        renderer.developOver(image);
+        counters = renderer.counters();
+        return image;
+    }
+};
+
+void renderPasses(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
+                  const std::atomic<bool>& interrupted, const RenderedBefore& before, LastKnown& known) {
     const auto start = Clock::now();
     const auto elapsed = [&] { return before.seconds + std::chrono::duration<double>(Clock::now() - start).count(); };
     Progress progress;
@@ -50,7 +57,7 @@ FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
         progress.passes = pass + 1;
         progress.seconds = elapsed();
         if (progress.passes >= firstErrorCheck && isErrorDue(progress.seconds - lastCheck, checkCost)) {
-            progress.relativeError = estimateError(renderer.develop()).sum();
+            progress.relativeError = estimateError(known.note(renderer)).sum();
             lastCheck = elapsed();
             checkCost = lastCheck - progress.seconds;
         }
@@ -61,7 +68,37 @@ FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
         if (onProgress) onProgress(progress);
         if (stop.relativeError && progress.relativeError >= 0 && progress.relativeError <= *stop.relativeError) break;
     }
-    return renderer.develop();
+}
+
+} // namespace
+
+RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stopAt,
+                                  const std::function<void(const Progress&)>& onProgress,
+                                  const std::atomic<bool>& interrupted, const RenderedBefore& before) {
+    StopRule stop = stopAt;
+    if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
+    LastKnown known;
+    std::exception_ptr failure;
+    try {
+        renderPasses(renderer, stop, onProgress, interrupted, before, known);
+    } catch (...) {
+        if (renderer.counters().passes == 0) throw;
+        failure = std::current_exception();
+    }
+    try {
+        if (renderer.isFilmWhole()) known.note(renderer);
+    } catch (...) {
+        if (!failure) failure = std::current_exception();
+    }
+    if (failure && known.image.passes == 0) std::rethrow_exception(failure);
+    return {std::move(known.image), known.counters, failure};
+}
+
+FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
+                      const std::atomic<bool>& interrupted, const RenderedBefore& before) {
+    RenderOutcome outcome = renderAsFarAsItGoes(renderer, stop, onProgress, interrupted, before);
+    if (outcome.failure) std::rethrow_exception(outcome.failure);
+    return std::move(outcome.image);
 }
 
 } // namespace quasilux

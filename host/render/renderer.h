@@ -7,6 +7,7 @@
 #include "render/settings.h"
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -104,6 +105,10 @@ public:
     /// Adds the independent estimate number `pass` (from 0) to the film.
     void renderPass(unsigned pass);
     FilmImage develop() const;
+    /// Film::developOver.
+    void developOver(FilmImage& image) const;
+    /// Has no pass failed halfway? Or else a part of it may be in the film.
+    bool isFilmWhole() const;
     const SceneReport& report() const;
     const RenderCounters& counters() const;
     std::shared_ptr<const LearnedScene> learned() const;
@@ -121,7 +126,20 @@ struct RenderedBefore {
     double seconds = 0; ///< that the stop rule counts
 };
 
-/// Renders passes 0, 1, … (or from the last one rendered on) until the rule, or `interrupted`, ends it.
+/// What a render came to.
+struct RenderOutcome {
+    FilmImage image;
+    RenderCounters counters;    ///< of the image's passes
+    std::exception_ptr failure; ///< what ended it too early; null: nothing
+};
+
+/// Renders passes 0, 1, … (or from the last one rendered on) until the rule, or `interrupted`, ends it. A pass that fails ends it, too:
+/// the image is then of the passes before. Throws only where there are none.
+RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stop,
+                                  const std::function<void(const Progress&)>& onProgress,
+                                  const std::atomic<bool>& interrupted, const RenderedBefore& before = {});
+
+/// The same, but throws where a pass fails.
 FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
                       const std::atomic<bool>& interrupted, const RenderedBefore& before = {});
 
