@@ -1,5 +1,6 @@
 // What fails loses nothing that was finished: passes that fail late, devices that refuse, tables that are too large
-// (docs/reliability.md). Calls of OpenCL fail on demand (shims/failing_opencl.cpp).
+// (docs/reference/reliability.md). Calls of OpenCL fail on demand (shims/failing_opencl.cpp).
+#include "support/lit_plate.h"
 #include "support/program_runner.h"
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
@@ -23,19 +24,7 @@ using Variables = std::vector<std::pair<std::string, std::string>>;
 
 class FailuresTest : public CommandLineTest {
 protected:
-    FailuresTest() {
-        std::ofstream(folder / "scene.xml") << R"(<scene version="3.0.0">
-  <sensor type="perspective">
-    <float name="fov" value="40"/>
-    <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film>
-  </sensor>
-  <shape type="rectangle"><transform name="to_world"><rotate y="1" angle="180"/><translate z="4"/></transform></shape>
-  <shape type="sphere"><point name="center" x="0" y="2" z="2"/><float name="radius" value="0.5"/>
-    <emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>
-  <shape type="sphere"><point name="center" x="2" y="0" z="3"/></shape>
-</scene>
-)";
-    }
+    FailuresTest() { std::ofstream(folder / "scene.xml") << test::litPlate(); }
 
     Outcome runFailing(const std::vector<std::string>& arguments, const Variables& variables) const {
         Variables all = variables;

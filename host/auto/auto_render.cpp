@@ -56,12 +56,28 @@ void countGathered(Renderer& renderer, AutoRender& result) {
     }
 }
 
+void renderPasses(Device& device, Renderer& renderer, double seconds, const StopRule& stop,
+                  const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
+                  const AfterChosenPass& afterPass, AutoRender& result) {
+    AfterPass after;
+    if (afterPass)
+        after = [&](const Renderer& now, double elapsed, bool isLast) { afterPass(result, now, elapsed, isLast); };
+    RenderOutcome outcome = renderAsFarAsItGoes(renderer, stop, onProgress, interrupted, {seconds}, after);
+    result.image = std::move(outcome.image);
+    result.counters = outcome.counters;
+    result.failure = outcome.failure;
+    result.report = renderer.report();
+    result.peakBufferBytes = device.peakBytes();
+    if (result.settings.countGathered && !interrupted && !result.failure) countGathered(renderer, result);
+}
+
 } // namespace
 
 AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& settings,
                       std::unique_ptr<Renderer> start, const Freedom& freedom, const StopRule& stop,
                       const std::function<void(const Progress&)>& onProgress,
-                      const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted) {
+                      const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted,
+                      const AfterChosenPass& afterPass) {
     AutoRender result;
     result.settings = settings;
     result.search.notSearched = whyNotSearched(scene, settings, stop);
@@ -79,13 +95,18 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
                             : openChosen(device, scene, settings, learned, result);
     }
     if (onChosen) onChosen(result.search);
-    RenderOutcome outcome = renderAsFarAsItGoes(*start, stop, onProgress, interrupted, {world.clock()});
-    result.image = std::move(outcome.image);
-    result.counters = outcome.counters;
-    result.failure = outcome.failure;
-    result.report = start->report();
-    result.peakBufferBytes = device.peakBytes();
-    if (settings.countGathered && !interrupted && !result.failure) countGathered(*start, result);
+    renderPasses(device, *start, world.clock(), stop, onProgress, interrupted, afterPass, result);
+    return result;
+}
+
+AutoRender renderChosen(Device& device, const RenderSettings& settings, const SearchReport& search,
+                        std::unique_ptr<Renderer> start, double seconds, const StopRule& stop,
+                        const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
+                        const AfterChosenPass& afterPass) {
+    AutoRender result;
+    result.settings = settings;
+    result.search = search;
+    renderPasses(device, *start, seconds, stop, onProgress, interrupted, afterPass, result);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "cli/compare_command.h"
 #include "cli/devices_command.h"
 #include "cli/info_command.h"
+#include "cli/merge_command.h"
 #include "cli/options.h"
 #include "cli/render_command.h"
 #include "util/error.h"
@@ -51,7 +52,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     const bool unknown =
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
     fail(exitBadInput, unknown     ? unknownArgument(app)
-                       : noCommand ? "no command given, expected render, compare, bench, devices or info"
+                       : noCommand ? "no command given, expected render, merge, compare, bench, devices or info"
                                    : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
@@ -59,6 +60,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
 
 int runCommand(CLI::App& app, const Options& options) {
     if (app.got_subcommand("render")) return renderCommand(options.render);
+    if (app.got_subcommand("merge")) return mergeCommand(options.merge);
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
     if (app.got_subcommand("compare")) return compareCommand(options.compare);
     if (app.got_subcommand("info"))

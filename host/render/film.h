@@ -4,8 +4,26 @@
 #include "device/buffer.h"
 #include "pass_types.h"
 #include "render/film_image.h"
+#include "util/state_archive.h"
 
 namespace quasilux {
+
+/// How often a film was added to.
+struct FilmCounts {
+    double batches = 0, openPasses = 0; ///< batches that are complete; passes of the one that is not
+    double biasPasses = 0;              ///< sum of the weights of passes in the estimate of bias
+    double openBiasPasses = 0;          ///< in the batch that is open
+    double biasSquares = 0;             ///< sum over complete batches of the squares of theirs
+
+    /// As if the batch that is open were complete.
+    FilmCounts closed() const {
+        return {batches + (openPasses > 0 ? 1 : 0), 0, biasPasses, 0, biasSquares + openBiasPasses * openBiasPasses};
+    }
+};
+
+/// Means over `passes`, their standard errors and bias, from the sums of all pixels, over an older image of this size or an empty one.
+void developSums(const std::vector<float>& sums, bool estimatesBias, const FilmCounts& counts, unsigned passes,
+                 FilmImage& image);
 
 class Film {
 public:
@@ -32,6 +50,11 @@ public:
     /// Samples dropped and paths cut since the beginning.
     shared::CameraCounters counters() const { return counters_.read().front(); }
 
+    /// All that later passes and the image depend on. `name` goes before the arrays' names.
+    void save(StateSink& sink, const std::string& name) const;
+    /// Throws InputError where it was saved of another film.
+    void restore(const StateSource& source, const std::string& name);
+
     size_t pixels() const { return size_t(width_) * height_; }
     Buffer<float>& sums() { return sums_; }
     Buffer<shared::CameraCounters>& counterBuffer() { return counters_; }
@@ -41,10 +64,7 @@ private:
     bool estimatesBias_;
     size_t pixelFloats_;
     bool isWhole_ = true;
-    double batches_ = 0, openPasses_ = 0; ///< batches that are complete; passes of the one that is not
-    double biasPasses_ = 0;               ///< sum of the weights of passes in the estimate of bias
-    double openBiasPasses_ = 0;           ///< in the batch that is open
-    double biasSquares_ = 0;              ///< sum over complete batches of the squares of theirs
+    FilmCounts counts_;
     Buffer<float> sums_;
     Buffer<shared::CameraCounters> counters_;
 };

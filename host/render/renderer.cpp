@@ -299,7 +299,7 @@ struct Renderer::Stages {
     // Of the pass after the last one.
     std::optional<GatheredCount> countGathered() {
         if (!camera) return std::nullopt;
-        const auto pass = static_cast<unsigned>(counters.passes);
+        const unsigned pass = nextPass;
         auto timingsOfPasses = device.timings();
         catchUpRadii(pass);
         photons->run(pass, radii(pass), volumeScale(pass));
@@ -342,6 +342,7 @@ struct Renderer::Stages {
     SceneReport report;
     RenderCounters counters;
     shared::CameraCounters dropped{}; // by the film, so far
+    unsigned nextPass = 0;
 };
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
@@ -349,10 +350,12 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     const auto start = Clock::now();
     DeviceScene flat = flattenFor(scene, settings);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
+    auto checksums = checksumsOf(flat, scene.maxDepth);
     if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
     const double prepareSeconds = since(start);
     checkFits(planScene(flat, settings), device.info(), flat, settings);
     stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), std::move(known));
+    stages_->report.checksums = std::move(checksums);
     stages_->counters.prepareSeconds = prepareSeconds;
     stages_->counters.compileSeconds = since(start) - prepareSeconds;
 }
@@ -380,7 +383,32 @@ void Renderer::renderPass(unsigned pass) {
     const double seconds = since(start);
     if (counters.passes++ == 0) counters.firstPassSeconds = seconds;
     counters.renderSeconds += seconds;
+    s.nextPass = pass + 1;
     s.film.endPass();
+}
+
+Renderer::FilmShape Renderer::filmShape() const {
+    const auto& camera = stages_->flat.camera;
+    return {camera.width, camera.height, estimatesBias(stages_->flat.features, stages_->settings)};
+}
+
+unsigned Renderer::nextPass() const { return stages_->nextPass; }
+
+void Renderer::saveState(StateSink& sink) const {
+    stages_->film.save(sink, "film");
+    if (stages_->adaptive) stages_->adaptive->save(sink);
+}
+
+void Renderer::restoreState(const StateSource& source, const RenderCounters& counters, unsigned nextPass) {
+    auto& s = *stages_;
+    s.film.restore(source, "film");
+    s.dropped = s.film.counters();
+    if (s.adaptive) s.adaptive->restore(source);
+    const double prepareSeconds = s.counters.prepareSeconds, compileSeconds = s.counters.compileSeconds;
+    s.counters = counters;
+    s.counters.prepareSeconds += prepareSeconds;
+    s.counters.compileSeconds += compileSeconds;
+    s.nextPass = nextPass;
 }
 
 bool Renderer::isFilmWhole() const { return stages_->film.isWhole(); }

@@ -5,6 +5,7 @@
 #include "render/film_image.h"
 #include "render/gathered_photons.h"
 #include "render/settings.h"
+#include "util/state_archive.h"
 
 #include <atomic>
 #include <exception>
@@ -61,6 +62,8 @@ struct SceneReport {
         double seconds = 0;
     } learned;
     std::vector<std::string> warnings; ///< DeviceScene::warnings
+    /// "geometry", "materials", "camera": of the scene as it is rendered. A file that says the same in another way has the same.
+    std::map<std::string, std::string> checksums;
 };
 
 /// Counted over all passes.
@@ -112,6 +115,18 @@ public:
     const SceneReport& report() const;
     const RenderCounters& counters() const;
     std::shared_ptr<const LearnedScene> learned() const;
+
+    struct FilmShape {
+        unsigned width, height;
+        bool estimatesBias;
+    };
+    FilmShape filmShape() const;
+    /// The pass after the last one.
+    unsigned nextPass() const;
+    /// All that passes have left: film and radii. What was learned is not among it.
+    void saveState(StateSink& sink) const;
+    /// The same bits in another renderer of the same scene and settings, which knows what this one has learned.
+    void restoreState(const StateSource& source, const RenderCounters& counters, unsigned nextPass);
     /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for meters and
     /// --map camera. Compiles kernels for it.
     std::optional<GatheredCount> countGathered();
@@ -126,6 +141,9 @@ struct RenderedBefore {
     double seconds = 0; ///< that the stop rule counts
 };
 
+/// Called before the first pass, after each, and once more when the last one is done; `seconds` as the stop rule counts them.
+using AfterPass = std::function<void(const Renderer& renderer, double seconds, bool isLast)>;
+
 /// What a render came to.
 struct RenderOutcome {
     FilmImage image;
@@ -133,11 +151,12 @@ struct RenderOutcome {
     std::exception_ptr failure; ///< what ended it too early; null: nothing
 };
 
-/// Renders passes 0, 1, … (or from the last one rendered on) until the rule, or `interrupted`, ends it. A pass that fails ends it, too:
+/// Renders passes from StopRule::firstPass on (or from the last one rendered on) until the rule, or `interrupted`, ends it. A pass that fails ends it, too:
 /// the image is then of the passes before. Throws only where there are none.
 RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stop,
                                   const std::function<void(const Progress&)>& onProgress,
-                                  const std::atomic<bool>& interrupted, const RenderedBefore& before = {});
+                                  const std::atomic<bool>& interrupted, const RenderedBefore& before = {},
+                                  const AfterPass& afterPass = {});
 
 /// The same, but throws where a pass fails.
 FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,

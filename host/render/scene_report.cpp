@@ -1,6 +1,7 @@
 #include "render/scene_report.h"
 
 #include "render/method.h"
+#include "util/checksum.h"
 
 namespace quasilux {
 
@@ -34,6 +35,19 @@ void describeMedia(const Scene& scene, const DeviceScene& flat, const RenderSett
 
 std::string slotName(unsigned slot) {
     return slot < LIGHT_CLASSES ? componentName(slot) : "volume " + componentName(slot - LIGHT_CLASSES);
+}
+
+std::map<std::string, std::string> checksumsOf(const DeviceScene& flat, int maxDepth) {
+    Checksum geometry, materials, camera;
+    geometry.add(flat.bvh.nodes);
+    geometry.add(flat.bvh.blocks);
+    materials.add(flat.tables);
+    camera.add(&flat.camera, sizeof flat.camera);
+    camera.add(&flat.offsets, sizeof flat.offsets);
+    camera.add(&maxDepth, sizeof maxDepth);
+    return {{"geometry", geometry.text()},
+            {"materials, textures or emitters", materials.text()},
+            {"camera, film or depth", camera.text()}};
 }
 
 SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {

@@ -12,4 +12,7 @@ std::string slotName(unsigned slot);
 /// All that is known before anything is learned; radii are left out.
 SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
 
+/// SceneReport::checksums, of a scene that has just been flattened.
+std::map<std::string, std::string> checksumsOf(const DeviceScene& flat, int maxDepth);
+
 } // namespace quasilux
