@@ -103,6 +103,8 @@ TEST_F(CheckpointCommand, SurvivesBeingKilled) {
         if (isThere("a.ckpt")) checkpoint("a.ckpt"); // throws where it is damaged
     }
     EXPECT_EQ(killed, 10u);
+    // Those that were killed while they wrote have left two names at most, of one file each.
+    EXPECT_LE(std::distance(fs::directory_iterator(folder), {}), 5); // scene, checkpoint, the one before
     ASSERT_TRUE(isThere("a.ckpt"));
     const auto passes = static_cast<unsigned>(checkpoint("a.ckpt").counters.passes) + 5;
     ASSERT_GT(passes, 5u);
@@ -157,9 +159,9 @@ TEST_F(CheckpointCommand, OtherRendersAreRefused) {
     expectRefused(render({"--every", "5"}), "--every requires --checkpoint");
     writeScene(test::litPlate(4, "0.51"));
     expectRefused(render({"--resume", "a.ckpt"}),
-                  "the scene is another one: its materials, textures or emitters differs");
+                  "the scene is another one, it differs in: materials, textures or emitters");
     writeScene(test::litPlate(5));
-    expectRefused(render({"--resume", "a.ckpt"}), "the film has 4 x 4 pixels there, 5 x 5 here");
+    expectRefused(render({"--resume", "a.ckpt"}), "the scene is another one, it differs in: camera, film or depth");
     writeScene(test::litPlate() + "<!-- a comment is no other scene -->\n");
     renderWell({"-o", "b.exr", "--passes", "4", "--resume", "a.ckpt"});
     fs::resize_file(folder / "a.ckpt", 5000);
@@ -168,11 +170,13 @@ TEST_F(CheckpointCommand, OtherRendersAreRefused) {
 
 // A limit on files stands for the disk: the checkpoint does not fit, the image does.
 TEST_F(CheckpointCommand, FullDiskLosesNoImage) {
+    writeScene(test::litPlate(128));
     renderWell({"-o", "whole.exr", "--passes", "6"});
     renderWell({"-o", "a.exr", "--passes", "4", "--checkpoint", "a.ckpt"});
     const std::string good = readText(folder / "a.ckpt");
-    const uint64_t small = 4 * fs::file_size(folder / "whole.exr");
+    constexpr uint64_t small = 4 << 20; // holds what the OpenCL runtime writes while it compiles, too
     ASSERT_LT(small, good.size());
+    ASSERT_GT(small, fs::file_size(folder / "whole.exr"));
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     const rlimit full{small, before.rlim_max};

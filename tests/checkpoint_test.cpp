@@ -87,7 +87,7 @@ std::unique_ptr<Renderer> restored(const std::string& file, const Scene& scene) 
 
 std::vector<std::vector<float>> layersOf(const FilmImage& image) {
     std::vector<std::vector<float>> layers{image.radiance, image.standardError, image.bias, image.biasError};
-    for (const auto& each : {image.components}) layers.insert(layers.end(), each.begin(), each.end());
+    layers.insert(layers.end(), image.components.begin(), image.components.end());
     for (const auto* each : {&image.componentError, &image.componentBias, &image.componentBiasError})
         layers.insert(layers.end(), each->begin(), each->end());
     return layers;
@@ -351,6 +351,7 @@ TEST_F(Merge, RefusesWhatIsNoOtherPassOfTheSameImage) {
     EXPECT_THAT(refused({part(0, 7), part(5, 9)}), HasSubstr("both have passes 5 to 6"));
     EXPECT_THAT(refused({part(0, 7), part(7, 20), part(0, 7)}), HasSubstr("both have passes 0 to 6"));
     const std::string file = part(0, 7);
+    fs::remove(path("7-20.ckpt"));
     settings.seed = 2;
     EXPECT_THAT(refused({file, part(7, 20)}), HasSubstr("seed is 2 there, 1 here"));
     settings.seed = 1;

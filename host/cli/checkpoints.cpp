@@ -54,6 +54,7 @@ Checkpoint CheckpointKeeper::describe(const AutoRender& soFar, const Renderer& r
 
 void CheckpointKeeper::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
     if (options_.checkpoint.empty()) return;
+    if (isLast && renderer.counters().passes == 0) return; // interrupted, maybe within the search
     const bool isNew = !wasTried_ || !failure_.empty() || writtenPass_ != renderer.nextPass();
     if (!(isLast ? isNew : isDue())) return;
     const auto start = Clock::now();
@@ -95,15 +96,12 @@ StopRule Resumed::stopRule(const StopRule& said) const {
 
 std::unique_ptr<Renderer> Resumed::renderer(Device& device, const Scene& scene) const {
     auto learned = std::make_shared<const LearnedScene>(restoreLearned(reader_));
-    auto renderer = std::make_unique<Renderer>(device, scene, checkpoint_.settings, learned);
-    Checkpoint here = checkpoint_;
-    here.sceneChecksums = renderer->report().checksums;
-    const auto film = renderer->filmShape();
-    here.width = film.width;
-    here.height = film.height;
-    here.estimatesBias = film.estimatesBias;
-    if (const auto difference = differenceOfImage(checkpoint_, here); !difference.empty())
-        throw InputError(fmt::format("--resume {}: {}", reader_.path(), difference));
+    std::unique_ptr<Renderer> renderer;
+    try {
+        renderer = std::make_unique<Renderer>(device, scene, checkpoint_.settings, learned, checkpoint_.sceneChecksums);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("--resume {}: {}", reader_.path(), error.what()));
+    }
     const auto& passes = checkpoint_.passes;
     renderer->restoreState(reader_, checkpoint_.counters, passes.empty() ? 0 : passes.back().end);
     device.resetTimings(checkpoint_.timings);

@@ -6,9 +6,7 @@ namespace quasilux {
 void declareMerge(CLI::App& app, MergeOptions& options) {
     CLI::App& command =
         *app.add_subcommand("merge", "Add the passes of several checkpoints of one render: the image of all of them");
-    command.add_option("CHECKPOINT", options.parts, "Checkpoints whose passes have different numbers")
-        ->required()
-        ->group("");
+    command.add_option("CHECKPOINT", options.parts, "Checkpoints whose passes have different numbers")->required();
     const char* group = "Files";
     command.add_option("-o,--output", options.output, "OpenEXR image with all layers, .exr (default: none)")
         ->type_name("FILE")

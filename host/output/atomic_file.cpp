@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -33,6 +34,7 @@ std::string temporaryName(const std::string& path) { return fmt::format("{}.{}.t
 /// Until this is done a crash of the machine may lose it.
 void sync(const std::string& name, int flags, const std::string& path) {
     const int descriptor = open(name.c_str(), flags | O_CLOEXEC);
+    if (descriptor < 0 && (flags & O_DIRECTORY) != 0) return; // a folder that one may write to, but not read
     if (descriptor < 0) fail(path);
     // Some file systems cannot: then there is nothing to be done.
     const bool failed = fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS;
@@ -101,8 +103,15 @@ void AtomicFile::commitKeeping(const std::string& earlier) {
 }
 
 OutputStream::OutputStream(const AtomicFile& file, std::string path) : path_(std::move(path)) {
-    descriptor_ = open(file.temporary().c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666);
+    descriptor_ = open(file.temporary().c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(path_);
+    const bool isOthers = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (isOthers || ftruncate(descriptor_, 0) != 0) {
+        const int why = errno;
+        ::close(std::exchange(descriptor_, -1));
+        errno = why;
+        fail(path_);
+    }
 }
 
 OutputStream::~OutputStream() {

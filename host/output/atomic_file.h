@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace quasilux {
 
@@ -14,6 +15,8 @@ void checkOutputPath(const std::string& path, const std::string& option, const s
 class AtomicFile {
 public:
     explicit AtomicFile(std::string path);
+    /// `temporary`: a name that does not differ from process to process, so that those that are killed leave no more than one file.
+    AtomicFile(std::string path, std::string temporary) : path_(std::move(path)), temporary_(std::move(temporary)) {}
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -29,7 +32,7 @@ private:
     bool committed_ = false;
 };
 
-/// Bytes into the temporary file. Every failure throws std::system_error with what the system said of it.
+/// Bytes into the temporary file, which no other process writes meanwhile. Every failure throws std::system_error with what the system said of it.
 class OutputStream {
 public:
     /// `path` is the final name, for messages.

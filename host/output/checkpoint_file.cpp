@@ -23,7 +23,8 @@ constexpr size_t bytesAtOnce = size_t(16) << 20;
 
 std::string previousCheckpoint(const std::string& path) { return path + ".previous"; }
 
-CheckpointWriter::CheckpointWriter(const std::string& path) : path_(path), file_(path), stream_(file_, path) {
+CheckpointWriter::CheckpointWriter(const std::string& path)
+    : path_(path), file_(path, path + ".tmp"), stream_(file_, path) {
     put(magic.data(), magic.size());
 }
 

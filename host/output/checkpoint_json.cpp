@@ -4,29 +4,29 @@
 
 namespace quasilux {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 namespace {
 
 /// Visits the same fields for writing and for reading, so that none is left out of one of them.
 struct Writer {
-    json out = json::object();
+    Json out = Json::object();
 
     template <typename T>
     void operator()(const char* key, const T& value) {
         out[key] = value;
     }
     void operator()(const char* key, const double& value) {
-        out[key] = std::isfinite(value) ? json(value) : json(nullptr); // JSON knows no infinity
+        out[key] = std::isfinite(value) ? Json(value) : Json(nullptr); // JSON knows no infinity
     }
     template <typename T>
     void operator()(const char* key, const std::optional<T>& value) {
-        out[key] = value ? json(*value) : json(nullptr);
+        out[key] = value ? Json(*value) : Json(nullptr);
     }
 };
 
 struct Reader {
-    const json& in;
+    const Json& in;
 
     template <typename T>
     void operator()(const char* key, T& value) const {
@@ -50,6 +50,7 @@ void visitSettings(Visit& visit, Settings& s) {
     visit("quasiSpecular", s.quasiSpecular);
     visit("quasiSpecularFromCommandLine", s.quasiSpecularFromCommandLine);
     visit("photonsPerPass", s.photonsPerPass);
+    visit("cameraPaths", s.cameraPaths);
     visit("seed", s.seed);
     visit("radiusScale", s.radiusScale);
     visit("photometric", s.photometric);
@@ -120,6 +121,7 @@ void visitSearch(Visit& visit, Search& s) {
     visit("variant", s.freedom.variant);
     visit("photons", s.freedom.photons);
     visit("radius", s.freedom.radius);
+    visit("cameraPaths", s.freedom.cameraPaths);
     visit("notSearched", s.notSearched);
     visit("chosen", s.chosen);
     visit("passes", s.passes);
@@ -142,7 +144,7 @@ void visitDevice(Visit& visit, Device& d) {
 
 } // namespace
 
-json toJson(const RenderSettings& settings) {
+Json toJson(const RenderSettings& settings) {
     Writer writer;
     visitSettings(writer, settings);
     writer.out["variant"] = name(settings.variant);
@@ -153,7 +155,7 @@ json toJson(const RenderSettings& settings) {
     return writer.out;
 }
 
-void fromJson(const json& from, RenderSettings& settings) {
+void fromJson(const Json& from, RenderSettings& settings) {
     const Reader reader{from};
     visitSettings(reader, settings);
     settings.variant = parseVariant(from.at("variant"));
@@ -163,27 +165,27 @@ void fromJson(const json& from, RenderSettings& settings) {
     settings.radius = parseRadiusChoice(from.at("radius"));
 }
 
-json toJson(const StopRule& stop) {
+Json toJson(const StopRule& stop) {
     Writer writer;
     visitStop(writer, stop);
     return writer.out;
 }
 
-void fromJson(const json& from, StopRule& stop) {
+void fromJson(const Json& from, StopRule& stop) {
     const Reader reader{from};
     visitStop(reader, stop);
 }
 
-json toJson(const RenderCounters& counters) {
+Json toJson(const RenderCounters& counters) {
     Writer writer;
     visitCounters(writer, counters);
     Writer energy;
     if (counters.energy) visitEnergy(energy, *counters.energy);
-    writer.out["energy"] = counters.energy ? energy.out : json(nullptr);
+    writer.out["energy"] = counters.energy ? energy.out : Json(nullptr);
     return writer.out;
 }
 
-void fromJson(const json& from, RenderCounters& counters) {
+void fromJson(const Json& from, RenderCounters& counters) {
     const Reader reader{from};
     visitCounters(reader, counters);
     counters.energy.reset();
@@ -192,10 +194,10 @@ void fromJson(const json& from, RenderCounters& counters) {
     visitEnergy(energy, counters.energy.emplace());
 }
 
-json toJson(const SearchReport& search) {
+Json toJson(const SearchReport& search) {
     Writer writer;
     visitSearch(writer, search);
-    json rows = json::array();
+    Json rows = Json::array();
     for (const PilotRow& row : search.rows) {
         Writer each;
         visitRow(each, row);
@@ -206,35 +208,35 @@ json toJson(const SearchReport& search) {
     return writer.out;
 }
 
-void fromJson(const json& from, SearchReport& search) {
+void fromJson(const Json& from, SearchReport& search) {
     const Reader reader{from};
     visitSearch(reader, search);
     search.rows.clear();
-    for (const json& row : from.at("rows")) {
+    for (const Json& row : from.at("rows")) {
         const Reader each{row};
         visitRow(each, search.rows.emplace_back());
         fromJson(row.at("settings"), search.rows.back().settings);
     }
 }
 
-json toJson(const DeviceInfo& device) {
+Json toJson(const DeviceInfo& device) {
     Writer writer;
     visitDevice(writer, device);
     return writer.out;
 }
 
-void fromJson(const json& from, DeviceInfo& device) {
+void fromJson(const Json& from, DeviceInfo& device) {
     const Reader reader{from};
     visitDevice(reader, device);
 }
 
-json toJson(const std::map<std::string, KernelTiming>& timings) {
-    json out = json::object();
+Json toJson(const std::map<std::string, KernelTiming>& timings) {
+    Json out = Json::object();
     for (const auto& [kernel, timing] : timings) out[kernel] = {timing.launches, timing.seconds, timing.privateBytes};
     return out;
 }
 
-void fromJson(const json& from, std::map<std::string, KernelTiming>& timings) {
+void fromJson(const Json& from, std::map<std::string, KernelTiming>& timings) {
     timings.clear();
     for (const auto& [kernel, row] : from.items())
         timings[kernel] = {row.at(0).get<uint64_t>(), row.at(1).get<double>(), row.at(2).get<uint64_t>()};

@@ -3,19 +3,20 @@
 #include "device/kernel_sources.h"
 #include "learn/learned_state.h"
 #include "output/checkpoint_json.h"
+#include "render/scene_report.h"
 
 #include <fmt/format.h>
 
 namespace quasilux {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 namespace {
 
 /// The first key whose values differ: "bdd is 1 there, 0 here".
-std::string firstDifference(const json& there, const json& here) {
+std::string firstDifference(const Json& there, const Json& here) {
     for (const auto& [key, value] : there.items()) {
-        const json other = here.contains(key) ? here.at(key) : json();
+        const Json other = here.contains(key) ? here.at(key) : Json();
         if (value != other) return fmt::format("{} is {} there, {} here", key, value.dump(), other.dump());
     }
     return {};
@@ -32,8 +33,8 @@ std::string kernelChecksum() {
     return checksum.text();
 }
 
-json describe(const Checkpoint& c) {
-    json ranges = json::array();
+Json describe(const Checkpoint& c) {
+    Json ranges = Json::array();
     for (const PassRange& range : c.passes) ranges.push_back({range.first, range.end});
     return {{"version", c.version},
             {"kernels", c.kernels},
@@ -57,7 +58,7 @@ json describe(const Checkpoint& c) {
 }
 
 Checkpoint checkpointOf(const CheckpointReader& reader) {
-    const json& from = reader.description();
+    const Json& from = reader.description();
     Checkpoint c;
     try {
         c.version = from.at("version");
@@ -83,7 +84,7 @@ Checkpoint checkpointOf(const CheckpointReader& reader) {
         c.search = parsed<SearchReport>(from.at("search"));
         c.device = parsed<DeviceInfo>(from.at("device"));
         c.timings = parsed<std::map<std::string, KernelTiming>>(from.at("timings"));
-    } catch (const json::exception& error) {
+    } catch (const Json::exception& error) {
         throw InputError(
             fmt::format("checkpoint {}: of another version of quasilux ({})", reader.path(), error.what()));
     }
@@ -112,11 +113,7 @@ std::string differenceOfImage(const Checkpoint& there, const Checkpoint& here) {
                            here.height);
     if (const auto chosen = firstDifference(toJson(there.settings), toJson(here.settings)); !chosen.empty())
         return "by the search " + chosen;
-    for (const auto& [part, checksum] : there.sceneChecksums) {
-        const auto found = here.sceneChecksums.find(part);
-        if (found == here.sceneChecksums.end() || found->second != checksum)
-            return fmt::format("the scene is another one: its {} differs", part);
-    }
+    if (const auto scene = refusal([&] { requireSame(there.sceneChecksums, here.sceneChecksums); })) return *scene;
     if (there.estimatesBias != here.estimatesBias || there.meter != here.meter) return "the sensor is another one";
     return {};
 }

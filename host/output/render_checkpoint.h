@@ -16,11 +16,11 @@ struct PassRange {
 /// All of it but the arrays.
 struct Checkpoint {
     /// What makes passes those of one image.
-    std::string version, kernels; ///< of quasilux; checksum of its kernels
-    RenderSettings wanted;        ///< as command line and scene have them, before anything was searched
-    std::string freedom;          ///< what was left to a search
-    RenderSettings settings;      ///< of the image
-    std::map<std::string, std::string> sceneChecksums; ///< SceneReport::checksums
+    std::string version, kernels;  ///< of quasilux; checksum of its kernels
+    RenderSettings wanted;         ///< as command line and scene have them, before anything was searched
+    std::string freedom;           ///< what was left to a search
+    RenderSettings settings;       ///< of the image
+    SceneChecksums sceneChecksums; ///< SceneReport::checksums
     unsigned width = 0, height = 0;
     bool estimatesBias = false;
     MeterKind meter = MeterKind::none;

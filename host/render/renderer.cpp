@@ -346,11 +346,12 @@ struct Renderer::Stages {
 };
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
-                   std::shared_ptr<const LearnedScene> known) {
+                   std::shared_ptr<const LearnedScene> known, const SceneChecksums& expected) {
     const auto start = Clock::now();
     DeviceScene flat = flattenFor(scene, settings);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
     auto checksums = checksumsOf(flat, scene.maxDepth);
+    if (!expected.empty()) requireSame(expected, checksums);
     if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
     const double prepareSeconds = since(start);
     checkFits(planScene(flat, settings), device.info(), flat, settings);

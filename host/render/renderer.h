@@ -25,6 +25,9 @@ struct MemoryForecast {
     uint64_t hostPeakBytes = 0; ///< of the process; buffers of a CPU device included
 };
 
+/// XXH3 by part of a scene.
+using SceneChecksums = std::map<std::string, std::string>;
+
 /// What a scene needs and what was chosen for it: `quasilux info` prints it, statistics record it.
 struct SceneReport {
     size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
@@ -63,7 +66,7 @@ struct SceneReport {
     } learned;
     std::vector<std::string> warnings; ///< DeviceScene::warnings
     /// "geometry", "materials", "camera": of the scene as it is rendered. A file that says the same in another way has the same.
-    std::map<std::string, std::string> checksums;
+    SceneChecksums checksums;
 };
 
 /// Counted over all passes.
@@ -100,9 +103,10 @@ struct Progress {
 class Renderer {
 public:
     /// Prepares the scene, compiles the kernels it needs and learns where photons serve the image, unless that is `known` from
-    /// another renderer of the scene.
+    /// another renderer of the scene. Throws InputError where `expected` is not empty and not SceneReport::checksums: what is
+    /// known is of another scene then.
     Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
-             std::shared_ptr<const LearnedScene> known = nullptr);
+             std::shared_ptr<const LearnedScene> known = nullptr, const SceneChecksums& expected = {});
     ~Renderer();
 
     /// Adds the independent estimate number `pass` (from 0) to the film.

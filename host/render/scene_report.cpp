@@ -2,6 +2,7 @@
 
 #include "render/method.h"
 #include "util/checksum.h"
+#include "util/error.h"
 
 namespace quasilux {
 
@@ -37,7 +38,15 @@ std::string slotName(unsigned slot) {
     return slot < LIGHT_CLASSES ? componentName(slot) : "volume " + componentName(slot - LIGHT_CLASSES);
 }
 
-std::map<std::string, std::string> checksumsOf(const DeviceScene& flat, int maxDepth) {
+void requireSame(const SceneChecksums& expected, const SceneChecksums& found) {
+    std::string parts;
+    for (const auto& [part, checksum] : expected)
+        if (const auto other = found.find(part); other == found.end() || other->second != checksum)
+            parts += (parts.empty() ? "" : "; ") + part;
+    if (!parts.empty()) throw InputError("the scene is another one, it differs in: " + parts);
+}
+
+SceneChecksums checksumsOf(const DeviceScene& flat, int maxDepth) {
     Checksum geometry, materials, camera;
     geometry.add(flat.bvh.nodes);
     geometry.add(flat.bvh.blocks);

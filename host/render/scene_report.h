@@ -13,6 +13,8 @@ std::string slotName(unsigned slot);
 SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
 
 /// SceneReport::checksums, of a scene that has just been flattened.
-std::map<std::string, std::string> checksumsOf(const DeviceScene& flat, int maxDepth);
+SceneChecksums checksumsOf(const DeviceScene& flat, int maxDepth);
+/// Throws InputError that names the parts of the scene that differ.
+void requireSame(const SceneChecksums& expected, const SceneChecksums& found);
 
 } // namespace quasilux
