@@ -21,31 +21,15 @@ using testing::HasSubstr;
 
 TEST_F(CommandLineTest, HelpStatesEveryOptionWithUnitAndDefault) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> promised{
-        {"render", {"-o",
-                    "--png",
-                    "--time",
-                    "--passes",
-                    "--error",
-                    "--bdd",
-                    "--variant",
-                    "--quasi-specular",
-                    "--direct",
-                    "--map",
-                    "--photons",
-                    "--seed",
-                    "--radius-scale",
-                    "--kernels",
-                    "--device",
-                    "--work-group-size",
-                    "-D",
-                    "--stats",
-                    "--json",
-                    "--quiet",
-                    "--exposure",
-                    "--exposure-scale"}},
+        {"render",
+         {"-o",      "--png",          "--time",     "--passes",         "--checkpoint",      "--every", "--resume",
+          "--error", "--bdd",          "--variant",  "--quasi-specular", "--direct",          "--map",   "--photons",
+          "--seed",  "--radius-scale", "--kernels",  "--device",         "--work-group-size", "-D",      "--stats",
+          "--json",  "--quiet",        "--exposure", "--exposure-scale"}},
         {"compare",
          {"--mask", "--region", "--html", "--reference-stderr", "--max-relmse", "--max-bias", "--max-nonfinite",
           "--json"}},
+        {"merge", {"-o", "--png", "--checkpoint", "--json", "--quiet"}},
         {"devices", {"--json"}},
         {"info", {"--json", "--bdd", "--device", "-D"}}};
     const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/reference/command-line.md");
@@ -112,7 +96,7 @@ TEST_F(CommandLineTest, DevicesAreListedAsTableAndJson) {
 }
 
 TEST_F(CommandLineTest, UnknownCommandsAndArgumentsAreRefused) {
-    expectRefused({}, "no command given, expected render, compare, bench, devices or info");
+    expectRefused({}, "no command given, expected render, merge, compare, bench, devices or info");
     expectRefused({"rendr"}, "unknown argument 'rendr', did you mean 'render'?");
     expectRefused({"render"}, "SCENE is required");
     expectRefused({"render", "scene.xml", "--sed", "4"}, "did you mean '--seed'?");
@@ -124,7 +108,8 @@ TEST_F(CommandLineTest, ValuesOutOfRangeAreRefused) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> bad{
         {"--bdd", {"-1", "1.5", "1001", "x"}},
         {"--photons", {"0", "-5", "1e6", "99999999999"}},
-        {"--passes", {"0", "-1", "two"}},
+        {"--passes", {"0", "-1", "two", "3:3", "4:2", "1:", ":5", "1:2:3", "-1:2"}},
+        {"--every", {"-1", "nan"}},
         {"--seed", {"-1", "18446744073709551616"}},
         {"--time", {"0", "-3", "nan", "inf", "5s"}},
         {"--error", {"0", "-0.1", "1.5", "nan"}},
@@ -190,6 +175,22 @@ TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
     } else {
         EXPECT_EQ(outcome.exitCode, 130) << outcome.errors;
         EXPECT_THAT(names, testing::ElementsAre("scene.xml"));
+    }
+}
+
+// A scheduler that ends the render is told that it has not got to its end; what there is has been written.
+TEST_F(CommandLineTest, OtherSignalsEndItWithTheirCode) {
+    for (const int signal : {SIGTERM, SIGHUP}) {
+        const Outcome outcome =
+            run({"render", "scene.xml", "-o", "a.exr", "--time", "500", "--fixed", "--json"}, 8, signal);
+        EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome.errors;
+        const bool isWritten = fs::exists(folder / "a.exr");
+        EXPECT_EQ(isWritten, !outcome.output.empty());
+        if (isWritten) {
+            EXPECT_EQ(nlohmann::json::parse(outcome.output)["interrupted"], true);
+        }
+        fs::remove(folder / "a.exr");
+        EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
     }
 }
 

@@ -10,11 +10,15 @@
 #include "support/program_runner.h"
 
 #include <OpenImageIO/imageio.h>
+#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <system_error>
 #include <unistd.h>
 
 namespace quasilux {
@@ -189,6 +193,42 @@ TEST_F(OutputTest, FailedWritesLeaveNothingBehind) {
     EXPECT_THAT(files(), testing::ElementsAre("b.exr"));
 }
 
+// A disk that is full, as far as a limit on files is like one: the reason is that of this failure, not of any before, and what was
+// there stays.
+TEST_F(OutputTest, FullDiskIsNamedAndLeavesTheOldFile) {
+    writeText(path("a.txt"), "old");
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{4096, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    errno = EDOM; // stale
+    std::error_code why;
+    try {
+        writeText(path("a.txt"), std::string(10000, 'x'));
+    } catch (const std::system_error& error) {
+        why = error.code();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(why.value(), EFBIG) << why.message();
+    EXPECT_EQ(readText(path("a.txt")), "old");
+    EXPECT_THAT(files(), testing::ElementsAre("a.txt"));
+    writeText(path("a.txt"), std::string(10000, 'x')); // control: without the limit
+    EXPECT_EQ(readText(path("a.txt")).size(), 10000u);
+}
+
+// The file that is replaced is kept by another name, and so on; one that fails to be replaced stays as it is.
+TEST_F(OutputTest, AtomicFileKeepsTheOneBefore) {
+    for (const char* text : {"1", "2", "3"}) {
+        AtomicFile file(path("a"));
+        std::ofstream(file.temporary()) << text;
+        file.commitKeeping(path("a.previous"));
+    }
+    EXPECT_EQ(readText(path("a")), "3");
+    EXPECT_EQ(readText(path("a.previous")), "2");
+    EXPECT_THAT(files(), testing::UnorderedElementsAre("a", "a.previous"));
+}
+
 TEST_F(OutputTest, AtomicFileReplacesOnlyOnCommit) {
     std::ofstream(path("a.txt")) << "old";
     {
@@ -249,6 +289,7 @@ TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
                                             "/stop/passes",
                                             "/stop/relativeError",
                                             "/stop/interrupted",
+                                            "/stop/failure",
                                             "/device/name",
                                             "/device/platform",
                                             "/device/version",

@@ -23,6 +23,8 @@ struct Truth {
     double secondsPerPass = 0.1, noisePerPass = 1, bias = 0;
     double firstNoise = 0; // estimated before `honestFrom` passes, all of it even; 0: honest from the start
     unsigned honestFrom = 0;
+    unsigned failsAt = 0; // pass that throws, counted from 1; 0: none
+    bool lacksMemory = false;
 };
 using World = std::function<Truth(const RenderSettings&)>;
 
@@ -30,6 +32,10 @@ class FakePilot : public Pilot {
 public:
     FakePilot(const Truth& truth, unsigned photons, double& clock) : truth_(truth), photons_(photons), clock_(clock) {}
     void renderPass() override {
+        if (passes_ + 1 == truth_.failsAt) {
+            if (truth_.lacksMemory) throw std::bad_alloc();
+            throw DeviceError("the device is lost");
+        }
         clock_ += truth_.secondsPerPass;
         ++passes_;
     }
@@ -207,6 +213,57 @@ TEST(Search, NumbersMustWinClearly) {
     };
     EXPECT_EQ(photons(0.87), "chosen");
     EXPECT_EQ(photons(0.8), "given up");
+}
+
+// What would win by far fails in a pass, early or late, for whatever reason: the others go on, and it is told.
+TEST(Search, GoesOnWithoutOneThatFails) {
+    for (const unsigned pass : {1u, 2u, 3u, 5u, 9u})
+        for (const bool lacksMemory : {false, true}) {
+            SCOPED_TRACE(fmt::format("pass {}, memory {}", pass, lacksMemory));
+            const World world = [=](const RenderSettings& s) {
+                return s.bdd == 1 && s.quasiSpecular == "none" ? Truth{0.1, 0.1, 0, 0, 0, pass, lacksMemory}
+                       : s.bdd == 1                            ? Truth{0.1, 0.5}
+                                                               : Truth{};
+            };
+            const Found found = search(world, 400, {true, true, true, false, false});
+            EXPECT_EQ(found.settings.bdd, 1u);
+            EXPECT_NE(found.settings.quasiSpecular, "none");
+            EXPECT_THAT(found.report.line(), HasSubstr("settings (1 failed)"));
+            const auto& rows = found.report.rows;
+            EXPECT_EQ(std::count_if(rows.begin(), rows.end(),
+                                    [&](const PilotRow& row) {
+                                        return row.outcome ==
+                                               std::string("failed: ") +
+                                                   (lacksMemory ? memoryExhausted : "the device is lost");
+                                    }),
+                      1);
+        }
+}
+
+// All fail but for the first passes, which tell what passes cost: the render is that of the start. One that cannot be opened at all
+// is as good as one that fails.
+TEST(Search, KeepsTheStartWhereAllFail) {
+    for (const unsigned pass : {3u, 4u}) {
+        const Found found = search([=](const RenderSettings&) { return Truth{0.1, 1, 0, 0, 0, pass}; }, 400);
+        EXPECT_EQ(found.settings.bdd, 0u);
+        EXPECT_EQ(found.settings.variant, Variant::main);
+        EXPECT_EQ(found.settings.quasiSpecular, "auto");
+    }
+    double clock = 0;
+    int opened = 0;
+    SearchWorld world;
+    world.open = [&](const RenderSettings&) -> std::unique_ptr<Pilot> {
+        if (opened++ > 0) throw std::bad_alloc();
+        return std::make_unique<FakePilot>(Truth{}, 1000, clock);
+    };
+    world.clock = [&] { return clock += 0.01; };
+    StopRule stop;
+    stop.seconds = 400;
+    const Scene scene = projectScene("cornell_phong.xml");
+    const auto found = Search(world, scene, everything, stop).run({}, world.open({}));
+    EXPECT_GT(opened, 2);
+    EXPECT_EQ(found.settings.bdd, 0u);
+    EXPECT_EQ(found.settings.photonsPerPass, 0u);
 }
 
 // A step that pays is followed by the next one: to a sixteenth, and no further.

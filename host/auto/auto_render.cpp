@@ -1,5 +1,7 @@
 #include "auto/auto_render.h"
 
+#include "util/error.h"
+
 #include <chrono>
 
 namespace quasilux {
@@ -32,12 +34,50 @@ size_t pilotsInMemory(Device& device, const Renderer& renderer) {
     return std::max<uint64_t>(2, device.info().globalMemory / 4 / std::max<uint64_t>(1, each));
 }
 
+// What could be opened among other pilots can be opened alone, or else the render is that of the settings where the search began.
+std::unique_ptr<Renderer> openChosen(Device& device, const Scene& scene, const RenderSettings& first,
+                                     const std::shared_ptr<const LearnedScene>& learned, AutoRender& result) {
+    std::unique_ptr<Renderer> renderer;
+    const auto why = failureOf([&] { renderer = std::make_unique<Renderer>(device, scene, result.settings, learned); });
+    if (!why) return renderer;
+    result.search.rows[result.search.chosen].outcome = failedOutcome + *why;
+    result.search.rows[0].outcome = "chosen";
+    result.search.chosen = 0;
+    result.settings = first;
+    return std::make_unique<Renderer>(device, scene, first, learned);
+}
+
+// The image is there already: what this costs must not lose it.
+void countGathered(Renderer& renderer, AutoRender& result) {
+    try {
+        result.gathered = renderer.countGathered();
+    } catch (...) {
+        result.failure = std::current_exception();
+    }
+}
+
+void renderPasses(Device& device, Renderer& renderer, double seconds, const StopRule& stop,
+                  const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
+                  const AfterChosenPass& afterPass, AutoRender& result) {
+    AfterPass after;
+    if (afterPass)
+        after = [&](const Renderer& now, double elapsed, bool isLast) { afterPass(result, now, elapsed, isLast); };
+    RenderOutcome outcome = renderAsFarAsItGoes(renderer, stop, onProgress, interrupted, {seconds}, after);
+    result.image = std::move(outcome.image);
+    result.counters = outcome.counters;
+    result.failure = outcome.failure;
+    result.report = renderer.report();
+    result.peakBufferBytes = device.peakBytes();
+    if (result.settings.countGathered && !interrupted && !result.failure) countGathered(renderer, result);
+}
+
 } // namespace
 
 AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& settings,
                       std::unique_ptr<Renderer> start, const Freedom& freedom, const StopRule& stop,
                       const std::function<void(const Progress&)>& onProgress,
-                      const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted) {
+                      const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted,
+                      const AfterChosenPass& afterPass) {
     AutoRender result;
     result.settings = settings;
     result.search.notSearched = whyNotSearched(scene, settings, stop);
@@ -52,14 +92,21 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
         result.settings = found.settings;
         // What pilots showed has decided which of them is the best, so their passes are no part of the image.
         start = found.start ? static_cast<RendererPilot&>(*found.start).release()
-                            : std::make_unique<Renderer>(device, scene, result.settings, learned);
+                            : openChosen(device, scene, settings, learned, result);
     }
     if (onChosen) onChosen(result.search);
-    result.image = renderUntil(*start, stop, onProgress, interrupted, {world.clock()});
-    result.report = start->report();
-    result.counters = start->counters();
-    result.peakBufferBytes = device.peakBytes();
-    if (settings.countGathered && !interrupted) result.gathered = start->countGathered();
+    renderPasses(device, *start, world.clock(), stop, onProgress, interrupted, afterPass, result);
+    return result;
+}
+
+AutoRender renderChosen(Device& device, const RenderSettings& settings, const SearchReport& search,
+                        std::unique_ptr<Renderer> start, double seconds, const StopRule& stop,
+                        const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
+                        const AfterChosenPass& afterPass) {
+    AutoRender result;
+    result.settings = settings;
+    result.search = search;
+    renderPasses(device, *start, seconds, stop, onProgress, interrupted, afterPass, result);
     return result;
 }
 

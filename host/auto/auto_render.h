@@ -14,14 +14,26 @@ struct AutoRender {
     SceneReport report;      ///< of the renderer chosen
     RenderCounters counters; ///< of the passes of the image
     SearchReport search;
+    std::exception_ptr failure;            ///< RenderOutcome
     uint64_t peakBufferBytes = 0;          ///< of the device, until the image was done
     std::optional<GatheredCount> gathered; ///< by a pass that follows, where RenderSettings::countGathered asks for it
 };
+
+/// AfterPass; `soFar` has the settings and the search.
+using AfterChosenPass =
+    std::function<void(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast)>;
 
 /// `start` was made for `settings` and has no passes yet. `onChosen` is called once, before the passes that follow.
 AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& settings,
                       std::unique_ptr<Renderer> start, const Freedom& freedom, const StopRule& stop,
                       const std::function<void(const Progress&)>& onProgress,
-                      const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted);
+                      const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted,
+                      const AfterChosenPass& afterPass = {});
+
+/// The passes that follow of a render whose settings were chosen earlier, by `search`; `start` has the passes until then, of `seconds`.
+AutoRender renderChosen(Device& device, const RenderSettings& settings, const SearchReport& search,
+                        std::unique_ptr<Renderer> start, double seconds, const StopRule& stop,
+                        const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
+                        const AfterChosenPass& afterPass = {});
 
 } // namespace quasilux

@@ -107,8 +107,8 @@ void Search::race(const std::vector<RenderSettings>& candidates, unsigned fewest
     const double passes = std::floor(seconds / 2 / cost);
     Field field =
         enter(candidates, static_cast<unsigned>(std::clamp<double>(passes, fewest, mostAtFirst)), leastGain, end);
-    if (field.empty()) return;
     halve(field, end);
+    if (field.empty()) return;
     best_ = std::move(field.front());
 }
 
@@ -143,7 +143,9 @@ void Search::halve(Field& field, double end) {
         const double rounds = std::ceil(std::log2(field.size()));
         const double more = std::min<double>(passes, std::floor((end - world_.clock()) / rounds / cost));
         if (more >= 1 && passes < mostPasses)
-            for (auto& contender : field) renderUpTo(contender, passes + static_cast<unsigned>(more));
+            for (auto& contender : field)
+                dare(contender, [&] { renderUpTo(contender, passes + static_cast<unsigned>(more)); });
+        dropFailed(field);
         giveUpWorst(field, more >= 1 && !interrupted() ? (field.size() + 1) / 2 : 1);
     }
 }
@@ -166,11 +168,15 @@ void Search::openContender(Field& field, const RenderSettings& settings, unsigne
     contender.settings = settings;
     contender.settings.seed = start_.seed + pilotSeed;
     // There may be too little memory for another renderer beside the others.
-    if (refusal([&] { contender.pilot = world_.open(contender.settings); })) return;
+    if (!dare(contender, [&] { contender.pilot = world_.open(contender.settings); })) return;
     contender.row = rowOf(settings, contender.pilot->photonsPerPass());
     contender.earlierPasses = report_.rows[contender.row].passes;
-    const bool isKnown = renderUpTo(contender, passes) || contender.measure.passes >= fewestPasses;
-    note(contender, "given up");
+    bool isKnown = false;
+    if (!dare(contender, [&] {
+            isKnown = renderUpTo(contender, passes) || contender.measure.passes >= fewestPasses;
+            note(contender, "given up");
+        }))
+        return noteFailure(contender);
     if (shareKernels(settings, start_, scene_)) warmOpening_ = contender.pilot->openingSeconds();
     if (isKnown) field.push_back(std::move(contender));
 }
@@ -205,15 +211,31 @@ bool Search::renderUpTo(Contender& contender, unsigned passes) {
 }
 
 // Relative to the mean of all their images: one that is noisy is too bright where it has its noise, and that would make it look better.
-void Search::measureTogether(Field& field) const {
+void Search::measureTogether(Field& field) {
     Brightness brightness;
-    for (const auto& contender : field) brightness.add(contender.pilot->radiance(), contender.measure);
-    for (auto& contender : field) contender.measure = contender.pilot->measure(brightness.mean());
+    for (auto& contender : field)
+        dare(contender, [&] { brightness.add(contender.pilot->radiance(), contender.measure); });
+    for (auto& contender : field)
+        dare(contender, [&] { contender.measure = contender.pilot->measure(brightness.mean()); });
+    dropFailed(field);
+}
+
+bool Search::dare(Contender& contender, const std::function<void()>& action) {
+    if (!contender.failure.empty()) return false;
+    if (const auto why = failureOf(action)) contender.failure = why->empty() ? "no reason given" : *why;
+    return contender.failure.empty();
+}
+
+void Search::dropFailed(Field& field) {
+    for (const auto& contender : field)
+        if (!contender.failure.empty()) noteFailure(contender);
+    std::erase_if(field, [](const Contender& contender) { return !contender.failure.empty(); });
 }
 
 // Keeps the best ones, in the order of their errors, and no more than so many.
 void Search::giveUpWorst(Field& field, size_t kept) {
     measureTogether(field);
+    if (field.empty()) return;
     std::vector<const PilotMeasure*> measures;
     for (const auto& contender : field) measures.push_back(&contender.measure);
     const auto errors = predictedErrors(measures, secondsLeft());
@@ -239,6 +261,13 @@ void Search::note(const Contender& contender, const std::string& outcome) {
     row.secondsPerPass = contender.measure.secondsPerPass;
     if (contender.measure.passes >= fewestPasses)
         row.predictedError = predictAfter(contender.measure, secondsLeft()).relativeError();
+}
+
+void Search::noteFailure(const Contender& contender) {
+    PilotRow& row = report_.rows[contender.row];
+    row.passes = contender.earlierPasses + contender.pilot->passes();
+    row.outcome = failedOutcome + contender.failure;
+    row.predictedError = 0;
 }
 
 double Search::openingCost(const RenderSettings& settings) const {

@@ -48,6 +48,7 @@ private:
         size_t row = 0;
         unsigned earlierPasses = 0; ///< in an earlier race
         double leastGain = 1;       ///< its relMSE must be that much less to win
+        std::string failure{};      ///< what ended it, in whichever pass
     };
     using Field = std::vector<Contender>;
 
@@ -62,11 +63,15 @@ private:
     bool isWithinBounds(const RenderSettings& settings) const;
     std::vector<RenderSettings> untried(const std::vector<RenderSettings>& candidates) const;
     size_t rowOf(const RenderSettings& settings, unsigned photons);
+    /// Does what concerns one contender; false where it fails, which is then the end of this contender, not of the search.
+    bool dare(Contender& contender, const std::function<void()>& action);
+    void dropFailed(Field& field);
     void openContender(Field& field, const RenderSettings& settings, unsigned passes, double leastGain);
     bool renderUpTo(Contender& contender, unsigned passes);
-    void measureTogether(Field& field) const;
+    void measureTogether(Field& field);
     void giveUpWorst(Field& field, size_t kept);
     void note(const Contender& contender, const std::string& outcome);
+    void noteFailure(const Contender& contender);
     double openingCost(const RenderSettings& settings) const;
     double passCost(const RenderSettings& settings) const;
     double secondsLeft() const;

@@ -14,8 +14,9 @@ struct PilotRow {
     unsigned photonsPerPass = 0, passes = 0;
     double secondsPerPass = 0, openingSeconds = 0;
     double predictedError = 0; ///< root of relMSE at the end, as predicted when it was judged
-    std::string outcome;       ///< "chosen", "given up"
+    std::string outcome;       ///< "chosen", "given up", or failedOutcome and why
 };
+inline constexpr const char* failedOutcome = "failed: ";
 
 struct SearchReport {
     Freedom freedom;

@@ -148,7 +148,7 @@ int benchCommand(const BenchOptions& options) {
     report.interrupted = interruptFlag();
     if (report.runs.empty() && report.sections.empty() && (!report.micro || report.micro->rows.empty())) {
         if (!interruptFlag()) attempts.rethrowFirst();
-        return 130;
+        return exitCodeWithoutResult();
     }
 
     if (!options.output.empty()) writeJson(options.output, benchJson(report));
@@ -159,7 +159,7 @@ int benchCommand(const BenchOptions& options) {
         printTables(report);
     for (const BenchFailure& failure : report.failures)
         fmt::print(stderr, "quasilux: error: {}: {}\n", failure.what, failure.message);
-    return report.failures.empty() ? 0 : 1;
+    return report.failures.empty() ? exitCodeWhenWritten() : 1;
 }
 
 } // namespace quasilux

@@ -5,8 +5,10 @@
 #include "cli/compare_command.h"
 #include "cli/devices_command.h"
 #include "cli/info_command.h"
+#include "cli/merge_command.h"
 #include "cli/options.h"
 #include "cli/render_command.h"
+#include "util/error.h"
 #include "util/nearest.h"
 
 #include <fmt/format.h>
@@ -50,7 +52,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     const bool unknown =
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
     fail(exitBadInput, unknown     ? unknownArgument(app)
-                       : noCommand ? "no command given, expected render, compare, bench, devices or info"
+                       : noCommand ? "no command given, expected render, merge, compare, bench, devices or info"
                                    : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
@@ -58,6 +60,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
 
 int runCommand(CLI::App& app, const Options& options) {
     if (app.got_subcommand("render")) return renderCommand(options.render);
+    if (app.got_subcommand("merge")) return mergeCommand(options.merge);
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
     if (app.got_subcommand("compare")) return compareCommand(options.compare);
     if (app.got_subcommand("info"))
@@ -84,7 +87,7 @@ int runCommandLine(int argc, char** argv) {
     } catch (const InputError& error) {
         return fail(exitBadInput, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(exitFailed, "the computer's memory is exhausted, try a smaller image or scene");
+        return fail(exitFailed, memoryExhausted);
     } catch (const std::exception& error) {
         return fail(exitFailed, error.what());
     }

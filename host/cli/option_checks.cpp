@@ -57,6 +57,20 @@ CLI::Validator wholeNumber(uint64_t from, uint64_t to) {
         "");
 }
 
+CLI::Validator passRange(uint64_t to) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            const auto colon = text.find(':');
+            const auto first = colon == std::string::npos ? 0 : parseAll<uint64_t>(text.substr(0, colon));
+            const auto end = parseAll<uint64_t>(colon == std::string::npos ? text : text.substr(colon + 1));
+            if (first && end && *first < *end && *end <= to) return std::string();
+            return fmt::format("'{}' given, expected a whole number from 1 to {}, or two, A:B, the first pass and the "
+                               "one after the last",
+                               text, to);
+        },
+        "");
+}
+
 CLI::Validator numberAbove(double above, double to) {
     return number(fmt::format("a number above {:g} and up to {:g}", above, to),
                   [=](double value) { return value > above && value <= to; });

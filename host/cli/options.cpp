@@ -186,15 +186,48 @@ void declareFiles(CLI::App& command, RenderOptions& options) {
         ->excludes(stops);
 }
 
+void declareCheckpoints(CLI::App& command, RenderOptions& options) {
+    const char* group = "Checkpoints";
+    auto* checkpoint =
+        command
+            .add_option("--checkpoint", options.checkpoint,
+                        "Where the render is kept as far as it has come, .ckpt; the one before is kept beside it "
+                        "(default: none)")
+            ->type_name("FILE")
+            ->group(group);
+    command
+        .add_option("--every", options.every, "Time between checkpoints, in seconds; 0: after each pass (default: 60)")
+        ->type_name("SECONDS")
+        ->check(numberBetween(0, 1e9))
+        ->group(group)
+        ->needs(checkpoint);
+    command
+        .add_option("--resume", options.resume,
+                    "Checkpoint to go on from, with the scene and options that it was begun with; stop rules may be "
+                    "others (default: none)")
+        ->type_name("FILE")
+        ->group(group);
+}
+
+void setPasses(const std::string& text, StopRule& stop) {
+    const auto colon = text.find(':');
+    stop.firstPass = colon == std::string::npos ? 0 : static_cast<unsigned>(std::stoul(text.substr(0, colon)));
+    stop.passes = static_cast<unsigned>(std::stoul(colon == std::string::npos ? text : text.substr(colon + 1)));
+}
+
 void declareStop(CLI::App& command, StopRule& stop) {
     const char* group = "Stop rules (the first one reached ends the render)";
     command.add_option("--time", stop.seconds, "Time to render, in seconds (default: 30 if no stop rule is given)")
         ->type_name("SECONDS")
         ->check(numberAbove(0, 1e9))
         ->group(group);
-    command.add_option("--passes", stop.passes, "Passes to render, a count (default: no limit)")
-        ->type_name("N")
-        ->transform(wholeNumber(1, maximumCount))
+    command
+        .add_option_function<std::string>(
+            "--passes", [&stop](const std::string& text) { setPasses(text, stop); },
+            "Passes to render, a count, or A:B for the passes numbered A to B - 1, whose checkpoint can be merged with "
+            "those of others (default: no limit)")
+        ->type_name("N|A:B")
+        ->check(passRange(maximumCount))
         ->group(group);
     command
         .add_option("--error", stop.relativeError,
@@ -261,9 +294,11 @@ void declareOptions(CLI::App& app, Options& options) {
     declareScene(render, options.render);
     declareFiles(render, options.render);
     declareStop(render, options.render.stop);
+    declareCheckpoints(render, options.render);
     declareSettings(render, options.render);
     declareDevice(render, options.render);
 
+    declareMerge(app, options.merge);
     declareCompare(app, options.compare);
     declareBench(app, options.bench);
 

@@ -4,6 +4,7 @@
 #include "auto/freedom.h"
 #include "cli/bench_options.h"
 #include "cli/compare_options.h"
+#include "cli/merge_options.h"
 #include "output/png.h"
 #include "render/settings.h"
 
@@ -42,6 +43,8 @@ struct SceneOptions {
 
 struct RenderOptions : SceneOptions {
     std::string output, png, stats, grid; ///< paths; empty = not asked for
+    std::string checkpoint, resume;       ///< likewise
+    double every = 60;                    ///< seconds between checkpoints
     StopRule stop;
     ExposureChoice exposure;
 
@@ -53,6 +56,7 @@ struct Options {
     RenderOptions render;
     SceneOptions info;
     CompareOptions compare;
+    MergeOptions merge;
     BenchOptions bench;
     bool devicesJson = false;
 };

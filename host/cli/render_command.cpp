@@ -1,9 +1,8 @@
 // The stages of a render: check the outputs, load, prepare, render, write, summarise.
 #include "cli/render_command.h"
 
-#include "auto/auto_render.h"
-#include "auto/candidates.h"
 #include "cli/interrupt.h"
+#include "cli/started_render.h"
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
 #include "output/exr.h"
@@ -11,6 +10,7 @@
 #include "output/meter_reading.h"
 #include "output/progress_line.h"
 #include "output/statistics.h"
+#include "util/error.h"
 #include "util/process_memory.h"
 
 #include <chrono>
@@ -36,6 +36,7 @@ void checkOutputs(const RenderOptions& options) {
     if (!options.grid.empty()) checkOutputPath(options.grid, "--grid", ".csv");
     if (!options.png.empty()) checkOutputPath(options.png, "--png", ".png");
     if (!options.stats.empty()) checkOutputPath(options.stats, "--stats", ".json");
+    checkCheckpointOptions(options);
 }
 
 // Photons of caustics that a pixel of a meter needs for its standard error to mean anything.
@@ -82,6 +83,7 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
                            {"error", errorJson(record.error)},
                            {"auto", record.search.line()},
                            {"interrupted", record.interrupted},
+                           {"failure", record.failure.empty() ? nlohmann::json() : nlohmann::json(record.failure)},
                            {"nonFinite", record.counters.nonFinite},
                            {"cutPaths", record.counters.cutPaths},
                            {"files", written.paths}};
@@ -114,6 +116,7 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
     fmt::print("{} {}, {:.1f} s", record.counters.passes, record.counters.passes == 1 ? "pass" : "passes",
                record.counters.renderSeconds);
     if (record.interrupted) fmt::print(", interrupted");
+    if (!record.failure.empty()) fmt::print(", ended by a failure");
     printError(record.error);
     if (record.meter != MeterKind::none) fmt::print("{}", meterText(record, image));
     for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
@@ -166,11 +169,12 @@ void warnOfRarePhotons(const RenderOptions& options, const RenderRecord& record)
                               100 * learned.lightOfPhotons, effective));
 }
 
-RenderRecord makeRecord(const RenderOptions& options, Device& device, const AutoRender& render, MeterKind meter) {
+RenderRecord makeRecord(const RenderOptions& options, const StopRule& stop, Device& device, const AutoRender& render,
+                        MeterKind meter) {
     RenderRecord record;
     record.scene = std::filesystem::path(options.scene).filename().string();
     record.settings = render.settings;
-    record.stop = options.stop;
+    record.stop = stop;
     record.device = device.info();
     record.workGroupSize = device.workGroupSize();
     record.report = render.report;
@@ -179,10 +183,12 @@ RenderRecord makeRecord(const RenderOptions& options, Device& device, const Auto
     record.search = render.search;
     record.error = estimateError(render.image);
     record.meter = meter;
-    record.kernels = device.timings();
     record.peakBufferBytes = render.peakBufferBytes;
     record.peakHostBytes = peakResidentBytes();
     record.interrupted = interruptFlag();
+    if (render.failure) record.failure = failureOf([&] { std::rethrow_exception(render.failure); }).value_or("");
+    const auto lost = failureOf([&] { record.kernels = device.timings(); });
+    if (lost && record.failure.empty()) record.failure = *lost;
     return record;
 }
 
@@ -199,18 +205,10 @@ int renderCommand(const RenderOptions& options) {
     const double loadSeconds = secondsSince(start);
     progress.clear();
     for (const auto& warning : scene.warnings) warn(options, warning);
-    const Freedom freedom = options.freedom(scene);
-    RenderSettings wanted = options.settings(scene);
-    wanted.countGathered = !options.stats.empty();
-    const RenderSettings settings = searchStart(wanted, scene, freedom, options.stop);
 
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
     progress.update({.phase = "preparing"});
-    auto renderer = std::make_unique<Renderer>(device, scene, settings);
-    progress.clear();
-    for (const auto& warning : renderer->report().warnings) warn(options, warning);
-    catchInterrupt();
     const auto onProgress = [&](const Progress& now) {
         catchInterrupt();
         progress.update(now);
@@ -221,16 +219,19 @@ int renderCommand(const RenderOptions& options) {
         if (!options.quiet && (search.notSearched.empty() ? search.freedom.any() : options.autoAll))
             fmt::print(stderr, "quasilux: {}\n", search.line());
     };
-    const AutoRender render = renderAuto(device, scene, settings, std::move(renderer), freedom, options.stop,
-                                         onProgress, onChosen, interruptFlag());
+    StartedRender started(options, device, scene);
+    progress.clear();
+    for (const auto& warning : started.warnings()) warn(options, warning);
+    catchInterrupt();
+    const AutoRender render = started.render(onProgress, onChosen);
     const FilmImage& image = render.image;
     if (image.passes == 0) {
-        if (interruptFlag()) return 130;
+        if (interruptFlag()) return exitCodeWithoutResult();
         throw std::runtime_error("no pass was rendered before the stop rule was reached");
     }
 
     progress.update({.phase = "writing"});
-    RenderRecord record = makeRecord(options, device, render, scene.sensor.meter);
+    RenderRecord record = makeRecord(options, started.stop(), device, render, scene.sensor.meter);
     record.loadSeconds = loadSeconds;
     const WrittenFiles written = writeFiles(options, scene, image, record);
     progress.clear();
@@ -240,7 +241,11 @@ int renderCommand(const RenderOptions& options) {
         printJsonSummary(record, image, written);
     else if (!options.quiet)
         printSummary(record, image, written);
-    return 0;
+    // What there is has been written.
+    if (render.failure) std::rethrow_exception(render.failure);
+    if (!started.checkpointFailure().empty())
+        throw std::runtime_error("no checkpoint of the last passes could be written: " + started.checkpointFailure());
+    return exitCodeWhenWritten();
 }
 
 } // namespace quasilux

@@ -26,6 +26,14 @@ public:
         device_->run(
             [&] { device_->queue().enqueueWriteBuffer(memory(), CL_TRUE, 0, data.size() * sizeof(T), data.data()); });
     }
+    /// From the value `first` on.
+    void writeAt(size_t first, const std::vector<T>& data) {
+        if (data.empty()) return;
+        device_->run([&] {
+            device_->queue().enqueueWriteBuffer(memory(), CL_TRUE, first * sizeof(T), data.size() * sizeof(T),
+                                                data.data());
+        });
+    }
     std::vector<T> read(size_t first = 0, size_t count = SIZE_MAX) const {
         std::vector<T> data(count == SIZE_MAX ? count_ - first : count);
         if (data.empty()) return data;

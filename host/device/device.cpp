@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <utility>
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -32,6 +33,17 @@ std::vector<cl::Device> allDevices() {
         devices.insert(devices.end(), here.begin(), here.end());
     }
     return devices;
+}
+
+/// What `query` returns; where OpenCL refuses it, the error names what failed.
+template <typename Query>
+auto ask(const Query& query) {
+    try {
+        return query();
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("an OpenCL device could not be queried: {} failed with OpenCL error {}",
+                                      error.what(), error.err()));
+    }
 }
 
 DeviceInfo describe(const cl::Device& device) {
@@ -102,14 +114,14 @@ cl::Buffer bufferOfHugePages(cl::Context& context, size_t bytes) {
 
 std::vector<DeviceInfo> listDevices() {
     std::vector<DeviceInfo> list;
-    for (const auto& device : allDevices()) list.push_back(describe(device));
+    for (const auto& device : allDevices()) list.push_back(ask([&] { return describe(device); }));
     return list;
 }
 
 Device::Device(int index, unsigned workGroupSize, uint64_t memoryLimit, unsigned computeUnits)
     : workGroupSize_(workGroupSize) {
-    device_ = pick(index);
-    info_ = describe(device_);
+    device_ = ask([&] { return pick(index); });
+    info_ = ask([&] { return describe(device_); });
     if (memoryLimit > 0) {
         info_.globalMemory = std::min(info_.globalMemory, memoryLimit);
         info_.maximumAllocation = std::min(info_.maximumAllocation, memoryLimit);
@@ -142,7 +154,7 @@ Allocation Device::allocate(size_t bytes, const std::string& label) {
     try {
         cl::Buffer buffer = hugePagesHelp(info_, bytes) ? bufferOfHugePages(context_, bytes)
                                                         : cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
-        allocations_[label] = bytes;
+        if (notes_) (*notes_)[label] = bytes;
         inUse_->now += bytes;
         inUse_->peak = std::max(inUse_->peak, inUse_->now);
         return {buffer, std::shared_ptr<const void>(nullptr, [inUse = inUse_, bytes](auto) { inUse->now -= bytes; })};
@@ -178,13 +190,15 @@ void Device::resetTimings(std::map<std::string, KernelTiming> earlier) {
 
 const std::map<std::string, KernelTiming>& Device::timings() {
     finish();
-    for (const auto& [kernel, event] : pending_) {
-        auto& timing = timings_[kernel];
-        ++timing.launches;
-        timing.seconds += 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                                                     event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
-    }
-    pending_.clear();
+    const auto ended = std::exchange(pending_, {}); // also where one of them cannot be asked
+    run([&] {
+        for (const auto& [kernel, event] : ended) {
+            auto& timing = timings_[kernel];
+            ++timing.launches;
+            timing.seconds += 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                                         event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+        }
+    });
     return timings_;
 }
 

@@ -59,8 +59,6 @@ public:
     Allocation allocate(size_t bytes, const std::string& label);
     /// Most bytes that were in use at once, of all renderers on this device.
     uint64_t peakBytes() const { return inUse_->peak; }
-    /// Bytes by label, as allocated so far (a label used twice holds the later size).
-    const std::map<std::string, uint64_t>& allocations() const { return allocations_; }
 
     /// Waits for all work.
     void finish();
@@ -84,9 +82,26 @@ private:
         uint64_t now = 0, peak = 0;
     };
     std::shared_ptr<InUse> inUse_ = std::make_shared<InUse>(); ///< shared with buffers, which may outlive the device
-    std::map<std::string, uint64_t> allocations_;
+    friend class AllocationNotes;
+    std::map<std::string, uint64_t>* notes_ = nullptr; ///< AllocationNotes
     std::vector<std::pair<std::string, cl::Event>> pending_;
     std::map<std::string, KernelTiming> timings_;
+};
+
+/// While it lives, buffers that are allocated are noted in `sizes`, bytes by label (a label used twice holds the later size). Several
+/// renderers share a device; each notes its own.
+class AllocationNotes {
+public:
+    AllocationNotes(Device& device, std::map<std::string, uint64_t>& sizes) : device_(device), outer_(device.notes_) {
+        device.notes_ = &sizes;
+    }
+    ~AllocationNotes() { device_.notes_ = outer_; }
+    AllocationNotes(const AllocationNotes&) = delete;
+    AllocationNotes& operator=(const AllocationNotes&) = delete;
+
+private:
+    Device& device_;
+    std::map<std::string, uint64_t>* outer_;
 };
 
 } // namespace quasilux

@@ -70,9 +70,13 @@ Kernel::Kernel(Device& device, cl::Kernel kernel, std::string name)
         privateBytes_ = bytes;
 }
 
-void Kernel::check(cl_int status, cl_uint index) {
-    if (status != CL_SUCCESS)
-        throw DeviceError(fmt::format("kernel {}: argument {} was refused (OpenCL error {})", name_, index, status));
+void Kernel::set(cl_uint index, const std::function<void()>& argument) {
+    try {
+        argument();
+    } catch (const cl::Error& error) {
+        throw DeviceError(
+            fmt::format("kernel {}: argument {} was refused (OpenCL error {})", name_, index, error.err()));
+    }
 }
 
 void Kernel::notePace() {
@@ -110,8 +114,9 @@ Program::Program(Device& device, const std::string& file, const std::string& opt
     // In C99 a plain inline function has no definition to link where a compiler chooses not to inline it, as some for
     // GPUs do. Those for CPUs inline all, and PoCL takes twice the time to compile static ones.
     const std::string linkage = device.info().isCpu ? "" : "#define inline static inline\n";
-    program_ = cl::Program(device.context(), linkage + joinKernelSource(file, extra));
+    const std::string source = linkage + joinKernelSource(file, extra);
     try {
+        program_ = cl::Program(device.context(), source);
         // Fast-math stays off: it would let the compiler assume that there is no NaN or infinity.
         program_.build(("-cl-std=CL1.2 " + options).c_str());
     } catch (const cl::BuildError& error) {

@@ -49,13 +49,13 @@ private:
     }
     template <typename T>
     void setArgument(cl_uint index, const Buffer<T>& buffer) {
-        check(kernel_.setArg(index, buffer.memory()), index);
+        set(index, [&] { kernel_.setArg(index, buffer.memory()); });
     }
     template <typename T, typename = std::enable_if_t<std::is_trivially_copyable_v<T>>>
     void setArgument(cl_uint index, const T& value) {
-        check(kernel_.setArg(index, sizeof(T), &value), index);
+        set(index, [&] { kernel_.setArg(index, sizeof(T), &value); });
     }
-    void check(cl_int status, cl_uint index);
+    void set(cl_uint index, const std::function<void()>& argument);
     /// In as many launches as longestLaunchSeconds asks for, each of which is waited for if there are several.
     void enqueue(size_t count, size_t group);
     cl::Event enqueuePart(size_t first, size_t count, size_t group);

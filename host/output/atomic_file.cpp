@@ -10,10 +10,11 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <stdexcept>
+#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace quasilux {
 
@@ -23,6 +24,25 @@ namespace {
 
 /// In the same folder, since a rename is atomic only within one file system.
 std::string temporaryName(const std::string& path) { return fmt::format("{}.{}.tmp", path, getpid()); }
+
+/// What the system said of the last call; to be asked before any other.
+[[noreturn]] void fail(const std::string& path) {
+    const int why = errno;
+    throw std::system_error(why, std::generic_category(), "cannot write " + path);
+}
+
+/// Until this is done a crash of the machine may lose it.
+void sync(const std::string& name, int flags, const std::string& path) {
+    const int descriptor = open(name.c_str(), flags | O_CLOEXEC);
+    if (descriptor < 0 && (flags & O_DIRECTORY) != 0) return; // a folder that one may write to, but not read
+    if (descriptor < 0) fail(path);
+    // Some file systems cannot: then there is nothing to be done.
+    const bool failed = fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS;
+    const int why = errno;
+    close(descriptor);
+    errno = why;
+    if (failed) fail(path);
+}
 
 /// Asks the file system itself: permission bits say nothing of read-only mounts, quotas or the superuser.
 void probeFolder(const std::string& path, const std::string& option) {
@@ -63,17 +83,61 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::commit() {
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
-        throw std::system_error(errno, std::generic_category(), "cannot write " + path_);
+    sync(temporary_, O_WRONLY, path_);
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_);
     committed_ = true;
+    const fs::path folder = fs::path(path_).parent_path();
+    sync(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY, path_);
+}
+
+void AtomicFile::commitKeeping(const std::string& earlier) {
+    const std::string beside = earlier + ".tmp";
+    unlink(beside.c_str());
+    // By a second name of the file, so that `path` is there at every moment; some file systems know no second names.
+    if (link(path_.c_str(), beside.c_str()) == 0) {
+        if (std::rename(beside.c_str(), earlier.c_str()) != 0) fail(earlier);
+    } else if (errno != ENOENT && std::rename(path_.c_str(), earlier.c_str()) != 0) {
+        fail(earlier);
+    }
+    commit();
+}
+
+OutputStream::OutputStream(const AtomicFile& file, std::string path) : path_(std::move(path)) {
+    descriptor_ = open(file.temporary().c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(path_);
+    const bool isOthers = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (isOthers || ftruncate(descriptor_, 0) != 0) {
+        const int why = errno;
+        ::close(std::exchange(descriptor_, -1));
+        errno = why;
+        fail(path_);
+    }
+}
+
+OutputStream::~OutputStream() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void OutputStream::write(const void* data, size_t bytes) {
+    const char* next = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const ssize_t written = ::write(descriptor_, next, bytes);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(path_);
+        next += written;
+        bytes -= static_cast<size_t>(written);
+    }
+}
+
+void OutputStream::close() {
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail(path_);
 }
 
 void writeText(const std::string& path, const std::string& text) {
     AtomicFile file(path);
-    std::ofstream stream(file.temporary(), std::ios::binary);
-    stream << text;
+    OutputStream stream(file, path);
+    stream.write(text.data(), text.size());
     stream.close();
-    if (!stream) throw std::system_error(errno, std::generic_category(), "cannot write " + path);
     file.commit();
 }
 

@@ -1,7 +1,9 @@
 // Files that appear whole or not at all: written under a temporary name in the same folder, then renamed.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <utility>
 
 namespace quasilux {
 
@@ -13,20 +15,42 @@ void checkOutputPath(const std::string& path, const std::string& option, const s
 class AtomicFile {
 public:
     explicit AtomicFile(std::string path);
+    /// `temporary`: a name that does not differ from process to process, so that those that are killed leave no more than one file.
+    AtomicFile(std::string path, std::string temporary) : path_(std::move(path)), temporary_(std::move(temporary)) {}
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     const std::string& temporary() const { return temporary_; }
-    /// Renames to the final name, replacing an older file. Throws std::runtime_error.
+    /// Renames to the final name, replacing an older file, when all of it is on the disk. Throws std::system_error.
     void commit();
+    /// The same, but an older file stays, by the name `earlier`.
+    void commitKeeping(const std::string& earlier);
 
 private:
     std::string path_, temporary_;
     bool committed_ = false;
 };
 
-/// Whole or not at all. Throws std::runtime_error.
+/// Bytes into the temporary file, which no other process writes meanwhile. Every failure throws std::system_error with what the system said of it.
+class OutputStream {
+public:
+    /// `path` is the final name, for messages.
+    OutputStream(const AtomicFile& file, std::string path);
+    ~OutputStream();
+    OutputStream(const OutputStream&) = delete;
+    OutputStream& operator=(const OutputStream&) = delete;
+
+    void write(const void* data, size_t bytes);
+    /// Some file systems say only here that the disk is full.
+    void close();
+
+private:
+    std::string path_;
+    int descriptor_ = -1;
+};
+
+/// Whole or not at all. Throws std::system_error.
 void writeText(const std::string& path, const std::string& text);
 
 } // namespace quasilux

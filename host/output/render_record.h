@@ -29,6 +29,7 @@ struct RenderRecord {
     uint64_t peakHostBytes = 0;               ///< of the process, until the images are written
     double loadSeconds = 0, writeSeconds = 0; ///< reading the scene; writing the images
     bool interrupted = false;
+    std::string failure; ///< what ended it too early; empty: nothing
 
     /// Calls `visit(key, value)` for each setting that headers of images and of tables state; values are strings,
     /// unsigned, double, and uint64_t for what may need 64 bits.

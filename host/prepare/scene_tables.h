@@ -2,25 +2,35 @@
 #pragma once
 
 #include "pass_types.h"
+#include "util/error.h"
 
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace quasilux {
 
 class SceneTableWriter {
 public:
-    SceneTableWriter() = default;
-    /// Goes on behind these.
-    explicit SceneTableWriter(std::vector<uint32_t> words) : words_(std::move(words)) {}
+    /// Kernels know places by 32 bits, of which QL_NONE means none.
+    static constexpr size_t mostWords = QL_NONE;
 
-    /// Appends `records` and returns the word offset where they begin.
+    SceneTableWriter() = default;
+    /// Goes on behind these. There may be no more than `most` words.
+    explicit SceneTableWriter(std::vector<uint32_t> words, size_t most = mostWords)
+        : words_(std::move(words)), most_(most) {}
+
+    /// Appends `records` and returns the word offset where they begin. Throws InputError where they do not fit.
     template <typename T>
     unsigned append(const std::vector<T>& records) {
         static_assert(sizeof(T) % sizeof(uint32_t) == 0);
-        const auto first = static_cast<unsigned>(words_.size());
         constexpr size_t wordsPerRecord = sizeof(T) / 4;
+        if (words_.size() > most_ || records.size() > (most_ - words_.size()) / wordsPerRecord)
+            throw InputError("the tables of the scene would have more than " + std::to_string(most_) +
+                             " words of 4 bytes, the most that kernels can address: use simpler meshes, fewer or "
+                             "smaller textures");
+        const auto first = static_cast<unsigned>(words_.size());
         words_.insert(words_.end(), records.size() * wordsPerRecord, 0u);
         if (!records.empty()) std::memcpy(words_.data() + first, records.data(), records.size() * sizeof(T));
         return first;
@@ -29,6 +39,7 @@ public:
 
 private:
     std::vector<uint32_t> words_;
+    size_t most_ = mostWords;
 };
 
 } // namespace quasilux

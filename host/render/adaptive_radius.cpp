@@ -110,10 +110,35 @@ void AdaptiveRadius::endPilotPass() {
                                       largestAdaptiveRadius};
     measureRadii_.launch(film_->pixels(), film_->sums(), measures_, params);
     chooseRadii_.launch(film_->pixels(), measures_, scales_[made - 1], scales_[made], params);
-    if (passes_ < choices.back()) return;
+    if (passes_ >= choices.back()) endPilot();
+}
+
+void AdaptiveRadius::endPilot() {
     film_.reset();
     pilotScales_ = {};
     measures_ = {};
+}
+
+void AdaptiveRadius::save(StateSink& sink) const {
+    sink.array("radii counts", std::vector<double>{double(passes_), squaredRadii_, inverseSquares_});
+    for (size_t choice = 1; choice < scales_.size(); ++choice) sink.array(scalesLabel(choice), scales_[choice].read());
+    if (film_) film_->save(sink, "pilot's film");
+}
+
+void AdaptiveRadius::restore(const StateSource& source) {
+    source.requireBytes("radii counts", 3 * sizeof(double));
+    const auto counts = source.array<double>("radii counts");
+    passes_ = static_cast<unsigned>(counts[0]);
+    squaredRadii_ = counts[1];
+    inverseSquares_ = counts[2];
+    for (size_t choice = 1; choice < scales_.size(); ++choice) {
+        source.requireBytes(scalesLabel(choice), scales_[choice].size() * sizeof(float));
+        scales_[choice].write(source.array<float>(scalesLabel(choice)));
+    }
+    if (passes_ >= choices.back())
+        endPilot();
+    else
+        film_->restore(source, "pilot's film");
 }
 
 } // namespace quasilux

@@ -43,10 +43,16 @@ public:
     /// Radius of each block in a pass by that of the map, radiusIndex() in kernels/adaptive_radius.clh; 1 in the first passes. The
     /// pilot passes before it must have ended.
     const Buffer<float>& scales(unsigned pass) const;
+    /// The radii chosen so far, and what those to come are chosen from.
+    void save(StateSink& sink) const;
+    void restore(const StateSource& source);
+
     /// Pixels of a row and column that share a radius.
     unsigned block() const { return block_; }
 
 private:
+    void endPilot();
+
     unsigned block_;
     shared::Camera camera_;
     std::optional<Film> film_; ///< until the pilot has ended

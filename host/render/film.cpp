@@ -1,5 +1,7 @@
 #include "render/film.h"
 
+#include "render/film_layout.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,16 +9,7 @@ namespace quasilux {
 
 namespace {
 
-// Layout of kernels/film.clh: compensated sums of the components, of the total's squares, of the squares of each class of
-// light; plain sums of the open batch, of the total and by class; with an estimate of the bias plain sums of it, of its squares
-// and of the open batch by class, then of squares and open batch of its total.
-constexpr size_t sumFloats = 6;
-constexpr size_t totalSquares = FILM_COMPONENTS * sumFloats;
-constexpr size_t classSquares = totalSquares + sumFloats;
-constexpr size_t totalBatch = classSquares + LIGHT_CLASSES * sumFloats;
-constexpr size_t classBatch = totalBatch + 3;
-constexpr size_t biasSums = classBatch + LIGHT_CLASSES * 3;
-constexpr size_t biasFloats = LIGHT_CLASSES * 9 + 6;
+using namespace filmLayout;
 
 // Pixel positions are spread evenly over passes in a row, so batches estimate the variance of the mean with less bias; but of few passes
 // single ones estimate it with less variance. Bias is estimated in the middle half of each batch of four, about whose middle
@@ -97,7 +90,7 @@ bool isBlack(const std::vector<float>& values) {
 
 } // namespace
 
-size_t Film::floatsPerPixel(bool estimatesBias) { return biasSums + (estimatesBias ? biasFloats : 0); }
+size_t Film::floatsPerPixel(bool estimatesBias) { return filmLayout::floatsPerPixel(estimatesBias); }
 
 Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias, const std::string& owner)
     : width_(width), height_(height), estimatesBias_(estimatesBias), pixelFloats_(floatsPerPixel(estimatesBias)),
@@ -107,45 +100,55 @@ Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias, 
 }
 
 Film::Pass Film::beginPass(unsigned pass) {
+    isWhole_ = false;
     Pass now{0, 1};
     const bool single = pass < singlePasses;
     if (!single) now.biasWeight = pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f;
-    biasPasses_ += now.biasWeight;
-    openBiasPasses_ += now.biasWeight;
-    openPasses_ += 1;
+    counts_.biasPasses += now.biasWeight;
+    counts_.openBiasPasses += now.biasWeight;
+    counts_.openPasses += 1;
     if (single || pass % batchPasses == batchPasses - 1) {
-        now.batchWeight = static_cast<float>(1 / openPasses_);
-        batches_ += 1;
-        biasSquares_ += openBiasPasses_ * openBiasPasses_;
-        openPasses_ = openBiasPasses_ = 0;
+        now.batchWeight = static_cast<float>(1 / counts_.openPasses);
+        counts_ = counts_.closed();
     }
     return now;
 }
 
 FilmImage Film::develop(unsigned passes) const {
     FilmImage image;
+    developOver(image, passes);
+    return image;
+}
+
+void Film::developOver(FilmImage& image, unsigned passes) const {
+    const auto film = sums_.read();
     image.width = width_;
     image.height = height_;
+    developSums(film, estimatesBias_, counts_, passes, image);
+}
+
+void developSums(const std::vector<float>& sums, bool estimatesBias, const FilmCounts& counts, unsigned passes,
+                 FilmImage& image) {
     image.passes = passes;
     const size_t values = size_t(image.width) * image.height * 3;
     image.radiance.resize(values);
     image.standardError.resize(values);
     for (auto& component : image.components) component.resize(values);
     for (auto& error : image.componentError) error.resize(values);
-    if (estimatesBias_) {
+    if (estimatesBias) {
         image.bias.resize(values);
         image.biasError.resize(values);
         for (auto& bias : image.componentBias) bias.resize(values);
         for (auto& error : image.componentBiasError) error.resize(values);
     }
-    const auto film = sums_.read();
-    const double openBatch = openPasses_ > 0 ? 1 : 0;
-    const Counts counts{double(std::max(1u, passes)), batches_ + openBatch, openBatch / std::max(openPasses_, 1.0)};
-    const BiasCounts biasCounts{std::max(1.0, biasPasses_), biasSquares_ + openBiasPasses_ * openBiasPasses_};
+    const FilmCounts closed = counts.closed();
+    const Counts means{double(std::max(1u, passes)), closed.batches, counts.openPasses > 0 ? 1 / counts.openPasses : 0};
+    const BiasCounts biasCounts{std::max(1.0, counts.biasPasses), closed.biasSquares};
+    const size_t pixelFloats = floatsPerPixel(estimatesBias);
     for (size_t pixel = 0; pixel < values / 3; ++pixel) {
-        const float* sums = film.data() + pixel * pixelFloats_;
-        developPixel(sums, pixel * 3, counts, image);
-        if (estimatesBias_) developBias(sums + biasSums, pixel * 3, biasCounts, image);
+        const float* ofPixel = sums.data() + pixel * pixelFloats;
+        developPixel(ofPixel, pixel * 3, means, image);
+        if (estimatesBias) developBias(ofPixel + biasSums, pixel * 3, biasCounts, image);
     }
     for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
         if (!isBlack(image.components[k])) continue;
@@ -155,7 +158,28 @@ FilmImage Film::develop(unsigned passes) const {
         image.componentBias[k].clear();
         image.componentBiasError[k].clear();
     }
-    return image;
+}
+
+void Film::save(StateSink& sink, const std::string& name) const {
+    sink.record(name + " counts", counts_);
+    sink.array(name + " counters", counters_.read());
+    sink.begin(name);
+    for (size_t first = 0; first < sums_.size(); first += valuesAtOnce) {
+        const auto part = sums_.read(first, std::min(valuesAtOnce, sums_.size() - first));
+        sink.write(part.data(), part.size() * sizeof(float));
+    }
+}
+
+void Film::restore(const StateSource& source, const std::string& name) {
+    source.requireBytes(name, sums_.size() * sizeof(float));
+    counts_ = source.record<FilmCounts>(name + " counts");
+    counters_.write({source.record<shared::CameraCounters>(name + " counters")});
+    std::vector<float> part;
+    for (size_t first = 0; first < sums_.size(); first += valuesAtOnce) {
+        part.resize(std::min(valuesAtOnce, sums_.size() - first));
+        source.read(name, first * sizeof(float), part.data(), part.size() * sizeof(float));
+        sums_.writeAt(first, part);
+    }
 }
 
 } // namespace quasilux

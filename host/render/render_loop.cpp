@@ -12,6 +12,7 @@ namespace {
 constexpr unsigned firstErrorCheck = 4; // passes before the error estimate means anything
 
 using Clock = std::chrono::steady_clock;
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // The film is read back for its error at most this share of the time.
 bool isErrorDue(double sinceLastCheck, double lastCheckCost) {
@@ -22,7 +23,7 @@ double secondsLeft(const StopRule& stop, const Progress& now) {
     double left = -1;
     const auto earlier = [&](double candidate) { left = left < 0 ? candidate : std::min(left, candidate); };
     if (stop.seconds) earlier(*stop.seconds - now.seconds);
-    if (stop.passes && now.passes > 0) earlier(now.seconds / now.passes * (*stop.passes - now.passes));
+    if (stop.passes && now.passes > 0) earlier(now.seconds / now.passes * (*stop.passes - stop.firstPass - now.passes));
     // The standard error falls with the square root of the passes.
     if (stop.relativeError && now.relativeError > 0) {
         const double factor = now.relativeError / *stop.relativeError;
@@ -31,26 +32,36 @@ double secondsLeft(const StopRule& stop, const Progress& now) {
     return left;
 }
 
-} // namespace
+// The image as it was last read back: what is left where the film is lost in the middle of a pass.
+struct LastKnown {
+    FilmImage image;
+    RenderCounters counters;
 
-FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
-                      const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
-                      const RenderedBefore& before) {
-    StopRule stop = stopAt;
-    if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
+    const FilmImage& note(const Renderer& renderer) {
+        renderer.developOver(image);
+        counters = renderer.counters();
+        return image;
+    }
+};
+
+void renderPasses(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
+                  const std::atomic<bool>& interrupted, const RenderedBefore& before, const AfterPass& afterPass,
+                  LastKnown& known) {
     const auto start = Clock::now();
-    const auto elapsed = [&] { return before.seconds + std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto elapsed = [&] { return before.seconds + secondsSince(start); };
     Progress progress;
     progress.phase = "rendering";
     double lastCheck = 0, checkCost = 0;
-    for (auto pass = static_cast<unsigned>(renderer.counters().passes); !interrupted; ++pass) {
+    if (afterPass && !interrupted) afterPass(renderer, elapsed(), false);
+    for (unsigned pass = std::max(renderer.nextPass(), stop.firstPass); !interrupted; ++pass) {
         if (stop.passes && pass >= *stop.passes) break;
-        if (stop.seconds && pass > 0 && elapsed() >= *stop.seconds) break;
+        if (stop.seconds && renderer.counters().passes > 0 && elapsed() >= *stop.seconds) break;
         renderer.renderPass(pass);
-        progress.passes = pass + 1;
+        progress.passes = static_cast<unsigned>(renderer.counters().passes);
         progress.seconds = elapsed();
+        if (afterPass) afterPass(renderer, progress.seconds, false);
         if (progress.passes >= firstErrorCheck && isErrorDue(progress.seconds - lastCheck, checkCost)) {
-            progress.relativeError = estimateError(renderer.develop()).sum();
+            progress.relativeError = estimateError(known.note(renderer)).sum();
             lastCheck = elapsed();
             checkCost = lastCheck - progress.seconds;
         }
@@ -61,7 +72,42 @@ FilmImage renderUntil(Renderer& renderer, const StopRule& stopAt,
         if (onProgress) onProgress(progress);
         if (stop.relativeError && progress.relativeError >= 0 && progress.relativeError <= *stop.relativeError) break;
     }
-    return renderer.develop();
+}
+
+} // namespace
+
+RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stopAt,
+                                  const std::function<void(const Progress&)>& onProgress,
+                                  const std::atomic<bool>& interrupted, const RenderedBefore& before,
+                                  const AfterPass& afterPass) {
+    StopRule stop = stopAt;
+    if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
+    LastKnown known;
+    std::exception_ptr failure;
+    const auto start = Clock::now();
+    try {
+        renderPasses(renderer, stop, onProgress, interrupted, before, afterPass, known);
+    } catch (...) {
+        if (renderer.counters().passes == 0) throw;
+        failure = std::current_exception();
+    }
+    try {
+        if (renderer.isFilmWhole()) {
+            known.note(renderer);
+            if (afterPass) afterPass(renderer, before.seconds + secondsSince(start), true);
+        }
+    } catch (...) {
+        if (!failure) failure = std::current_exception();
+    }
+    if (failure && known.image.passes == 0) std::rethrow_exception(failure);
+    return {std::move(known.image), known.counters, failure};
+}
+
+FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
+                      const std::atomic<bool>& interrupted, const RenderedBefore& before) {
+    RenderOutcome outcome = renderAsFarAsItGoes(renderer, stop, onProgress, interrupted, before);
+    if (outcome.failure) std::rethrow_exception(outcome.failure);
+    return std::move(outcome.image);
 }
 
 } // namespace quasilux

@@ -37,7 +37,7 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_,
            std::shared_ptr<const LearnedScene> known)
-        : device(device_), settings(settings_), flat(std::move(flat_)),
+        : device(device_), noting(std::in_place, device, buffers), settings(settings_), flat(std::move(flat_)),
           program(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                   kernelOptions(flat, settings)),
           geometry(device, flat), learned(std::move(known)), learning(learned ? nullptr : followPilots()),
@@ -59,6 +59,7 @@ struct Renderer::Stages {
             prepareCameraMap(path, photon, classes);
         else
             preparePhotonMap(path, photon, classes);
+        noting.reset();
         device.resetTimings(std::move(timingsBefore)); // only those of passes count
         flat.bvh = {};                                 // on the device now
         flat.tables = {};
@@ -183,8 +184,7 @@ struct Renderer::Stages {
         cameraMap->thinVolume(expected.keepProbability);
         cameraMap->makeRoom(pilotPass, radii(0), volumeScale(0));
         // All else has been written to; of points as traced not even that much, as regions have room to spare.
-        const BufferSizes& sizes = device.allocations();
-        forecast(sizes, sizes.at("camera point cell counts") + sizes.at("camera point cells"));
+        forecast(buffers, buffers.at("camera point cell counts") + buffers.at("camera point cells"));
     }
 
     // Traces a few photons apart from all passes and counts what they leave. The runtime compiles kernels when they are
@@ -299,7 +299,7 @@ struct Renderer::Stages {
     // Of the pass after the last one.
     std::optional<GatheredCount> countGathered() {
         if (!camera) return std::nullopt;
-        const auto pass = static_cast<unsigned>(counters.passes);
+        const unsigned pass = nextPass;
         auto timingsOfPasses = device.timings();
         catchUpRadii(pass);
         photons->run(pass, radii(pass), volumeScale(pass));
@@ -324,6 +324,8 @@ struct Renderer::Stages {
     }
 
     Device& device;
+    BufferSizes buffers;                   // its own, by label
+    std::optional<AllocationNotes> noting; // while it is constructed
     RenderSettings settings;
     DeviceScene flat;
     Program program;
@@ -340,20 +342,23 @@ struct Renderer::Stages {
     SceneReport report;
     RenderCounters counters;
     shared::CameraCounters dropped{}; // by the film, so far
+    unsigned nextPass = 0;
 };
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
-                   std::shared_ptr<const LearnedScene> known) {
+                   std::shared_ptr<const LearnedScene> known, const SceneChecksums& expected) {
     const auto start = Clock::now();
     DeviceScene flat = flattenFor(scene, settings);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
+    auto checksums = checksumsOf(flat, scene.maxDepth);
+    if (!expected.empty()) requireSame(expected, checksums);
     if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
     const double prepareSeconds = since(start);
     checkFits(planScene(flat, settings), device.info(), flat, settings);
     stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), std::move(known));
+    stages_->report.checksums = std::move(checksums);
     stages_->counters.prepareSeconds = prepareSeconds;
     stages_->counters.compileSeconds = since(start) - prepareSeconds;
-    stages_->report.bufferBytes = device.allocations();
 }
 
 Renderer::~Renderer() = default;
@@ -361,6 +366,7 @@ Renderer::~Renderer() = default;
 void Renderer::renderPass(unsigned pass) {
     auto& s = *stages_;
     const auto start = Clock::now();
+    const AllocationNotes noting(s.device, s.buffers);
     if (s.cameraMap)
         s.runCameraMap(pass);
     else
@@ -378,14 +384,46 @@ void Renderer::renderPass(unsigned pass) {
     const double seconds = since(start);
     if (counters.passes++ == 0) counters.firstPassSeconds = seconds;
     counters.renderSeconds += seconds;
+    s.nextPass = pass + 1;
+    s.film.endPass();
 }
 
+Renderer::FilmShape Renderer::filmShape() const {
+    const auto& camera = stages_->flat.camera;
+    return {camera.width, camera.height, estimatesBias(stages_->flat.features, stages_->settings)};
+}
+
+unsigned Renderer::nextPass() const { return stages_->nextPass; }
+
+void Renderer::saveState(StateSink& sink) const {
+    stages_->film.save(sink, "film");
+    if (stages_->adaptive) stages_->adaptive->save(sink);
+}
+
+void Renderer::restoreState(const StateSource& source, const RenderCounters& counters, unsigned nextPass) {
+    auto& s = *stages_;
+    s.film.restore(source, "film");
+    s.dropped = s.film.counters();
+    if (s.adaptive) s.adaptive->restore(source);
+    const double prepareSeconds = s.counters.prepareSeconds, compileSeconds = s.counters.compileSeconds;
+    s.counters = counters;
+    s.counters.prepareSeconds += prepareSeconds;
+    s.counters.compileSeconds += compileSeconds;
+    s.nextPass = nextPass;
+}
+
+bool Renderer::isFilmWhole() const { return stages_->film.isWhole(); }
+
 FilmImage Renderer::develop() const { return stages_->film.develop(static_cast<unsigned>(stages_->counters.passes)); }
+
+void Renderer::developOver(FilmImage& image) const {
+    stages_->film.developOver(image, static_cast<unsigned>(stages_->counters.passes));
+}
 
 std::shared_ptr<const LearnedScene> Renderer::learned() const { return stages_->learned; }
 
 const SceneReport& Renderer::report() const {
-    stages_->report.bufferBytes = stages_->device.allocations();
+    stages_->report.bufferBytes = stages_->buffers;
     return stages_->report;
 }
 

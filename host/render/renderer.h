@@ -5,8 +5,10 @@
 #include "render/film_image.h"
 #include "render/gathered_photons.h"
 #include "render/settings.h"
+#include "util/state_archive.h"
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -22,6 +24,9 @@ struct MemoryForecast {
     uint64_t deviceBytes = 0;
     uint64_t hostPeakBytes = 0; ///< of the process; buffers of a CPU device included
 };
+
+/// XXH3 by part of a scene.
+using SceneChecksums = std::map<std::string, std::string>;
 
 /// What a scene needs and what was chosen for it: `quasilux info` prints it, statistics record it.
 struct SceneReport {
@@ -60,6 +65,8 @@ struct SceneReport {
         double seconds = 0;
     } learned;
     std::vector<std::string> warnings; ///< DeviceScene::warnings
+    /// "geometry", "materials", "camera": of the scene as it is rendered. A file that says the same in another way has the same.
+    SceneChecksums checksums;
 };
 
 /// Counted over all passes.
@@ -96,17 +103,34 @@ struct Progress {
 class Renderer {
 public:
     /// Prepares the scene, compiles the kernels it needs and learns where photons serve the image, unless that is `known` from
-    /// another renderer of the scene.
+    /// another renderer of the scene. Throws InputError where `expected` is not empty and not SceneReport::checksums: what is
+    /// known is of another scene then.
     Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
-             std::shared_ptr<const LearnedScene> known = nullptr);
+             std::shared_ptr<const LearnedScene> known = nullptr, const SceneChecksums& expected = {});
     ~Renderer();
 
     /// Adds the independent estimate number `pass` (from 0) to the film.
     void renderPass(unsigned pass);
     FilmImage develop() const;
+    /// Film::developOver.
+    void developOver(FilmImage& image) const;
+    /// Has no pass failed halfway? Or else a part of it may be in the film.
+    bool isFilmWhole() const;
     const SceneReport& report() const;
     const RenderCounters& counters() const;
     std::shared_ptr<const LearnedScene> learned() const;
+
+    struct FilmShape {
+        unsigned width, height;
+        bool estimatesBias;
+    };
+    FilmShape filmShape() const;
+    /// The pass after the last one.
+    unsigned nextPass() const;
+    /// All that passes have left: film and radii. What was learned is not among it.
+    void saveState(StateSink& sink) const;
+    /// The same bits in another renderer of the same scene and settings, which knows what this one has learned.
+    void restoreState(const StateSource& source, const RenderCounters& counters, unsigned nextPass);
     /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for meters and
     /// --map camera. Compiles kernels for it.
     std::optional<GatheredCount> countGathered();
@@ -121,7 +145,24 @@ struct RenderedBefore {
     double seconds = 0; ///< that the stop rule counts
 };
 
-/// Renders passes 0, 1, … (or from the last one rendered on) until the rule, or `interrupted`, ends it.
+/// Called before the first pass, after each, and once more when the last one is done; `seconds` as the stop rule counts them.
+using AfterPass = std::function<void(const Renderer& renderer, double seconds, bool isLast)>;
+
+/// What a render came to.
+struct RenderOutcome {
+    FilmImage image;
+    RenderCounters counters;    ///< of the image's passes
+    std::exception_ptr failure; ///< what ended it too early; null: nothing
+};
+
+/// Renders passes from StopRule::firstPass on (or from the last one rendered on) until the rule, or `interrupted`, ends it. A pass that fails ends it, too:
+/// the image is then of the passes before. Throws only where there are none.
+RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stop,
+                                  const std::function<void(const Progress&)>& onProgress,
+                                  const std::atomic<bool>& interrupted, const RenderedBefore& before = {},
+                                  const AfterPass& afterPass = {});
+
+/// The same, but throws where a pass fails.
 FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
                       const std::atomic<bool>& interrupted, const RenderedBefore& before = {});
 

@@ -1,6 +1,8 @@
 #include "render/scene_report.h"
 
 #include "render/method.h"
+#include "util/checksum.h"
+#include "util/error.h"
 
 namespace quasilux {
 
@@ -34,6 +36,27 @@ void describeMedia(const Scene& scene, const DeviceScene& flat, const RenderSett
 
 std::string slotName(unsigned slot) {
     return slot < LIGHT_CLASSES ? componentName(slot) : "volume " + componentName(slot - LIGHT_CLASSES);
+}
+
+void requireSame(const SceneChecksums& expected, const SceneChecksums& found) {
+    std::string parts;
+    for (const auto& [part, checksum] : expected)
+        if (const auto other = found.find(part); other == found.end() || other->second != checksum)
+            parts += (parts.empty() ? "" : "; ") + part;
+    if (!parts.empty()) throw InputError("the scene is another one, it differs in: " + parts);
+}
+
+SceneChecksums checksumsOf(const DeviceScene& flat, int maxDepth) {
+    Checksum geometry, materials, camera;
+    geometry.add(flat.bvh.nodes);
+    geometry.add(flat.bvh.blocks);
+    materials.add(flat.tables);
+    camera.add(&flat.camera, sizeof flat.camera);
+    camera.add(&flat.offsets, sizeof flat.offsets);
+    camera.add(&maxDepth, sizeof maxDepth);
+    return {{"geometry", geometry.text()},
+            {"materials, textures or emitters", materials.text()},
+            {"camera, film or depth", camera.text()}};
 }
 
 SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {

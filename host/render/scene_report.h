@@ -12,4 +12,9 @@ std::string slotName(unsigned slot);
 /// All that is known before anything is learned; radii are left out.
 SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
 
+/// SceneReport::checksums, of a scene that has just been flattened.
+SceneChecksums checksumsOf(const DeviceScene& flat, int maxDepth);
+/// Throws InputError that names the parts of the scene that differ.
+void requireSame(const SceneChecksums& expected, const SceneChecksums& found);
+
 } // namespace quasilux

@@ -70,7 +70,8 @@ inline constexpr double defaultSeconds = 30;
 /// The first limit reached ends the render; none set = defaultSeconds.
 struct StopRule {
     std::optional<double> seconds;
-    std::optional<unsigned> passes;
+    std::optional<unsigned> passes;      ///< number of the pass that is rendered no more
+    unsigned firstPass = 0;              ///< where it begins: of a farm each machine has passes of its own
     std::optional<double> relativeError; ///< ErrorEstimate::sum()
 };
 

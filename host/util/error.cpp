@@ -1,5 +1,7 @@
 #include "util/error.h"
 
+#include <new>
+
 namespace quasilux {
 
 std::string SourceLocation::text() const {
@@ -18,8 +20,18 @@ std::optional<std::string> refusal(const std::function<void()>& action) {
         return error.what();
     } catch (const DeviceError& error) {
         return error.what();
+    } catch (const std::bad_alloc&) {
+        return memoryExhausted;
     }
     return std::nullopt;
+}
+
+std::optional<std::string> failureOf(const std::function<void()>& action) {
+    try {
+        return refusal(action);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
 }
 
 } // namespace quasilux

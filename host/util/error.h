@@ -33,7 +33,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// What an InputError or a DeviceError that `action` throws says, as where memory does not suffice; nothing if it succeeds.
+/// What an InputError, a DeviceError or bad_alloc that `action` throws says, as where memory does not suffice; nothing if it succeeds.
 std::optional<std::string> refusal(const std::function<void()>& action);
+/// The same of any exception.
+std::optional<std::string> failureOf(const std::function<void()>& action);
+
+/// What bad_alloc, which knows no words, means to users.
+inline constexpr const char* memoryExhausted = "the computer's memory is exhausted, try a smaller image or scene";
 
 } // namespace quasilux

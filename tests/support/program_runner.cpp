@@ -43,7 +43,7 @@ CommandLineTest::CommandLineTest() {
 )";
 }
 
-Outcome CommandLineTest::run(std::vector<std::string> arguments, unsigned interruptAfter) const {
+Outcome CommandLineTest::run(std::vector<std::string> arguments, unsigned interruptAfter, int signal) const {
     const pid_t child = fork();
     if (child == 0) {
         if (chdir(folder.c_str()) != 0) _exit(120);
@@ -58,7 +58,7 @@ Outcome CommandLineTest::run(std::vector<std::string> arguments, unsigned interr
     }
     if (interruptAfter > 0) {
         sleep(interruptAfter);
-        kill(child, SIGINT);
+        kill(child, signal);
     }
     int status = 0;
     waitpid(child, &status, 0);

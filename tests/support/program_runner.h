@@ -3,6 +3,7 @@
 
 #include "util/temporary_folder.h"
 
+#include <csignal>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
@@ -22,8 +23,8 @@ class CommandLineTest : public testing::Test {
 protected:
     CommandLineTest();
 
-    /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C.
-    Outcome run(std::vector<std::string> arguments, unsigned interruptAfter = 0) const;
+    /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C, or another signal.
+    Outcome run(std::vector<std::string> arguments, unsigned interruptAfter = 0, int signal = SIGINT) const;
 
     /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file that was not there before.
     void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;

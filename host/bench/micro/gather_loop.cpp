@@ -5,6 +5,7 @@
 #include "bench/micro/native_grid.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace quasilux {
 
@@ -25,14 +26,15 @@ struct Sums {
 INTO_EVERY_CLONE void gatherRun(const NativeMap& photons, const shared::GatherQuery& query, size_t begin, size_t end,
                                 bool bias, Sums& sums) {
     const size_t stride = photons.map.photonStride;
-    const float* field = reinterpret_cast<const float*>(photons.sorted);
-    const float *x = field, *y = x + stride, *z = y + stride;
+    const uint32_t *x = photons.sorted, *y = x + stride, *z = y + stride; // bits of floats
     const uint32_t *fluxes = photons.sorted + fieldFlux * stride, *patchSide = fluxes + stride;
     const float radius = photons.map.radius[LIGHT_DIFFUSE], radiusSquared = radius * radius;
     const float scale = 1 / radiusSquared;
     float sumR = 0, sumG = 0, sumB = 0, biasR = 0, biasG = 0, biasB = 0;
     for (size_t i = begin; i < end; ++i) {
-        const float dx = x[i] - query.position.x, dy = y[i] - query.position.y, dz = z[i] - query.position.z;
+        const float dx = std::bit_cast<float>(x[i]) - query.position.x;
+        const float dy = std::bit_cast<float>(y[i]) - query.position.y;
+        const float dz = std::bit_cast<float>(z[i]) - query.position.z;
         const float distanceSquared = dx * dx + dy * dy + dz * dz;
         // Without branches, so that the compiler sees what it can do for many photons at once.
         const int inside = int(distanceSquared < radiusSquared) & int(patchSide[i] == query.patchSide);

@@ -1,0 +1,122 @@
+#include "cli/checkpoints.h"
+
+#include "learn/learned_state.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Checkpoints take at most this share of the time, however large the film is.
+constexpr double mostOfTime = 0.05;
+
+} // namespace
+
+Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const StopRule& stop) {
+    Checkpoint checkpoint;
+    checkpoint.version = QUASILUX_VERSION;
+    checkpoint.kernels = kernelChecksum();
+    checkpoint.wanted = options.settings(scene);
+    checkpoint.freedom = text(options.freedom(scene));
+    checkpoint.meter = scene.sensor.meter;
+    checkpoint.stop = stop;
+    checkpoint.scene = fs::path(options.scene).filename().string();
+    return checkpoint;
+}
+
+bool CheckpointKeeper::isDue() const {
+    const double since = std::chrono::duration<double>(Clock::now() - last_).count();
+    return !wasTried_ || since >= std::max(options_.every, cost_ / mostOfTime);
+}
+
+Checkpoint CheckpointKeeper::describe(const AutoRender& soFar, const Renderer& renderer, double seconds) const {
+    Checkpoint now = base_;
+    now.settings = soFar.settings;
+    now.search = soFar.search;
+    now.sceneChecksums = renderer.report().checksums;
+    now.photonsPerPass = renderer.report().photonsPerPass;
+    const auto film = renderer.filmShape();
+    now.width = film.width;
+    now.height = film.height;
+    now.estimatesBias = film.estimatesBias;
+    now.counters = renderer.counters();
+    now.seconds = seconds;
+    if (now.counters.passes > 0) now.passes = {{now.stop.firstPass, renderer.nextPass()}};
+    now.device = device_.info();
+    now.timings = device_.timings();
+    return now;
+}
+
+void CheckpointKeeper::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
+    if (options_.checkpoint.empty()) return;
+    if (isLast && renderer.counters().passes == 0) return; // interrupted, maybe within the search
+    const bool isNew = !wasTried_ || !failure_.empty() || writtenPass_ != renderer.nextPass();
+    if (!(isLast ? isNew : isDue())) return;
+    const auto start = Clock::now();
+    const auto why =
+        failureOf([&] { writeCheckpoint(options_.checkpoint, describe(soFar, renderer, seconds), renderer); });
+    if (why && failure_.empty() && !options_.quiet)
+        fmt::print(stderr, "\nquasilux: warning: no checkpoint could be written, the render goes on: {}\n", *why);
+    failure_ = why.value_or("");
+    wasTried_ = true;
+    writtenPass_ = renderer.nextPass();
+    last_ = Clock::now();
+    cost_ = std::chrono::duration<double>(last_ - start).count();
+}
+
+Resumed::Resumed(const std::string& path, const Checkpoint& wanted)
+    : reader_(path), checkpoint_(quasilux::checkpointOf(reader_)) {
+    const auto difference = differenceOfWanted(checkpoint_, wanted);
+    if (!difference.empty())
+        throw InputError(fmt::format("--resume {}: made with other settings: {}; give the scene and the options that "
+                                     "it was begun with",
+                                     path, difference));
+    if (checkpoint_.passes.size() > 1)
+        throw InputError(fmt::format("--resume {}: it has passes {}, expected passes that follow each other without a "
+                                     "gap",
+                                     path, text(checkpoint_.passes)));
+}
+
+StopRule Resumed::stopRule(const StopRule& said) const {
+    const unsigned begun = checkpoint_.stop.firstPass;
+    StopRule stop = said;
+    if (!said.seconds && !said.passes && !said.relativeError) stop = checkpoint_.stop;
+    if (said.passes && said.firstPass != begun)
+        throw InputError(fmt::format("--resume {}: it begins with pass {}, but --passes asks to begin with pass {}: "
+                                     "expected --passes {}:END",
+                                     reader_.path(), begun, said.firstPass, begun));
+    stop.firstPass = begun;
+    return stop;
+}
+
+std::unique_ptr<Renderer> Resumed::renderer(Device& device, const Scene& scene) const {
+    auto learned = std::make_shared<const LearnedScene>(restoreLearned(reader_));
+    std::unique_ptr<Renderer> renderer;
+    try {
+        renderer = std::make_unique<Renderer>(device, scene, checkpoint_.settings, learned, checkpoint_.sceneChecksums);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("--resume {}: {}", reader_.path(), error.what()));
+    }
+    const auto& passes = checkpoint_.passes;
+    renderer->restoreState(reader_, checkpoint_.counters, passes.empty() ? 0 : passes.back().end);
+    device.resetTimings(checkpoint_.timings);
+    return renderer;
+}
+
+void checkCheckpointOptions(const RenderOptions& options) {
+    if (options.checkpoint.empty()) return;
+    checkOutputPath(options.checkpoint, "--checkpoint", checkpointExtension);
+    std::error_code status;
+    const bool isResumed = !options.resume.empty() && fs::equivalent(options.checkpoint, options.resume, status);
+    if (fs::exists(options.checkpoint, status) && !isResumed)
+        throw InputError(fmt::format("--checkpoint {}: there is a checkpoint already: go on from it by --resume {}, or "
+                                     "remove it first",
+                                     options.checkpoint, options.checkpoint));
+}
+
+} // namespace quasilux

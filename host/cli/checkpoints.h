@@ -1,0 +1,62 @@
+// Checkpoints of `quasilux render`: written while it renders, and taken up again (docs/reference/reliability.md).
+#pragma once
+
+#include "auto/auto_render.h"
+#include "cli/options.h"
+#include "output/render_checkpoint.h"
+
+#include <chrono>
+
+namespace quasilux {
+
+/// What a render of these options is, before anything is known of its passes.
+Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const StopRule& stop);
+
+/// Writes the checkpoint of a render when it is due. A disk that is full does not end the render: what went wrong is told then, and
+/// the next time it is tried anew.
+class CheckpointKeeper {
+public:
+    /// `base`: checkpointOf(). Nothing is written where options name no file.
+    CheckpointKeeper(const RenderOptions& options, Device& device, Checkpoint base)
+        : options_(options), device_(device), base_(std::move(base)) {}
+
+    void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
+    /// Why the last one could not be written; empty if it was.
+    const std::string& failure() const { return failure_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    bool isDue() const;
+    Checkpoint describe(const AutoRender& soFar, const Renderer& renderer, double seconds) const;
+
+    const RenderOptions& options_;
+    Device& device_;
+    Checkpoint base_;
+    std::string failure_;
+    unsigned writtenPass_ = 0;
+    bool wasTried_ = false;
+    Clock::time_point last_{};
+    double cost_ = 0; ///< seconds that the last one took
+};
+
+/// A checkpoint that a render of these options can go on from.
+class Resumed {
+public:
+    /// Throws InputError where it is damaged or of another render.
+    Resumed(const std::string& path, const Checkpoint& wanted);
+
+    const Checkpoint& checkpoint() const { return checkpoint_; }
+    /// The rule of the command line, or, where that says nothing, the one from before. Throws InputError where passes do not follow.
+    StopRule stopRule(const StopRule& said) const;
+    /// With all passes so far. Throws InputError where the scene has changed.
+    std::unique_ptr<Renderer> renderer(Device& device, const Scene& scene) const;
+
+private:
+    CheckpointReader reader_;
+    Checkpoint checkpoint_;
+};
+
+/// Throws InputError where the file of a new checkpoint would replace that of another render, or cannot be written.
+void checkCheckpointOptions(const RenderOptions& options);
+
+} // namespace quasilux

@@ -1,0 +1,89 @@
+#include "cli/merge_command.h"
+
+#include "cli/interrupt.h"
+#include "output/exr.h"
+#include "output/merge_checkpoints.h"
+#include "output/png.h"
+#include "output/statistics.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+void checkOutputs(const MergeOptions& options) {
+    if (options.output.empty() && options.png.empty() && options.checkpoint.empty())
+        throw InputError("merge: nothing to write, expected --output, --png or --checkpoint");
+    if (!options.output.empty()) checkOutputPath(options.output, "--output", ".exr");
+    if (!options.png.empty()) checkOutputPath(options.png, "--png", ".png");
+    if (!options.checkpoint.empty()) checkOutputPath(options.checkpoint, "--checkpoint", checkpointExtension);
+}
+
+RenderRecord recordOf(const Checkpoint& merged, const FilmImage& image) {
+    RenderRecord record;
+    record.scene = merged.scene;
+    record.settings = merged.settings;
+    record.stop = merged.stop;
+    record.device = merged.device;
+    record.report.photonsPerPass = merged.photonsPerPass;
+    record.counters = merged.counters;
+    record.search = merged.search;
+    record.error = estimateError(image);
+    record.meter = merged.meter;
+    record.kernels = merged.timings;
+    return record;
+}
+
+std::vector<std::string> writeFiles(const MergeOptions& options, const MergedPasses& merged, const FilmImage& image,
+                                    const RenderRecord& record) {
+    std::vector<std::string> written;
+    if (!options.output.empty()) {
+        writeExr(options.output, image, record);
+        written.push_back(options.output);
+    }
+    if (!options.png.empty()) {
+        writePng(options.png, image, chooseToneCurve(image, {}), record);
+        written.push_back(options.png);
+    }
+    if (!options.checkpoint.empty()) {
+        merged.write(options.checkpoint);
+        written.push_back(options.checkpoint);
+    }
+    return written;
+}
+
+void printSummary(const RenderRecord& record, const Checkpoint& merged, const std::vector<std::string>& written) {
+    fmt::print("{} passes ({})", record.counters.passes, text(merged.passes));
+    if (std::isfinite(record.error.sum())) fmt::print(", estimated relative error {:.3g} %", 100 * record.error.sum());
+    fmt::print("\n");
+    for (const auto& path : written) fmt::print("wrote {}\n", path);
+}
+
+void printJson(const RenderRecord& record, const Checkpoint& merged, const std::vector<std::string>& written) {
+    nlohmann::json ranges = nlohmann::json::array();
+    for (const PassRange& range : merged.passes) ranges.push_back({range.first, range.end});
+    const nlohmann::json summary{{"version", record.version},           {"scene", record.scene},
+                                 {"passes", record.counters.passes},    {"passRanges", ranges},
+                                 {"relativeError", record.error.sum()}, {"files", written}};
+    fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+} // namespace
+
+int mergeCommand(const MergeOptions& options) {
+    exitOnInterrupt();
+    checkOutputs(options);
+    const MergedPasses merged(options.parts);
+    const FilmImage image = merged.develop();
+    const RenderRecord record = recordOf(merged.checkpoint(), image);
+    const auto written = writeFiles(options, merged, image, record);
+    if (options.json)
+        printJson(record, merged.checkpoint(), written);
+    else if (!options.quiet)
+        printSummary(record, merged.checkpoint(), written);
+    return 0;
+}
+
+} // namespace quasilux

@@ -1,0 +1,44 @@
+#include "cli/started_render.h"
+
+#include "auto/candidates.h"
+#include "cli/interrupt.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+StartedRender::StartedRender(const RenderOptions& options, Device& device, const Scene& scene)
+    : options_(options), device_(device), scene_(scene), freedom_(options.freedom(scene)),
+      wanted_(checkpointOf(options, scene, options.stop)) {
+    if (!options.resume.empty()) resumed_.emplace(options.resume, wanted_);
+    wanted_.stop = resumed_ ? resumed_->stopRule(options.stop) : options.stop;
+    settings_ = resumed_ ? resumed_->checkpoint().settings : searchStart(wanted_.wanted, scene, freedom_, wanted_.stop);
+    settings_.countGathered = !options.stats.empty();
+    renderer_ = resumed_ ? resumed_->renderer(device, scene) : std::make_unique<Renderer>(device, scene, settings_);
+    warnings_ = renderer_->report().warnings;
+    if (resumed_) warnOfDevice(resumed_->checkpoint().device);
+}
+
+AutoRender StartedRender::render(const std::function<void(const Progress&)>& onProgress,
+                                 const std::function<void(const SearchReport&)>& onChosen) {
+    keeper_.emplace(options_, device_, wanted_);
+    const auto afterPass = [this](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
+        keeper_->afterPass(soFar, now, seconds, isLast);
+    };
+    if (resumed_)
+        return renderChosen(device_, settings_, resumed_->checkpoint().search, std::move(renderer_),
+                            resumed_->checkpoint().seconds, stop(), onProgress, interruptFlag(), afterPass);
+    return renderAuto(device_, scene_, settings_, std::move(renderer_), freedom_, stop(), onProgress, onChosen,
+                      interruptFlag(), afterPass);
+}
+
+void StartedRender::warnOfDevice(const DeviceInfo& before) {
+    const DeviceInfo& now = device_.info();
+    if (before.name != now.name || before.driver != now.driver)
+        warnings_.push_back(
+            fmt::format("the checkpoint was made on {} (driver {}), this is {} (driver {}): the image is "
+                        "right, but not the same to the bit as on one of them alone",
+                        before.name, before.driver, now.name, now.driver));
+}
+
+} // namespace quasilux

@@ -1,0 +1,35 @@
+// A render that has been prepared: from the beginning, or from where a checkpoint has it.
+#pragma once
+
+#include "cli/checkpoints.h"
+
+namespace quasilux {
+
+class StartedRender {
+public:
+    /// Throws InputError where the checkpoint is of another render.
+    StartedRender(const RenderOptions& options, Device& device, const Scene& scene);
+
+    const StopRule& stop() const { return wanted_.stop; }
+    const std::vector<std::string>& warnings() const { return warnings_; }
+    AutoRender render(const std::function<void(const Progress&)>& onProgress,
+                      const std::function<void(const SearchReport&)>& onChosen);
+    /// Why the last checkpoint could not be written; empty if it was.
+    std::string checkpointFailure() const { return keeper_ ? keeper_->failure() : ""; }
+
+private:
+    void warnOfDevice(const DeviceInfo& before);
+
+    const RenderOptions& options_;
+    Device& device_;
+    const Scene& scene_;
+    Freedom freedom_;
+    Checkpoint wanted_;
+    std::optional<Resumed> resumed_;
+    RenderSettings settings_;
+    std::unique_ptr<Renderer> renderer_;
+    std::optional<CheckpointKeeper> keeper_;
+    std::vector<std::string> warnings_;
+};
+
+} // namespace quasilux

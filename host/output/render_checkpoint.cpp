@@ -1,0 +1,128 @@
+#include "output/render_checkpoint.h"
+
+#include "device/kernel_sources.h"
+#include "learn/learned_state.h"
+#include "output/checkpoint_json.h"
+#include "render/scene_report.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+using Json = nlohmann::json;
+
+namespace {
+
+/// The first key whose values differ: "bdd is 1 there, 0 here".
+std::string firstDifference(const Json& there, const Json& here) {
+    for (const auto& [key, value] : there.items()) {
+        const Json other = here.contains(key) ? here.at(key) : Json();
+        if (value != other) return fmt::format("{} is {} there, {} here", key, value.dump(), other.dump());
+    }
+    return {};
+}
+
+} // namespace
+
+std::string kernelChecksum() {
+    Checksum checksum;
+    for (const auto& [file, source] : kernelSources()) {
+        checksum.add(file.data(), file.size());
+        checksum.add(source.data(), source.size());
+    }
+    return checksum.text();
+}
+
+Json describe(const Checkpoint& c) {
+    Json ranges = Json::array();
+    for (const PassRange& range : c.passes) ranges.push_back({range.first, range.end});
+    return {{"version", c.version},
+            {"kernels", c.kernels},
+            {"wanted", toJson(c.wanted)},
+            {"freedom", c.freedom},
+            {"settings", toJson(c.settings)},
+            {"sceneChecksums", c.sceneChecksums},
+            {"width", c.width},
+            {"height", c.height},
+            {"estimatesBias", c.estimatesBias},
+            {"meter", static_cast<unsigned>(c.meter)},
+            {"passes", ranges},
+            {"stop", toJson(c.stop)},
+            {"seconds", c.seconds},
+            {"counters", toJson(c.counters)},
+            {"scene", c.scene},
+            {"photonsPerPass", c.photonsPerPass},
+            {"search", toJson(c.search)},
+            {"device", toJson(c.device)},
+            {"timings", toJson(c.timings)}};
+}
+
+Checkpoint checkpointOf(const CheckpointReader& reader) {
+    const Json& from = reader.description();
+    Checkpoint c;
+    try {
+        c.version = from.at("version");
+        c.kernels = from.at("kernels");
+        if (c.version != QUASILUX_VERSION || c.kernels != kernelChecksum())
+            throw InputError(fmt::format("checkpoint {}: of another version of quasilux ({}, kernels {}), expected {}, "
+                                         "kernels {}: use the version that made it",
+                                         reader.path(), c.version, c.kernels, QUASILUX_VERSION, kernelChecksum()));
+        c.wanted = parsed<RenderSettings>(from.at("wanted"));
+        c.freedom = from.at("freedom");
+        c.settings = parsed<RenderSettings>(from.at("settings"));
+        from.at("sceneChecksums").get_to(c.sceneChecksums);
+        c.width = from.at("width");
+        c.height = from.at("height");
+        c.estimatesBias = from.at("estimatesBias");
+        c.meter = static_cast<MeterKind>(from.at("meter").get<unsigned>());
+        for (const auto& range : from.at("passes")) c.passes.push_back({range.at(0), range.at(1)});
+        c.stop = parsed<StopRule>(from.at("stop"));
+        c.seconds = from.at("seconds");
+        c.counters = parsed<RenderCounters>(from.at("counters"));
+        c.scene = from.at("scene");
+        c.photonsPerPass = from.at("photonsPerPass");
+        c.search = parsed<SearchReport>(from.at("search"));
+        c.device = parsed<DeviceInfo>(from.at("device"));
+        c.timings = parsed<std::map<std::string, KernelTiming>>(from.at("timings"));
+    } catch (const Json::exception& error) {
+        throw InputError(
+            fmt::format("checkpoint {}: of another version of quasilux ({})", reader.path(), error.what()));
+    }
+    return c;
+}
+
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, const Renderer& renderer) {
+    CheckpointWriter writer(path);
+    saveLearned(writer, *renderer.learned());
+    renderer.saveState(writer);
+    writer.finish(describe(checkpoint));
+}
+
+std::string differenceOfWanted(const Checkpoint& there, const Checkpoint& here) {
+    if (const auto settings = firstDifference(toJson(there.wanted), toJson(here.wanted)); !settings.empty())
+        return settings;
+    if (there.freedom != here.freedom)
+        return fmt::format("left to a search is {} there, {} here", there.freedom, here.freedom);
+    return {};
+}
+
+std::string differenceOfImage(const Checkpoint& there, const Checkpoint& here) {
+    if (const auto wanted = differenceOfWanted(there, here); !wanted.empty()) return wanted;
+    if (there.width != here.width || there.height != here.height)
+        return fmt::format("the film has {} x {} pixels there, {} x {} here", there.width, there.height, here.width,
+                           here.height);
+    if (const auto chosen = firstDifference(toJson(there.settings), toJson(here.settings)); !chosen.empty())
+        return "by the search " + chosen;
+    if (const auto scene = refusal([&] { requireSame(there.sceneChecksums, here.sceneChecksums); })) return *scene;
+    if (there.estimatesBias != here.estimatesBias || there.meter != here.meter) return "the sensor is another one";
+    return {};
+}
+
+std::string text(const std::vector<PassRange>& passes) {
+    std::string out;
+    for (const PassRange& range : passes)
+        out += fmt::format("{}{} to {}", out.empty() ? "" : ", ", range.first, range.end - 1);
+    return out.empty() ? "none" : out;
+}
+
+} // namespace quasilux
