@@ -163,8 +163,8 @@ typedef struct {
 } VolumeGrid;
 
 /* Known mistakes, switched on by tests as negative controls: 1 flux at collisions is not divided by the extinction, 2
- * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken, 4 flux is
- * divided by the extinction of a heterogeneous medium where it is looked up, 5 by that of its mean. */
+ * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken, 4 flux in a
+ * heterogeneous medium is divided by the mean of its extinction. */
 #ifndef MEDIUM_RULE
 #define MEDIUM_RULE 0
 #endif

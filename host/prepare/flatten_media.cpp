@@ -3,6 +3,7 @@
 #include "prepare/medium_shape.h"
 #include "prepare/pack.h"
 #include "prepare/scene_tables.h"
+#include "prepare/volume_tables.h"
 #include "scene/color.h"
 
 #include <algorithm>
@@ -55,14 +56,6 @@ MediumShape withinBox(MediumShape shape, const shared::VolumeGrid& grid) {
     shape.volume = std::min(shape.volume, extent.x * extent.y * extent.z);
     shape.extent = std::min(shape.extent, std::max({extent.x, extent.y, extent.z}));
     return shape;
-}
-
-void appendVolumes(const Scene& scene, MediumTables& tables) {
-    for (const VolumeDescription& volume : scene.volumes) {
-        tables.grids.push_back(volume.device);
-        tables.grids.back().firstValue = static_cast<unsigned>(tables.values.size());
-        tables.values.insert(tables.values.end(), volume.values.begin(), volume.values.end());
-    }
 }
 
 // Densities and the shares of the scattering below each, as PhasePart has them.
@@ -119,7 +112,7 @@ unsigned appendMedia(MediumTables tables, SceneTableWriter& words) {
 
 MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>& split, unsigned photons) {
     MediumTables tables;
-    appendVolumes(scene, tables);
+    for (const VolumeDescription& volume : scene.volumes) appendVolume(volume, tables);
     for (unsigned k = 0; k < scene.media.size(); ++k) {
         const auto& description = scene.media[k];
         MediumShape shape = findMediumShape(scene, k);

@@ -24,7 +24,7 @@ unsigned extinctionVolume(Properties& properties) {
             throw InputError(element->where, fmt::format("{}.", greyOnly));
         return index;
     }
-    const Rgb value = properties.positiveColor("sigma_t", {1, 1, 1});
+    const Rgb value = properties.positiveColor("sigma_t", {1, 1, 1}, ColorUse::reflectance);
     if (value.g != value.r || value.b != value.r)
         throw InputError(properties.where("sigma_t"), fmt::format("{}.", greyOnly));
     VolumeDescription volume;

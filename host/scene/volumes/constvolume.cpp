@@ -14,7 +14,8 @@ void setConstant(VolumeDescription& volume, Rgb value, const glm::dmat4& toWorld
 }
 
 void readConstVolume(Properties& properties, VolumeDescription& volume) {
-    setConstant(volume, properties.positiveColor("value", {1, 1, 1}), properties.transform("to_world"));
+    setConstant(volume, properties.positiveColor("value", {1, 1, 1}, ColorUse::reflectance),
+                properties.transform("to_world"));
 }
 
 } // namespace quasilux
