@@ -32,7 +32,9 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
         if (path->firstChoice >= 0) u.x = path->firstChoice;
         const MediumSegment segment = followMedium(medium, path->throughput, &path->ray, 0, u, world->nodes,
                                                    world->blocks, world->tables, &params->scene);
-        path->firstChoice = path->firstChoice < 0 ? -1 : numberLeft(medium, &segment.flight, u.x);
+        path->firstChoice = path->firstChoice < 0
+                                ? -1
+                                : numberLeft(medium, path->ray.origin, path->ray.direction, &segment.flight, u.x);
         if (segment.flight.collided) return collideCameraPath(world, path, &segment.flight, medium, rng, components);
         path->throughput *= segment.flight.weight;
         hit = segment.hit;

@@ -261,7 +261,7 @@ inline int joinWalk(PhotonPath* path, const Walkers* w, LaneMask walking, const 
                     const PhotonSink* sink, RegionCount* count) {
     __global const Medium* media = SCENE_TABLE(world->tables, &world->params->scene, Medium, media);
     while (photonEvent(path, 0, world, sink, count))
-        if (inMedium(path->medium) && media[path->medium].planeCount > 0 && (!walking || path->medium == w->medium) &&
+        if (inMedium(path->medium) && mayWalk(media + path->medium) && (!walking || path->medium == w->medium) &&
             all(isfinite(path->flux)))
             return 1;
     return 0;

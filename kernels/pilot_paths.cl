@@ -214,8 +214,8 @@ inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* sta
 inline int collidePilot(const World* world, PilotPath* path, PilotState* state, const FreeFlight* flight,
                         __global const Medium* medium) {
     const float before = maxComponent(state->throughput);
-    state->throughput *= flight->weight * loadRgb(medium->albedo);
     const float3 position = state->ray.origin + flight->distance * state->ray.direction;
+    state->throughput *= flight->weight * mediumAlbedo(medium, position);
     if (state->gathers || (medium->level > 0 && state->d == world->params->bdd))
         storeVertex(path, state, position, IMPORTANCE_FACE_MEDIUM);
     const float survival = min(PILOT_SURVIVAL_MAX, maxComponent(state->throughput) / before);

@@ -107,17 +107,23 @@ typedef struct {
 #define PHASE_ISOTROPIC 0u
 #define PHASE_HG 1u
 #define PHASE_RAYLEIGH 2u
+#define PHASE_MIXED 3u     /* of a medium: its PhasePart records */
+#define PHASE_TABULATED 4u /* of a part only */
 
 #define MEDIUM_NONE QL_NONE          /* vacuum */
 #define MEDIUM_UNCHANGED 0xfffffffeu /* of a surface that bounds no medium: a path that passes it stays where it is */
 
-/* Homogeneous medium. The phase function p is split by a level (sr^-1): genuine diffuse = min(p, level), quasi-specular
+/* A medium, homogeneous unless it has a grid of extinction. The phase function p is split by a level (sr^-1): genuine diffuse = min(p, level), quasi-specular
  * = the peak above it. Level 0: all of it is quasi-specular; infinity: all of it genuine diffuse (standard method). */
 typedef struct {
-    unsigned int phase; /* PHASE_* */
-    float g;            /* mean cosine of the scattering angle (HG); > 0 forwards */
-    Rgb sigmaT;         /* extinction coefficient, 1/scene unit */
-    Rgb albedo;         /* scattering / extinction */
+    unsigned int phase;                /* PHASE_* */
+    float g;                           /* mean cosine of the scattering angle; > 0 forwards */
+    unsigned int firstPart, partCount; /* PHASE_MIXED: PhasePart records, words from this record on */
+    Rgb sigmaT;                        /* extinction coefficient, 1/scene unit; with a grid: its mean */
+    Rgb albedo;                        /* scattering / extinction */
+    /* VolumeGrid records that say them instead: words from this record on; 0: none. */
+    unsigned int extinctionGrid, albedoGrid;
+    float extinctionScale; /* on the former */
     float level;
     float genuineDiffuseShare; /* integral of min(p, level) over the sphere */
     Packed3 kernelAxis;        /* unit; flat density kernels are cylinders about it (kernels/volume_region.clh) */
@@ -127,14 +133,38 @@ typedef struct {
     unsigned int firstPlane, planeCount; /* MediumPlane records that bound it with nothing inside; 0: not known */
 } Medium;
 
+/* One of the phase functions that a medium's is the weighted sum of. */
+typedef struct {
+    unsigned int phase; /* PHASE_*, of one function */
+    float g;
+    float weight, weightCdf; /* share of this one; of all up to and including this one, last = 1 */
+    /* PHASE_TABULATED: words from this record on. Densities, sr^-1, at equal steps of the cosine from -1 to 1, linear
+     * between; then as many shares of the scattering below each. */
+    unsigned int firstValue, valueCount;
+} PhasePart;
+
 /* A face of a medium that is a convex polyhedron: the inside has dot(normal, x) < offset. */
 typedef struct {
     Packed3 normal; /* unit, outwards */
     float offset;
 } MediumPlane;
 
+/* Values at the centres of voxels (kernels/volume_grid.clh). As an extinction it fills its box, nothing beyond. */
+#define VOLUME_NEAREST 0u /* filter */
+#define VOLUME_TRILINEAR 1u
+typedef struct {
+    float toVoxels[12];      /* rows: from the world to places where voxel (i, j, k) covers i to i + 1 and so on */
+    Packed3 lower, upper;    /* box in the world */
+    unsigned int size[3];    /* voxels along x, y, z */
+    unsigned int channels;   /* 1 or 3, side by side */
+    unsigned int filter;     /* VOLUME_* */
+    unsigned int wrap;       /* WRAP_*: beyond the voxels */
+    unsigned int firstValue; /* words from this record on; x fastest */
+} VolumeGrid;
+
 /* Known mistakes, switched on by tests as negative controls: 1 flux at collisions is not divided by the extinction, 2
- * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken. */
+ * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken, 4 flux in a
+ * heterogeneous medium is divided by the mean of its extinction. */
 #ifndef MEDIUM_RULE
 #define MEDIUM_RULE 0
 #endif

@@ -57,6 +57,39 @@ TEST(Medium, PhaseFunctions) {
     EXPECT_EQ(loadMedium(R"(<phase type="hg"><float name="g" value="-0.99"/></phase>)").g, -0.99);
 }
 
+TEST(Medium, ATabulatedPhaseFunctionIsNormalised) {
+    const MediumDescription medium =
+        loadMedium(R"(<phase type="tabphase"><string name="values" value="0, 0, 3"/></phase>)");
+    ASSERT_EQ(medium.phase, PHASE_MIXED);
+    ASSERT_EQ(medium.phaseParts.size(), 1u);
+    // Integral over the cosine: 3 / 2; mean cosine of a density 2 c on [0, 1].
+    EXPECT_NEAR(medium.phaseParts[0].values.at(2), 2 / (2 * 3.14159265358979), 1e-12);
+    EXPECT_NEAR(medium.g, 2.0 / 3, 1e-12);
+}
+
+TEST(Medium, BlendsOfBlendsAreOneList) {
+    const MediumDescription medium = loadMedium(R"(<phase type="blendphase"><float name="weight" value="0.25"/>
+        <phase type="hg"><float name="g" value="0.5"/></phase>
+        <phase type="blendphase"><float name="weight" value="0.4"/><phase type="rayleigh"/>
+        <phase type="hg"><float name="g" value="-0.5"/></phase></phase></phase>)");
+    ASSERT_EQ(medium.phase, PHASE_MIXED);
+    ASSERT_EQ(medium.phaseParts.size(), 3u);
+    const std::pair<unsigned, double> expected[] = {{PHASE_HG, 0.75}, {PHASE_RAYLEIGH, 0.15}, {PHASE_HG, 0.1}};
+    for (size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(medium.phaseParts[k].phase, expected[k].first);
+        EXPECT_NEAR(medium.phaseParts[k].weight, expected[k].second, 1e-12);
+    }
+    EXPECT_NEAR(medium.g, 0.75 * 0.5 - 0.1 * 0.5, 1e-12);
+}
+
+TEST(Medium, APhaseFunctionThatContainsItselfIsRefused) {
+    SceneFiles files;
+    EXPECT_THAT(errorOf(files.write("scene.xml",
+                                    sceneWith(R"(<phase type="blendphase" id="loop"><float name="weight" value="0.5"/>
+        <phase type="hg"/><ref id="loop"/></phase>)"))),
+                HasSubstr("scene.xml:4:1: phase 'loop' contains itself"));
+}
+
 TEST(Medium, KnownParametersWithoutEffectAreAccepted) {
     EXPECT_NO_THROW(loadMedium(
         R"(<boolean name="sample_emitters" value="true"/><boolean name="has_spectral_extinction" value="false"/>)"));
@@ -172,7 +205,36 @@ const BadMedium badMedia[] = {
      {"scene.xml:6:1: sigma_t times scale", "single precision"}},
     {"Volume",
      R"(<volume type="gridvolume" name="sigma_t"/>)",
-     {"scene.xml:5:1: <volume> is not supported yet; media are homogeneous", "<float>, <rgb> or <spectrum>"}},
+     {"scene.xml:5:1: volume 'gridvolume' needs", "filename"}},
+    {"VolumeAlbedoAboveOne",
+     R"(<volume type="constvolume" name="albedo"><float name="value" value="2"/></volume>)",
+     {"scene.xml:4:20: the albedo of medium 'homogeneous' has a channel above 1"}},
+    {"BlendWithoutWeight",
+     "<phase type=\"blendphase\"><phase type=\"hg\"/><phase type=\"hg\"/></phase>",
+     {"scene.xml:5:1: phase 'blendphase' needs <float name=\"weight\""}},
+    {"BlendOfOne",
+     "<phase type=\"blendphase\"><float name=\"weight\" value=\"0.5\"/><phase type=\"hg\"/></phase>",
+     {"scene.xml:5:1: phase 'blendphase' has 1 phase functions; expected 2"}},
+    {"BlendWeight",
+     "<phase type=\"blendphase\">\n<float name=\"weight\" value=\"1.5\"/><phase type=\"hg\"/><phase "
+     "type=\"hg\"/></phase>",
+     {"scene.xml:6:1: parameter 'weight' of phase 'blendphase' is 1.5; expected 0 to 1"}},
+    {"BlendByVolume",
+     "<phase type=\"blendphase\">\n<volume name=\"weight\" type=\"constvolume\"/><phase type=\"hg\"/><phase "
+     "type=\"hg\"/></phase>",
+     {"scene.xml:6:1: parameter 'weight' of phase 'blendphase' is the same everywhere here", "<float>"}},
+    {"TableOfOne",
+     "<phase type=\"tabphase\">\n<string name=\"values\" value=\"1\"/></phase>",
+     {"scene.xml:6:1: parameter 'values' of phase 'tabphase' has 1 entries; expected 2 to"}},
+    {"TableNegative",
+     "<phase type=\"tabphase\">\n<string name=\"values\" value=\"1,-1,2\"/></phase>",
+     {"scene.xml:6:1: parameter 'values' of phase 'tabphase' has the entry -1"}},
+    {"TableOfNothing",
+     "<phase type=\"tabphase\">\n<string name=\"values\" value=\"0,0\"/></phase>",
+     {"scene.xml:6:1: parameter 'values' of phase 'tabphase' adds up to 0"}},
+    {"TableOfWords",
+     "<phase type=\"tabphase\">\n<string name=\"values\" value=\"1,x\"/></phase>",
+     {"scene.xml:6:1:", "'x' is not a number"}},
     {"Misspelt",
      R"(<float name="sigmat" value="1"/>)",
      {"scene.xml:5:1: unknown parameter 'sigmat' of medium 'homogeneous'", "Did you mean 'sigma_t'?"}},

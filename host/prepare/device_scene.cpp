@@ -20,6 +20,7 @@ void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& m
     for (const auto& medium : media) {
         features.phases.insert(medium.phase);
         features.chromaticMedia |= medium.sigmaT.r != medium.sigmaT.g || medium.sigmaT.r != medium.sigmaT.b;
+        features.heterogeneousMedia |= medium.extinctionGrid != 0;
         features.genuineDiffuseMedia |= medium.level > 0;
         features.quasiSpecularMedia |= std::isfinite(medium.level);
     }
@@ -192,7 +193,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.textures = tables.append(textures.textures);
     out.offsets.texels = tables.append(textures.texels);
     out.offsets.uvs = tables.append(flattenUvs(scene));
-    out.offsets.media = tables.append(media.media);
+    out.offsets.media = appendMedia(media, tables);
     out.offsets.mediumPlanes = tables.append(media.planes);
     out.offsets.emitters = tables.append(out.emitters.emitters);
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);

@@ -13,6 +13,8 @@
 
 namespace quasilux {
 
+class SceneTableWriter;
+
 struct EmitterTables {
     std::vector<shared::Emitter> emitters;
     std::vector<shared::EmitterTriangle> triangles;
@@ -102,9 +104,14 @@ MeterTables flattenMeter(const Scene& scene, unsigned medium = MEDIUM_NONE);
 struct MediumTables {
     std::vector<shared::Medium> media;
     std::vector<shared::MediumPlane> planes;
+    std::vector<shared::VolumeGrid> grids; ///< by volume of the scene; media name them by 1 + index until appendMedia
+    std::vector<shared::PhasePart> parts;
+    std::vector<float> values; ///< of grids and parts; their firstValue is an index until appendMedia
 };
 /// `photons` are emitted in a pass: they decide the first size of density kernels.
 MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>& split, unsigned photons);
+/// Media and what they refer to, each by its distance from the record that names it.
+unsigned appendMedia(MediumTables media, SceneTableWriter& tables);
 double scatteringArea(const Scene& scene);
 /// Whether a shape is no more than a place that light passes: a `null` bsdf that bounds no medium.
 bool passesLight(const Scene& scene, const ShapeDescription& shape);

@@ -13,7 +13,7 @@ constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, 
 #undef LOBE_NAME
 constexpr std::array<const char*, 6> emitterNames = {"RECTANGLE", "TRIANGLES",   "SPHERE",
                                                      "POINT",     "DIRECTIONAL", "CONSTANT"};
-constexpr std::array<const char*, 3> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH"}; // in the order of PHASE_*
+constexpr std::array<const char*, 4> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH", "MIXED"}; // in the order of PHASE_*
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -36,6 +36,7 @@ constexpr std::array flags = {
     Flag{&Features::textures, "HAS_TEXTURES", "textures"},
     Flag{&Features::media, "HAS_MEDIA", "media"},
     Flag{&Features::chromaticMedia, "HAS_CHROMATIC_MEDIA", "media with coloured extinction"},
+    Flag{&Features::heterogeneousMedia, "HAS_HETEROGENEOUS_MEDIA", "media that vary in space"},
     Flag{&Features::sharingLambert, "HAS_SHARING_LAMBERT", "diffuse paths that look for emitters"},
     Flag{&Features::sharingMedia, "HAS_SHARING_MEDIA", "paths in media that look for emitters"},
     Flag{&Features::lightTree, "HAS_LIGHT_TREE", "many emitters"},

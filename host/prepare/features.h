@@ -18,6 +18,7 @@ struct Features {
          filterTable = false; ///< a reconstruction filter other than those that are sampled by formula
     bool radianceMeter = false, irradianceMeter = false; ///< what the sensor is, if no camera
     bool media = false, chromaticMedia = false;          ///< extinction differs between the channels of some medium
+    bool heterogeneousMedia = false;                     ///< extinction or albedo of some medium varies in space
     bool directInMedia = false;                          ///< emitter sampling can reach points in some medium
     bool sharingLambert = false, sharingMedia = false;   ///< scattering that shares direct light (direct_sharing.h)
     bool lightTree = false;                              ///< direct light is sampled from many emitters (light_tree.h)

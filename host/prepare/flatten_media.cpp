@@ -2,6 +2,8 @@
 #include "prepare/device_scene.h"
 #include "prepare/medium_shape.h"
 #include "prepare/pack.h"
+#include "prepare/scene_tables.h"
+#include "prepare/volume_tables.h"
 #include "scene/color.h"
 
 #include <algorithm>
@@ -46,18 +48,84 @@ KernelSize ballKernel(const MediumDescription& medium, const MediumShape& shape,
     return {factor * std::min(radius, largestBall * shape.extent), 0};
 }
 
+/// Of what the medium fills: no more than the box of its extinction.
+MediumShape withinBox(MediumShape shape, const shared::VolumeGrid& grid) {
+    const glm::dvec3 extent(double(grid.upper.x) - grid.lower.x, double(grid.upper.y) - grid.lower.y,
+                            double(grid.upper.z) - grid.lower.z);
+    shape.isPlate = false;
+    shape.volume = std::min(shape.volume, extent.x * extent.y * extent.z);
+    shape.extent = std::min(shape.extent, std::max({extent.x, extent.y, extent.z}));
+    return shape;
+}
+
+// Densities and the shares of the scattering below each, as PhasePart has them.
+void appendTable(const std::vector<double>& densities, std::vector<float>& values) {
+    const double step = 2.0 / static_cast<double>(densities.size() - 1);
+    std::vector<double> below = {0};
+    for (size_t i = 0; i + 1 < densities.size(); ++i)
+        below.push_back(below.back() + pi * step * (densities[i] + densities[i + 1]));
+    for (const double density : densities) values.push_back(static_cast<float>(density));
+    for (const double share : below) values.push_back(static_cast<float>(share / below.back()));
+}
+
+void appendParts(const MediumDescription& description, shared::Medium& medium, MediumTables& tables) {
+    medium.firstPart = static_cast<unsigned>(tables.parts.size());
+    medium.partCount = static_cast<unsigned>(description.phaseParts.size());
+    double sum = 0;
+    for (const PhasePartDescription& described : description.phaseParts) {
+        shared::PhasePart part{};
+        sum += described.weight;
+        part.phase = described.phase;
+        part.g = static_cast<float>(described.g);
+        part.weight = static_cast<float>(described.weight);
+        part.weightCdf = &described == &description.phaseParts.back() ? 1.f : static_cast<float>(sum);
+        part.firstValue = static_cast<unsigned>(tables.values.size());
+        part.valueCount = static_cast<unsigned>(described.values.size());
+        if (!described.values.empty()) appendTable(described.values, tables.values);
+        tables.parts.push_back(part);
+    }
+}
+
 } // namespace
+
+unsigned appendMedia(MediumTables tables, SceneTableWriter& words) {
+    constexpr size_t perMedium = sizeof(shared::Medium) / 4, perGrid = sizeof(shared::VolumeGrid) / 4,
+                     perPart = sizeof(shared::PhasePart) / 4;
+    const size_t grids = perMedium * tables.media.size(), parts = grids + perGrid * tables.grids.size(),
+                 values = parts + perPart * tables.parts.size(); // words from the first medium on
+    for (size_t k = 0; k < tables.media.size(); ++k) {
+        shared::Medium& medium = tables.media[k];
+        for (unsigned* grid : {&medium.extinctionGrid, &medium.albedoGrid})
+            if (*grid != 0) *grid = static_cast<unsigned>(grids + perGrid * (*grid - 1) - perMedium * k);
+        medium.firstPart = static_cast<unsigned>(parts + perPart * medium.firstPart - perMedium * k);
+    }
+    for (size_t k = 0; k < tables.grids.size(); ++k)
+        tables.grids[k].firstValue += static_cast<unsigned>(values - grids - perGrid * k);
+    for (size_t k = 0; k < tables.parts.size(); ++k)
+        tables.parts[k].firstValue += static_cast<unsigned>(values - parts - perPart * k);
+    const unsigned first = words.append(tables.media);
+    words.append(tables.grids);
+    words.append(tables.parts);
+    words.append(tables.values);
+    return first;
+}
 
 MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>& split, unsigned photons) {
     MediumTables tables;
+    for (const VolumeDescription& volume : scene.volumes) appendVolume(volume, tables);
     for (unsigned k = 0; k < scene.media.size(); ++k) {
         const auto& description = scene.media[k];
-        const MediumShape shape = findMediumShape(scene, k);
+        MediumShape shape = findMediumShape(scene, k);
+        if (description.extinction) shape = withinBox(std::move(shape), tables.grids[*description.extinction]);
         shared::Medium medium{};
         medium.phase = description.phase;
         medium.g = static_cast<float>(description.g);
+        appendParts(description, medium, tables);
         medium.sigmaT = description.sigmaT;
         medium.albedo = description.albedo;
+        medium.extinctionGrid = description.extinction ? *description.extinction + 1 : 0;
+        medium.albedoGrid = description.albedoVolume ? *description.albedoVolume + 1 : 0;
+        medium.extinctionScale = description.extinctionScale;
         medium.level = split[k].level;
         medium.genuineDiffuseShare = static_cast<float>(split[k].genuineDiffuseShare);
         medium.kernelAxis = pack(shape.axis);

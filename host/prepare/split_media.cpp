@@ -28,35 +28,76 @@ double henyeyGreensteinQuantile(double g, double u) {
     return (1 - g) * u * ((1 - g) * (1 + g) / denominator + 1 - g) / denominator;
 }
 
-/// sr^-1; the angle is counted from the peak, be it forwards or backwards.
-double phaseValue(const MediumDescription& medium, double oneMinusCos) {
-    if (medium.phase == PHASE_HG) return henyeyGreenstein(std::abs(medium.g), oneMinusCos);
-    if (medium.phase == PHASE_RAYLEIGH) return 0.75 * inverseFourPi * (1 + (1 - oneMinusCos) * (1 - oneMinusCos));
-    return inverseFourPi;
+/// sr^-1, of 1 - cos of the angle between the directions of propagation.
+double partValue(const PhasePartDescription& part, double oneMinusCos) {
+    switch (part.phase) {
+    case PHASE_HG:
+        return henyeyGreenstein(std::abs(part.g), part.g < 0 ? 2 - oneMinusCos : oneMinusCos);
+    case PHASE_RAYLEIGH:
+        return 0.75 * inverseFourPi * (1 + (1 - oneMinusCos) * (1 - oneMinusCos));
+    case PHASE_TABULATED: {
+        const double place = (2 - oneMinusCos) / 2 * static_cast<double>(part.values.size() - 1);
+        const size_t i = std::min(static_cast<size_t>(std::max(place, 0.0)), part.values.size() - 2);
+        const double f = std::clamp(place - static_cast<double>(i), 0.0, 1.0);
+        return part.values[i] + f * (part.values[i + 1] - part.values[i]);
+    }
+    default:
+        return inverseFourPi;
+    }
 }
 
-/// The integral of min(p, level) over the sphere, by the midpoint rule over equal shares of the HG function of the
-/// medium (of the uniform density for the other phase functions), so that a narrow peak is resolved too.
-double genuineDiffuseShare(const MediumDescription& medium, double level) {
-    constexpr int steps = 4096;
-    const double g = medium.phase == PHASE_HG ? std::abs(medium.g) : 0;
+std::vector<PhasePartDescription> partsOf(const MediumDescription& medium) {
+    if (medium.phase == PHASE_MIXED) return medium.phaseParts;
+    return {{medium.phase, medium.g, 1, {}}};
+}
+
+double phaseValue(const std::vector<PhasePartDescription>& parts, double oneMinusCos) {
     double sum = 0;
-    for (int i = 0; i < steps; ++i) {
-        const double oneMinusCos = henyeyGreensteinQuantile(g, (i + 0.5) / steps);
-        sum += std::min(phaseValue(medium, oneMinusCos), level) / henyeyGreenstein(g, oneMinusCos);
+    for (const auto& part : parts) sum += part.weight * partValue(part, oneMinusCos);
+    return sum;
+}
+
+/// Every function is convex in the cosine, or linear between the entries of a table: so is their sum.
+double highestValue(const std::vector<PhasePartDescription>& parts) {
+    double highest = std::max(phaseValue(parts, 0), phaseValue(parts, 2));
+    for (const auto& part : parts)
+        for (size_t i = 0; i < part.values.size(); ++i) {
+            const double steps = static_cast<double>(part.values.size() - 1);
+            highest = std::max(highest, phaseValue(parts, 2 - 2 * static_cast<double>(i) / steps));
+        }
+    return highest;
+}
+
+/// The integral of min(p, level) over the sphere, by the midpoint rule: part by part over equal shares of its HG function, so
+/// that a narrow peak is resolved too, over the uniform density for others.
+double genuineDiffuseShare(const std::vector<PhasePartDescription>& parts, double level) {
+    constexpr int steps = 4096;
+    double share = 0;
+    for (const auto& part : parts) {
+        const double g = part.phase == PHASE_HG ? std::abs(part.g) : 0;
+        double sum = 0;
+        for (int i = 0; i < steps; ++i) {
+            const double toPeak = henyeyGreensteinQuantile(g, (i + 0.5) / steps);
+            const double oneMinusCos = part.g < 0 && g > 0 ? 2 - toPeak : toPeak;
+            const double p = phaseValue(parts, oneMinusCos);
+            const double own = parts.size() == 1 ? p : partValue(part, oneMinusCos);
+            if (p > 0) sum += std::min(p, level) / p * own / henyeyGreenstein(g, toPeak);
+        }
+        share += part.weight * sum / steps;
     }
-    return sum / steps;
+    return share;
 }
 
 MediumDecision allQuasiSpecular(const std::string& why) { return {0, 0, why}; }
 MediumDecision allGenuineDiffuse(const std::string& why) { return {infinity, 1, why}; }
 
 MediumDecision byLevel(const MediumDescription& medium, double level, const std::string& by) {
-    const double highest = phaseValue(medium, 0);
+    const std::vector<PhasePartDescription> parts = partsOf(medium);
+    const double highest = highestValue(parts);
     if (highest <= level)
         return allGenuineDiffuse(
             fmt::format("{}: all of it is genuine diffuse, its phase function stays below {:.3g} per sr", by, level));
-    const double share = genuineDiffuseShare(medium, level);
+    const double share = genuineDiffuseShare(parts, level);
     return {
         static_cast<float>(level), share,
         fmt::format("{}: level {:.3g} per sr: {:.3g} % of the scattering is genuine diffuse", by, level, 100 * share)};

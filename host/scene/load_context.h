@@ -40,6 +40,8 @@ public:
     std::unordered_map<const Element*, int> bsdfIndex;    ///< of bsdfs that shapes use, into Scene::bsdfs
     std::unordered_map<const Element*, int> textureIndex; ///< of textures in use, into Scene::textures; -1: one colour
     std::unordered_map<const Element*, unsigned> mediumIndex; ///< of media in use, into Scene::media
+    std::unordered_map<const Element*, unsigned> volumeIndex; ///< of volumes in use, into Scene::volumes
+    std::vector<const Element*> openPhases;                   ///< being read now, as openBsdfs
     std::set<const Element*> usedPhases;                      ///< that a medium has
     int defaultBsdf = -1, defaultEmitterBsdf = -1;            ///< of shapes without one; -1 until the first needs it
     std::vector<const Element*> openBsdfs;                    ///< being read now, outermost first: a cycle shows here

@@ -12,6 +12,7 @@
 #include "scene/shapes/shape_plugin.h"
 #include "scene/textures/constant_texture.h"
 #include "scene/textures/texture_plugin.h"
+#include "scene/volumes/volume_plugin.h"
 #include "scene/xml/numbers.h"
 #include "scene/xml/upgrade.h"
 #include "scene/xml/xml_document.h"
@@ -60,12 +61,12 @@ void readObject(const Element& object, LoadContext& context, std::vector<PlacedS
     else if (object.tag == "integrator")
         integrators.push_back(&object);
     else if (object.tag == "bsdf" || object.tag == "texture" || object.tag == "medium" || object.tag == "phase" ||
-             object.tag == "alias")
+             object.tag == "volume" || object.tag == "alias")
         return; // read where another object uses it
     else
         throw InputError(object.where,
                          fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, texture, medium, "
-                                     "phase, emitter, sensor or integrator.",
+                                     "phase, volume, emitter, sensor or integrator.",
                                      object.tag));
 }
 
@@ -121,6 +122,15 @@ void checkUnusedMedia(const Element& root, LoadContext& context) {
         MediumDescription unused;
         readPhase(element, context, unused);
         context.warn(element.where, fmt::format("phase '{}' is used by no medium.", idOf(element)));
+    }
+}
+
+/// Volumes that no medium uses, likewise.
+void checkUnusedVolumes(const Element& root, LoadContext& context) {
+    for (const Element& element : root.children) {
+        if (element.tag != "volume" || context.volumeIndex.count(&element)) continue;
+        readVolume(element, context);
+        context.warn(element.where, fmt::format("volume '{}' is used by no medium.", idOf(element)));
     }
 }
 
@@ -199,6 +209,7 @@ Scene readScene(const SceneDocument& document, const std::string& path, Unknown 
     checkUnusedEmitters(root, context);
     readSensors(sensors, context);
     checkUnusedMedia(root, context);
+    checkUnusedVolumes(root, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
     if (!integrators.empty()) scene.maxDepth = readMaxDepth(*integrators[0], context);
     checkEmitters(scene);

@@ -57,6 +57,9 @@ public:
     /// The <medium> of that name, nested or referenced, or nullptr.
     const Element* medium(const std::string& name) { return named("medium", name); }
 
+    /// The <volume> of that name, likewise.
+    const Element* volume(const std::string& name) { return named("volume", name); }
+
     /// The parameter's element or nullptr; marks it as used.
     const Element* find(const std::string& name);
     /// Known to Mitsuba and without effect here.

@@ -99,14 +99,32 @@ struct RectangleFrame {
     glm::vec3 corner{}, edgeU{}, edgeV{}, normal{};
 };
 
-/// <medium type="homogeneous">: what fills the inside of shapes, or surrounds them.
-struct MediumDescription {
-    std::string id; ///< as in the scene, or "homogeneous@line"
+/// Values of at least 0 that vary in space, one or three channels.
+struct VolumeDescription {
+    shared::VolumeGrid device{};
+    std::vector<float> values; ///< channels of a voxel side by side, x fastest, z slowest
     SourceLocation where;
-    unsigned phase = PHASE_ISOTROPIC; ///< PHASE_*
-    double g = 0;                     ///< HG: mean cosine, > 0 forwards
-    Rgb sigmaT{};                     ///< 1/scene unit, `scale` included
-    Rgb albedo{};
+};
+
+/// One of the phase functions that make up a medium's.
+struct PhasePartDescription {
+    unsigned phase = PHASE_ISOTROPIC; ///< PHASE_*, of one function
+    double g = 0;                     ///< mean cosine
+    double weight = 1;
+    std::vector<double> values; ///< PHASE_TABULATED: sr^-1, at equal steps of the cosine from -1 to 1
+};
+
+/// <medium>: what fills the inside of shapes, or surrounds them.
+struct MediumDescription {
+    std::string id; ///< as in the scene, or "<plugin>@line"
+    SourceLocation where;
+    unsigned phase = PHASE_ISOTROPIC;             ///< PHASE_*
+    double g = 0;                                 ///< mean cosine, > 0 forwards
+    std::vector<PhasePartDescription> phaseParts; ///< PHASE_MIXED: their weights add up to 1
+    Rgb sigmaT{}; ///< 1/scene unit, `scale` included; heterogeneous: mean over the volume
+    Rgb albedo{}; ///< likewise
+    std::optional<unsigned> extinction, albedoVolume; ///< heterogeneous: index into Scene::volumes
+    float extinctionScale = 1;                        ///< on the former
     QuasiSpecularChoice quasiSpecular;
 };
 
@@ -210,6 +228,7 @@ struct Scene {
     std::vector<Bsdf> bsdfs;
     std::vector<ShapeDescription> shapes;
     std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index
+    std::vector<VolumeDescription> volumes;
     std::vector<MediumDescription> media;
     std::vector<PointEmitter> pointEmitters;
     std::vector<DirectionalEmitter> directionalEmitters;

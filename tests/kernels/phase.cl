@@ -37,3 +37,16 @@ __kernel void splitEvents(__global const Medium* medium, __global const float* n
 __kernel void possibleScatterings(__global const Medium* medium, __global uint* result) {
     if (get_global_id(0) == 0) result[0] = phaseScatterings(medium);
 }
+
+/* Result: 1 - cos of a scattering angle; by eight the same. */
+__kernel void sampleAngles(__global const Medium* medium, __global const float* numbers, __global float* result,
+                           uint count) {
+    const uint i = get_global_id(0);
+    if (i < count) result[i] = phaseSampleOneMinusCos(medium, numbers[i]);
+}
+
+__kernel void sampleAnglesByEight(__global const Medium* medium, __global const float* numbers, __global float* result,
+                                  uint count) {
+    const uint i = get_global_id(0);
+    if (i < count) vstore8(phaseSampleOneMinusCos8(medium, vload8(i, numbers)), i, result);
+}

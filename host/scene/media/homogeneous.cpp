@@ -1,22 +1,45 @@
 // <medium type="homogeneous">: the same everywhere within it.
 #include "scene/media/medium_plugin.h"
+#include "scene/volumes/volume_plugin.h"
 
 #include <cmath>
 #include <fmt/format.h>
 
 namespace quasilux {
 
+namespace {
+
+/// A volume of this name that is the same everywhere, or nothing.
+std::optional<Rgb> constantOf(Properties& properties, const std::string& name) {
+    const Element* element = properties.volume(name);
+    if (!element) return std::nullopt;
+    const VolumeDescription volume = readVolume(*element, properties.context());
+    const size_t channels = volume.device.channels;
+    if (volume.values.size() != channels)
+        throw InputError(element->where, fmt::format("'{}' of {} is the same everywhere; a medium in which it varies "
+                                                     "is of type \"heterogeneous\".",
+                                                     name, properties.describe()));
+    return Rgb{volume.values[0], volume.values[channels / 2], volume.values[channels - 1]};
+}
+
+} // namespace
+
 void readHomogeneous(Properties& properties, MediumDescription& medium) {
     for (const char* name : {"sigma_s", "sigma_a"})
         properties.refuse(name, "as in Mitsuba 3, give sigma_t = sigma_a + sigma_s and albedo = sigma_s / sigma_t");
-    const Rgb sigmaT = properties.positiveColor("sigma_t", {1, 1, 1}, ColorUse::reflectance);
+    const std::optional<Rgb> extinction = constantOf(properties, "sigma_t"), albedo = constantOf(properties, "albedo");
+    const Rgb sigmaT = extinction ? *extinction : properties.positiveColor("sigma_t", {1, 1, 1}, ColorUse::reflectance);
     const auto scale = static_cast<float>(properties.numberAbove("scale", 1, 0, false));
     medium.sigmaT = sigmaT * scale;
     if (!std::isfinite(largest(medium.sigmaT)) || std::isnan(smallest(medium.sigmaT)))
         throw InputError(
             properties.where("scale"),
             fmt::format("sigma_t times scale of {} is out of the range of single precision.", properties.describe()));
-    medium.albedo = properties.reflectance("albedo", 0.75f);
+    medium.albedo = albedo ? *albedo : properties.reflectance("albedo", 0.75f);
+    if (largest(medium.albedo) > 1)
+        throw InputError(properties.element().where,
+                         fmt::format("the albedo of {} has a channel above 1: more light scattered than there was.",
+                                     properties.describe()));
 }
 
 } // namespace quasilux

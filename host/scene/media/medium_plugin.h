@@ -12,5 +12,6 @@ MediumDescription readMedium(const Element& element, LoadContext& context);
 unsigned useMedium(const Element& element, LoadContext& context);
 
 void readHomogeneous(Properties& properties, MediumDescription& medium);
+void readHeterogeneous(Properties& properties, MediumDescription& medium);
 
 } // namespace quasilux

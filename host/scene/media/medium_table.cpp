@@ -16,7 +16,7 @@ struct MediumPlugin {
     void (*read)(Properties&, MediumDescription&);
 };
 
-constexpr MediumPlugin mediumPlugins[] = {{"homogeneous", readHomogeneous}};
+constexpr MediumPlugin mediumPlugins[] = {{"homogeneous", readHomogeneous}, {"heterogeneous", readHeterogeneous}};
 
 } // namespace
 

@@ -12,5 +12,7 @@ void readPhase(const Element& element, LoadContext& context, MediumDescription& 
 void readIsotropic(Properties& properties, MediumDescription& medium);
 void readHenyeyGreenstein(Properties& properties, MediumDescription& medium);
 void readRayleigh(Properties& properties, MediumDescription& medium);
+void readTabulated(Properties& properties, MediumDescription& medium);
+void readBlend(Properties& properties, MediumDescription& medium);
 
 } // namespace quasilux

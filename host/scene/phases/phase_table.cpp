@@ -2,6 +2,7 @@
 #include "scene/phases/phase_plugin.h"
 #include "scene/plugin_lookup.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -13,8 +14,11 @@ struct PhasePlugin {
     void (*read)(Properties&, MediumDescription&);
 };
 
-constexpr PhasePlugin phasePlugins[] = {
-    {"isotropic", readIsotropic}, {"hg", readHenyeyGreenstein}, {"rayleigh", readRayleigh}};
+constexpr PhasePlugin phasePlugins[] = {{"isotropic", readIsotropic},
+                                        {"hg", readHenyeyGreenstein},
+                                        {"rayleigh", readRayleigh},
+                                        {"tabphase", readTabulated},
+                                        {"blendphase", readBlend}};
 
 } // namespace
 
@@ -23,7 +27,12 @@ void readPhase(const Element& element, LoadContext& context, MediumDescription& 
     const PhasePlugin* plugin = findPlugin(phasePlugins, element, context, "isotropic");
     if (!plugin) return;
     Properties properties(element, context);
+    std::vector<const Element*>& open = context.openPhases;
+    if (std::find(open.begin(), open.end(), &element) != open.end())
+        throw InputError(element.where, fmt::format("phase '{}' contains itself.", idOf(element)));
+    open.push_back(&element);
     plugin->read(properties, medium);
+    open.pop_back();
     properties.finish();
 }
 

@@ -26,6 +26,7 @@ const std::vector<Tag> tags = {
     {"texture", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"medium", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"phase", TagKind::object, {"type"}, {"id", "name", "version"}},
+    {"volume", TagKind::object, {"type"}, {"id", "name", "version"}},
     {"float", TagKind::parameter, {"name", "value"}, {}},
     {"integer", TagKind::parameter, {"name", "value"}, {}},
     {"boolean", TagKind::parameter, {"name", "value"}, {}},
@@ -44,7 +45,6 @@ const std::vector<Tag> tags = {
 
 /// Part of Mitsuba 3 but not of quasilux, with what to do instead.
 const std::vector<std::pair<std::string_view, std::string_view>> unsupportedTags = {
-    {"volume", "media are homogeneous: give the value as a <float>, <rgb> or <spectrum> in its place"},
     {"animation", "use one <transform>"},
 };
 
