@@ -97,18 +97,15 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
                              const Frame* frame, float3 wo, __global const Lobe* lobes, const LobeChoice* choice) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
+    const EmitterData data = emitterData(world->tables, scene);
     float uSelect = rngNext(&state->rng), probability;
     const uint index = unlearnedLight(world->tables, scene, s->position, &uSelect, &probability);
-    EmitterSample light =
-        emitterSampleDirection(emitters + index, SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles),
-                               s->position, uSelect, rngNext2(&state->rng));
+    EmitterSample light = emitterSampleDirection(emitters + index, &data, s->position, uSelect, rngNext2(&state->rng));
     if (!light.valid) return;
     uint element = 0;
 #ifdef HAS_EMITTER_TRIANGLES
     if (emitters[index].type == EMITTER_TRIANGLES)
-        element = trianglesSelect(emitters + index,
-                                  SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles), uSelect) -
-                  emitters[index].firstTriangle;
+        element = trianglesSelect(emitters + index, data.triangles, uSelect) - emitters[index].firstTriangle;
 #endif
     light.radianceOverPdf /= probability;
     light.pdfSolidAngle *= probability;
@@ -134,14 +131,17 @@ inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, 
                         float distance, float3 normal, float3 end) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
+    const EmitterData data = emitterData(world->tables, scene);
     const float probability = unlearnedLightProbability(world->tables, scene, state->from, index);
     float share = 1;
     if (state->lobePdf > 0)
-        share = shareOf(state->lobePdf, probability * emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
-                                                                           state->passed + distance, normal));
+        share = shareOf(state->lobePdf,
+                        probability * emitterPdfSolidAngle(emitter, &data, state->from, state->ray.direction,
+                                                           state->passed + distance, normal));
     const int isDirect = state->gathers && state->events == 0;
-    foundEmission(path, state, isDirect, share * meanOf(state->throughput * loadRgb(emitter->radiance)), probability,
-                  index, element, end, state->ray.direction, &state->rng);
+    const float3 radiance = emitterRadiance(emitter, &data, state->ray.direction);
+    foundEmission(path, state, isDirect, share * meanOf(state->throughput * radiance), probability, index, element, end,
+                  state->ray.direction, &state->rng);
 }
 
 inline void noteScattering(PilotState* state, uint scattering, uint bdd) {
@@ -323,13 +323,13 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
     Rng rng = rngMake(0, 0, STREAM_SPARE, index);
     const float2 spare = rngNext2(&rng);
     __global const Emitter* emitters = SCENE_TABLE(tables, &scene, Emitter, emitters);
-    __global const EmitterTriangle* triangles = SCENE_TABLE(tables, &scene, EmitterTriangle, emitterTriangles);
+    const EmitterData data = emitterData(tables, &scene);
     for (uint k = firstSource(sources, sourceCount, record.emitter);
          k < sourceCount && sources[k].emitter == record.emitter && point.source == QL_NONE; ++k) {
         const float3 position = load3(record.position), direction = load3(record.direction);
         if (!holdsRay(sources + k, emitters + record.emitter, position, direction)) continue;
-        const EmissionNumbers u = invertSource(emitters + record.emitter, triangles, sources + k, record.element,
-                                               position, direction, (float3)(rngNext(&rng), spare));
+        const EmissionNumbers u = invertSource(emitters + record.emitter, &data, sources + k, record.element, position,
+                                               direction, (float3)(rngNext(&rng), spare));
         point.source = k;
         point.numbers[0] = u.part;
         point.numbers[1] = u.position.x;

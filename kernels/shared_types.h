@@ -168,6 +168,9 @@ typedef struct {
 /* The same radiance from everywhere outside; origin, radius: sphere about the scene; area: of its great disc. At most one,
  * the last of the table. */
 #define EMITTER_CONSTANT 5u
+/* As EMITTER_CONSTANT, but for the radiance, which is that of an EnvironmentMap; radiance: its mean over the sphere; edgeU, edgeV,
+ * normal: the map's own x, y, z in the world, unit. At most one of both. */
+#define EMITTER_ENVMAP 6u
 
 typedef struct {
     unsigned int type;
@@ -190,6 +193,14 @@ typedef struct {
     Packed3 p0, e1, e2; /* the emitting side is the one of cross(e1, e2) */
     float areaCdf;      /* share of the emitter's area up to and including this triangle; last = 1 */
 } EmitterTriangle;
+
+/* Radiance from outside, by direction (kernels/emitters/envmap.clh). The words of its tables follow from here on. */
+typedef struct {
+    unsigned int width, height; /* pixels, at least 1 x 2 */
+    unsigned int texels;        /* Rgb, row by row from its own +y on */
+    unsigned int rows,
+        columns; /* floats: sums of the probabilities of the height - 1 rows of cells, and in each of its width cells */
+} EnvironmentMap;
 
 /* Of a tree over emitters (kernels/light_tree.clh), which lie in its order: of a node of n of them the first child has the first n / 2
  * and follows it, the second one comes 2 (n / 2) nodes after it. */

@@ -11,8 +11,8 @@ namespace {
 #define LOBE_NAME(ID, argument) #ID,
 constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
 #undef LOBE_NAME
-constexpr std::array<const char*, 6> emitterNames = {"RECTANGLE", "TRIANGLES",   "SPHERE",
-                                                     "POINT",     "DIRECTIONAL", "CONSTANT"};
+constexpr std::array<const char*, 7> emitterNames = {"RECTANGLE",   "TRIANGLES", "SPHERE", "POINT",
+                                                     "DIRECTIONAL", "CONSTANT",  "ENVMAP"};
 constexpr std::array<const char*, 3> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH"}; // in the order of PHASE_*
 
 std::string lower(std::string text) {

@@ -1,6 +1,7 @@
 // Emitting shapes, points and surroundings into the emitter table, with selection in proportion to power.
 #include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
+#include "prepare/environment.h"
 #include "prepare/light_tree.h"
 #include "prepare/pack.h"
 #include "scene/color.h"
@@ -70,6 +71,18 @@ shared::Emitter distantEmitter(unsigned type, const Rgb& radiance, const Sphere&
     return emitter;
 }
 
+/// `words`: of their image, if they have one.
+shared::Emitter surroundings(const Surroundings& from, const Sphere& bounds, std::vector<uint32_t>& words) {
+    if (!from.image) return distantEmitter(EMITTER_CONSTANT, from.radiance, bounds);
+    EnvironmentTable table = makeEnvironmentTable(*from.image);
+    words = std::move(table.words);
+    auto emitter = distantEmitter(EMITTER_ENVMAP, table.meanRadiance, bounds);
+    emitter.edgeU = pack(from.image->axes[0]);
+    emitter.edgeV = pack(from.image->axes[1]);
+    emitter.normal = pack(from.image->axes[2]);
+    return emitter;
+}
+
 void addDistantEmitters(const Scene& scene, EmitterTables& tables) {
     if (scene.directionalEmitters.empty() && !scene.surroundings) return;
     const Sphere bounds = boundingSphere(scene);
@@ -84,9 +97,9 @@ void addDistantEmitters(const Scene& scene, EmitterTables& tables) {
         add(emitter, emitter.area * mean(light.irradiance), light.id);
     }
     if (scene.surroundings) { // last, where the kernels look for it
-        const auto emitter = distantEmitter(EMITTER_CONSTANT, scene.surroundings->radiance, bounds);
+        const auto emitter = surroundings(*scene.surroundings, bounds, tables.environment);
         // pi L by area on the sphere about the scene is 4 pi^2 R^2 L = 4 pi L times the great disc.
-        add(emitter, 4 * pi * emitter.area * mean(scene.surroundings->radiance), scene.surroundings->id);
+        add(emitter, 4 * pi * emitter.area * mean(emitter.radiance), scene.surroundings->id);
     }
 }
 

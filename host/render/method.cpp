@@ -96,7 +96,7 @@ bool learns(const Features& features, const RenderSettings& settings) {
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings) {
     return settings.direct == DirectLight::emitters && settings.map == MapOrder::photons && !isMeter(features) &&
            !features.media && features.genuineDiffuse && !settings.genericKernels &&
-           settings.emission == Emission::guided && features.emitterTypes.contains(EMITTER_CONSTANT);
+           settings.emission == Emission::guided && (features.emitterTypes.contains(EMITTER_CONSTANT) || features.emitterTypes.contains(EMITTER_ENVMAP));
 }
 
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {

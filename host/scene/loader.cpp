@@ -133,7 +133,7 @@ void checkEmitters(const Scene& scene) {
         throw InputError(
             {scene.path},
             "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
-            "<emitter type=\"point\">, <emitter type=\"directional\"> or <emitter type=\"constant\">.");
+            "<emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or <emitter type=\"envmap\">.");
 }
 
 /// The scene in coordinates of the file less `origin`.

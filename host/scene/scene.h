@@ -118,11 +118,20 @@ struct DirectionalEmitter {
     Rgb irradiance{};      ///< of a surface across it, W m^-2
 };
 
+/// An image by latitude and longitude (kernels/emitters/envmap.clh).
+struct EnvironmentImage {
+    unsigned width = 0, height = 0; ///< pixels, at least 1 × 2
+    std::vector<Rgb> pixels;        ///< W sr^-1 m^-2, row by row from +y on
+    glm::dmat3 axes{1.0};           ///< its own x, y, z in the world, orthonormal
+};
+
 /// Radiance that comes from everywhere outside of the scene, W sr^-1 m^-2.
-struct ConstantEmitter {
+struct Surroundings {
     std::string id;
     SourceLocation where;
-    Rgb radiance{};
+    std::string plugin;
+    Rgb radiance{}; ///< without an image: the same from everywhere
+    std::optional<EnvironmentImage> image;
 };
 
 /// What a sensor measures that is no camera.
@@ -192,7 +201,7 @@ struct Scene {
     std::vector<MediumDescription> media;
     std::vector<PointEmitter> pointEmitters;
     std::vector<DirectionalEmitter> directionalEmitters;
-    std::optional<ConstantEmitter> surroundings;
+    std::optional<Surroundings> surroundings;
     Sensor sensor;
     std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)

@@ -23,6 +23,7 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"point", readPoint},
     {"directional", readDirectional},
     {"constant", readConstant},
+    {"envmap", readEnvmap},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {
@@ -44,6 +45,21 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
 }
 
 } // namespace
+
+Surroundings& addSurroundings(Properties& properties) {
+    auto& surroundings = properties.context().scene.surroundings;
+    const Element& element = properties.element();
+    if (surroundings)
+        throw InputError(
+            element.where,
+            fmt::format("a second emitter all around the scene, after the emitter '{}' of line {}; keep one.",
+                        surroundings->plugin, surroundings->where.line));
+    surroundings.emplace();
+    surroundings->id = idOf(element);
+    surroundings->where = element.where;
+    surroundings->plugin = properties.plugin();
+    return *surroundings;
+}
 
 AreaEmitter readShapeEmitter(const Element& element, LoadContext& context) {
     for (const ShapeEmitterPlugin& plugin : shapeEmitters) {
