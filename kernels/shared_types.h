@@ -195,11 +195,13 @@ typedef struct {
 } EmitterTriangle;
 
 /* Radiance from outside, by direction (kernels/emitters/envmap.clh). The words of its tables follow from here on. */
+#define ENVMAP_BLOCK 64
 typedef struct {
     unsigned int width, height; /* pixels, at least 1 x 2 */
     unsigned int texels;        /* Rgb, row by row from its own +y on */
-    unsigned int rows,
-        columns; /* floats: sums of the probabilities of the height - 1 rows of cells, and in each of its width cells */
+    /* Floats, sums of probabilities: of the height - 1 rows of cells; in each of them of its width cells; of those every
+     * ENVMAP_BLOCK-th and the last one. */
+    unsigned int rows, columns, blocks;
 } EnvironmentMap;
 
 /* Of a tree over emitters (kernels/light_tree.clh), which lie in its order: of a node of n of them the first child has the first n / 2

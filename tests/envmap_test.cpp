@@ -53,7 +53,7 @@ struct NamedImage {
 std::vector<NamedImage> images() {
     std::vector<NamedImage> all = {
         {"gradient", mitsubaImage()},
-        {"sun", imageOf(32, 16,
+        {"sun", imageOf(150, 16,
                         [](unsigned c, unsigned r) {
                             return c == 9 && r == 4 ? Rgb{4000, 3000, 2000} : Rgb{0.1f, 0.2f, 0.3f};
                         })},

@@ -45,7 +45,7 @@ std::vector<float> weightsOfRow(const EnvironmentImage& image, unsigned row) {
 }
 
 struct Probabilities {
-    std::vector<float> rows, columns;
+    std::vector<float> rows, columns, blocks; // as shared::EnvironmentMap has them
 };
 
 Probabilities probabilitiesOf(const EnvironmentImage& image) {
@@ -61,7 +61,12 @@ Probabilities probabilitiesOf(const EnvironmentImage& image) {
             cells[column] = double(upper[column]) + upper[next] + lower[column] + lower[next];
             all += cells[column];
         }
+        const size_t first = found.columns.size();
         addSums(cells, found.columns);
+        for (size_t end = first + ENVMAP_BLOCK;; end += ENVMAP_BLOCK) {
+            found.blocks.push_back(found.columns[std::min(end, found.columns.size()) - 1]);
+            if (end >= found.columns.size()) break;
+        }
         rows.push_back(all *
                        std::sin(pi * (row + 0.5) / (image.height - 1))); // in proportion to the difference of cosines
         upper = std::move(lower);
@@ -109,12 +114,14 @@ EnvironmentTable makeEnvironmentTable(const EnvironmentImage& image) {
     EnvironmentTable table;
     const Probabilities probabilities = probabilitiesOf(image);
     constexpr size_t headWords = sizeof(shared::EnvironmentMap) / sizeof(uint32_t);
-    table.words.reserve(headWords + 3 * image.pixels.size() + probabilities.rows.size() + probabilities.columns.size());
+    table.words.reserve(headWords + 3 * image.pixels.size() + probabilities.rows.size() + probabilities.columns.size() +
+                        probabilities.blocks.size());
     table.words.resize(headWords);
-    shared::EnvironmentMap head{image.width, image.height, 0, 0, 0};
+    shared::EnvironmentMap head{image.width, image.height, 0, 0, 0, 0};
     head.texels = append(image.pixels, table.words);
     head.rows = append(probabilities.rows, table.words);
     head.columns = append(probabilities.columns, table.words);
+    head.blocks = append(probabilities.blocks, table.words);
     std::memcpy(table.words.data(), &head, sizeof head);
     table.meanRadiance = meanRadiance(image);
     return table;
