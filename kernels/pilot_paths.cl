@@ -31,6 +31,7 @@ typedef struct {
     float3 from;   /* where the segment began */
     float passed;  /* of the segment, before null surfaces */
     uint medium;
+    int hasScattered;
 } PilotState;
 
 inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
@@ -165,6 +166,7 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
     state->lobePdf = lobes[k].scattering == SCATTER_SPECULAR ? 0.f : choice->probability[k] * sample.pdfSolidAngle;
     noteScattering(state, lobes[k].scattering, world->params->bdd);
     state->ray = leavingRay(s, wi);
+    state->hasScattered = 1;
     state->from = s->position;
     state->passed = 0;
 #ifdef HAS_MEDIA
@@ -175,15 +177,25 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
     return 1;
 }
 
+/* As looksThroughEmitters of camera paths. */
+inline int pilotLooksThrough(const PilotState* state) {
+#ifdef HAS_HIDDEN_EMITTERS
+    return !state->hasScattered;
+#else
+    return 0;
+#endif
+}
+
 /* A surface that the path has come to; 0 where it ends. */
 inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* state, Hit hit) {
     const SceneTables* scene = &world->params->scene;
     const Surface s = surfaceAt(hit, state->ray.origin, state->ray.direction, world->blocks, world->tables, scene);
     __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
-    if (s.emitter != QL_NONE && s.front)
+    const int isHidden = s.emitter != QL_NONE && pilotLooksThrough(state);
+    if (s.emitter != QL_NONE && s.front && !isHidden)
         meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
                     hit.t, s.geometricNormal, s.position);
-    if (s.isNull) {
+    if (s.isNull || isHidden) {
         state->ray = leavingRay(&s, state->ray.direction);
         state->passed += max(hit.t, FLT_MIN);
 #ifdef HAS_MEDIA
@@ -226,6 +238,7 @@ inline int collidePilot(const World* world, PilotPath* path, PilotState* state, 
     state->throughput *= sample.weight;
     noteScattering(state, sample.scattering, world->params->bdd);
     state->lobePdf = 0; /* no emitter is sampled at collisions */
+    state->hasScattered = 1;
     state->ray.origin = state->from = position;
     state->ray.direction = sample.direction;
     state->ray.tMin = 0;
@@ -253,7 +266,7 @@ inline int followPilot(const World* world, PilotPath* path, PilotState* state) {
     if (hit.primitive != QL_NONE) return meetPilotSurface(world, path, state, hit);
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
     const uint surroundings = emitterOfSurroundings(emitters, scene->emitterCount);
-    if (surroundings != QL_NONE)
+    if (surroundings != QL_NONE && !pilotLooksThrough(state))
         meetEmitter(world, path, state, surroundings, 0, INFINITY, -state->ray.direction, state->ray.origin);
     return 0;
 }
@@ -279,6 +292,7 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     state.d = state.events = state.vertices = 0;
     state.gathers = 0;
     state.lobePdf = state.passed = 0;
+    state.hasScattered = 0;
     state.medium = params.camera.medium;
 #ifdef HAS_IRRADIANCE_METER
     const MeterPlace place = meterPlace(&params.scene.meter, tables, pixel, rngNext2(&state.rng));

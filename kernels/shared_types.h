@@ -171,6 +171,7 @@ typedef struct {
 /* As EMITTER_CONSTANT, but for the radiance, which is that of an EnvironmentMap; radiance: its mean over the sphere; edgeU, edgeV,
  * normal: the map's own x, y, z in the world, unit. At most one of both. */
 #define EMITTER_ENVMAP 6u
+#define EMITTER_SPOT 7u /* as EMITTER_POINT, but for the intensity, which falls off with the angle to `normal` */
 
 typedef struct {
     unsigned int type;
@@ -186,6 +187,7 @@ typedef struct {
     float selectionCdf;                        /* sum of the probabilities up to and including this emitter; last = 1 */
     unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
     unsigned int medium;                       /* into which it emits: index or MEDIUM_NONE */
+    float beamAngle, cutoffAngle; /* spot: full intensity up to beamAngle, none beyond cutoffAngle, which is larger */
     unsigned int directByPhotons; /* 1: genuine diffuse lobes take its direct light from photons, not by sampling it */
 } Emitter;
 

@@ -11,7 +11,9 @@
 #include "support/wrong_learning.h"
 
 #include <OpenImageIO/imageio.h>
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
@@ -53,7 +55,7 @@ struct NamedImage {
 std::vector<NamedImage> images() {
     std::vector<NamedImage> all = {
         {"gradient", mitsubaImage()},
-        {"sun", imageOf(150, 16,
+        {"sun", imageOf(144, 16,
                         [](unsigned c, unsigned r) {
                             return c == 9 && r == 4 ? Rgb{4000, 3000, 2000} : Rgb{0.1f, 0.2f, 0.3f};
                         })},

@@ -50,6 +50,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     }
     features.borders = !borders.segments.empty();
     features.depthLimit = scene.maxDepth >= 0;
+    features.hiddenEmitters = scene.hideEmitters && !isIrradiance(scene.sensor.meter);
     features.orthographicCamera = scene.sensor.orthographic;
     features.filterTable = needsFilterTable(scene.sensor);
     features.radianceMeter = scene.sensor.meter == MeterKind::ray;

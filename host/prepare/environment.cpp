@@ -1,5 +1,6 @@
 #include "prepare/environment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>

@@ -6,6 +6,7 @@
 #include "prepare/pack.h"
 #include "scene/color.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace quasilux {
@@ -56,6 +57,12 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
         addTriangles(shape.mesh, emitter, triangles);
     }
     return emitter;
+}
+
+/// Of its intensity over that on the axis: 2 pi times the integral of min(1, (cutoff - angle) / (cutoff - beam)) sin(angle).
+double solidAngleOf(const PointEmitter::Spot& spot) {
+    const double b = spot.beamAngle, c = spot.cutoffAngle;
+    return 2 * pi * (1 - (std::sin(c) - std::sin(b)) / (c - b));
 }
 
 /// One that shines into the scene from outside of its bounds.
@@ -158,8 +165,16 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
         emitter.shape = QL_NONE;
         emitter.radiance = point.intensity;
         emitter.origin = pack(point.position);
+        double solidAngle = 4 * pi;
+        if (point.spot) {
+            emitter.type = EMITTER_SPOT;
+            emitter.normal = pack(point.spot->axis);
+            emitter.beamAngle = static_cast<float>(point.spot->beamAngle);
+            emitter.cutoffAngle = static_cast<float>(point.spot->cutoffAngle);
+            solidAngle = solidAngleOf(*point.spot);
+        }
         tables.emitters.push_back(emitter);
-        tables.power.push_back(4 * pi * mean(point.intensity));
+        tables.power.push_back(solidAngle * mean(point.intensity));
         tables.ids.push_back(point.id);
     }
     sortIntoTree(tables);

@@ -165,7 +165,10 @@ Scene readScene(const SceneDocument& document, const std::string& path, const gl
     readSensors(sensors, context);
     checkUnusedMedia(root, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
-    if (!integrators.empty()) scene.maxDepth = readMaxDepth(*integrators[0], context);
+    if (!integrators.empty()) {
+        scene.maxDepth = readMaxDepth(*integrators[0], context);
+        scene.hideEmitters = readHideEmitters(*integrators[0], context);
+    }
     checkEmitters(scene);
     return scene;
 }

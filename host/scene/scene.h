@@ -106,7 +106,13 @@ struct PointEmitter {
     std::string id;
     SourceLocation where;
     glm::vec3 position{};
-    Rgb intensity{};                ///< W sr^-1
+    Rgb intensity{}; ///< W sr^-1; of a spot on its axis
+    struct Spot {
+        glm::vec3 axis{}; ///< unit
+        double beamAngle = 0,
+               cutoffAngle = 0; ///< radians: full intensity up to the one, none beyond the other, linear between
+    };
+    std::optional<Spot> spot;
     std::optional<unsigned> medium; ///< in which it stands, as stated, index into Scene::media
 };
 
@@ -204,6 +210,8 @@ struct Scene {
     std::optional<Surroundings> surroundings;
     Sensor sensor;
     std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid
+    bool hideEmitters =
+        false;         ///< the camera looks through emitting shapes and sees no surroundings (Mitsuba's hide_emitters)
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
     SceneSettings settings;
     std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect

@@ -14,7 +14,7 @@ Program& program() {
     static Program built =
         testProgram("emitters.cl", "-DHAS_EMITTER_RECTANGLE -DHAS_EMITTER_TRIANGLES -DHAS_EMITTER_SPHERE "
                                    "-DHAS_EMITTER_POINT -DHAS_EMITTER_DIRECTIONAL -DHAS_EMITTER_CONSTANT "
-                                   "-DHAS_EMITTER_ENVMAP");
+                                   "-DHAS_EMITTER_ENVMAP -DHAS_EMITTER_SPOT");
     return built;
 }
 
@@ -69,6 +69,14 @@ shared::Emitter makeSphere(dvec3 centre, double radius, double normalSign) {
 }
 
 shared::Emitter makePoint(dvec3 position) { return makeEmitter(EMITTER_POINT, position); }
+
+shared::Emitter makeSpot(dvec3 position, dvec3 axis, double beamAngle, double cutoffAngle) {
+    shared::Emitter emitter = makeEmitter(EMITTER_SPOT, position);
+    emitter.normal = pack(glm::normalize(axis));
+    emitter.beamAngle = float(beamAngle);
+    emitter.cutoffAngle = float(cutoffAngle);
+    return emitter;
+}
 
 shared::Emitter makeDirectional(dvec3 direction, dvec3 centre, double radius) {
     shared::Emitter emitter = makeDistant(EMITTER_DIRECTIONAL, centre, radius);

@@ -12,6 +12,8 @@ namespace quasilux {
 shared::Emitter makeRectangle(glm::dvec3 corner, glm::dvec3 edgeU, glm::dvec3 edgeV);
 shared::Emitter makeSphere(glm::dvec3 centre, double radius, double normalSign);
 shared::Emitter makePoint(glm::dvec3 position);
+/// Angles in radians.
+shared::Emitter makeSpot(glm::dvec3 position, glm::dvec3 axis, double beamAngle, double cutoffAngle);
 /// Parallel light of irradiance 1 along `direction` onto a scene within this sphere.
 shared::Emitter makeDirectional(glm::dvec3 direction, glm::dvec3 centre, double radius);
 /// Surroundings of a scene within this sphere.

@@ -36,6 +36,8 @@ shared::Emitter makeEmitter(unsigned type) {
     emitter.radius = radius;
     emitter.normalSign = emitter.selectionProbability = emitter.selectionCdf = 1;
     emitter.normal = {0, 0, -1};
+    emitter.beamAngle = 0.3f;
+    emitter.cutoffAngle = 0.4f;
     if (type == EMITTER_RECTANGLE) {
         emitter.origin = {-0.5f, -0.5f, 1};
         emitter.edgeU = {0, 1, 0};
@@ -74,6 +76,7 @@ std::vector<SamplerSubject<shared::Emitter>> emitterSubjects() {
             {"emitter point", "-DHAS_EMITTER_POINT", makeEmitter(EMITTER_POINT)},
             {"emitter directional", "-DHAS_EMITTER_DIRECTIONAL", makeEmitter(EMITTER_DIRECTIONAL)},
             {"emitter constant", "-DHAS_EMITTER_CONSTANT", makeEmitter(EMITTER_CONSTANT)},
+            {"emitter spot", "-DHAS_EMITTER_SPOT", makeEmitter(EMITTER_SPOT)},
             {"emitter envmap", "-DHAS_EMITTER_ENVMAP", makeEmitter(EMITTER_ENVMAP)}};
 }
 

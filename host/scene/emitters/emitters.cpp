@@ -21,6 +21,7 @@ struct SceneEmitterPlugin {
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"point", readPoint},
+    {"spot", readSpot},
     {"directional", readDirectional},
     {"constant", readConstant},
     {"envmap", readEnvmap},

@@ -18,5 +18,6 @@ void readConstant(Properties& properties);
 void readEnvmap(Properties& properties);
 void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
+void readSpot(Properties& properties);
 
 } // namespace quasilux
