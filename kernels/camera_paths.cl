@@ -50,8 +50,8 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
         surfaceAt(hit, path->ray.origin, path->ray.direction, world->blocks, world->tables, &params->scene);
     if (path->passed == 0) ++path->depth;
     takeEmission(world, path, &s, hit.t, components);
-#if defined(HAS_NULL_PRIMITIVES) || defined(HAS_MEDIA)
-    if (s.isNull) {
+#if defined(HAS_NULL_PRIMITIVES) || defined(HAS_MEDIA) || defined(HAS_HIDDEN_EMITTERS)
+    if (s.isNull || (s.emitter != QL_NONE && looksThroughEmitters(path))) {
         const float tMax = path->ray.tMax;
         path->ray = leavingRay(&s, path->ray.direction);
         path->ray.tMax = tMax - hit.t; /* the far clipping plane stays */

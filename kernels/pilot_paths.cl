@@ -31,6 +31,7 @@ typedef struct {
     float3 from;   /* where the segment began */
     float passed;  /* of the segment, before null surfaces */
     uint medium;
+    int hasScattered;
 } PilotState;
 
 inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
@@ -97,18 +98,15 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
                              const Frame* frame, float3 wo, __global const Lobe* lobes, const LobeChoice* choice) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
+    const EmitterData data = emitterData(world->tables, scene);
     float uSelect = rngNext(&state->rng), probability;
     const uint index = unlearnedLight(world->tables, scene, s->position, &uSelect, &probability);
-    EmitterSample light =
-        emitterSampleDirection(emitters + index, SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles),
-                               s->position, uSelect, rngNext2(&state->rng));
+    EmitterSample light = emitterSampleDirection(emitters + index, &data, s->position, uSelect, rngNext2(&state->rng));
     if (!light.valid) return;
     uint element = 0;
 #ifdef HAS_EMITTER_TRIANGLES
     if (emitters[index].type == EMITTER_TRIANGLES)
-        element = trianglesSelect(emitters + index,
-                                  SCENE_TABLE(world->tables, scene, EmitterTriangle, emitterTriangles), uSelect) -
-                  emitters[index].firstTriangle;
+        element = trianglesSelect(emitters + index, data.triangles, uSelect) - emitters[index].firstTriangle;
 #endif
     light.radianceOverPdf /= probability;
     light.pdfSolidAngle *= probability;
@@ -134,14 +132,17 @@ inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, 
                         float distance, float3 normal, float3 end) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
+    const EmitterData data = emitterData(world->tables, scene);
     const float probability = unlearnedLightProbability(world->tables, scene, state->from, index);
     float share = 1;
     if (state->lobePdf > 0)
-        share = shareOf(state->lobePdf, probability * emitterPdfSolidAngle(emitter, state->from, state->ray.direction,
-                                                                           state->passed + distance, normal));
+        share = shareOf(state->lobePdf,
+                        probability * emitterPdfSolidAngle(emitter, &data, state->from, state->ray.direction,
+                                                           state->passed + distance, normal));
     const int isDirect = state->gathers && state->events == 0;
-    foundEmission(path, state, isDirect, share * meanOf(state->throughput * loadRgb(emitter->radiance)), probability,
-                  index, element, end, state->ray.direction, &state->rng);
+    const float3 radiance = emitterRadiance(emitter, &data, state->ray.direction);
+    foundEmission(path, state, isDirect, share * meanOf(state->throughput * radiance), probability, index, element, end,
+                  state->ray.direction, &state->rng);
 }
 
 inline void noteScattering(PilotState* state, uint scattering, uint bdd) {
@@ -165,6 +166,7 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
     state->lobePdf = lobes[k].scattering == SCATTER_SPECULAR ? 0.f : choice->probability[k] * sample.pdfSolidAngle;
     noteScattering(state, lobes[k].scattering, world->params->bdd);
     state->ray = leavingRay(s, wi);
+    state->hasScattered = 1;
     state->from = s->position;
     state->passed = 0;
 #ifdef HAS_MEDIA
@@ -175,15 +177,25 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
     return 1;
 }
 
+/* As looksThroughEmitters of camera paths. */
+inline int pilotLooksThrough(const PilotState* state) {
+#ifdef HAS_HIDDEN_EMITTERS
+    return !state->hasScattered;
+#else
+    return 0;
+#endif
+}
+
 /* A surface that the path has come to; 0 where it ends. */
 inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* state, Hit hit) {
     const SceneTables* scene = &world->params->scene;
     const Surface s = surfaceAt(hit, state->ray.origin, state->ray.direction, world->blocks, world->tables, scene);
     __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
-    if (s.emitter != QL_NONE && s.front)
+    const int isHidden = s.emitter != QL_NONE && pilotLooksThrough(state);
+    if (s.emitter != QL_NONE && s.front && !isHidden)
         meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
                     hit.t, s.geometricNormal, s.position);
-    if (s.isNull) {
+    if (s.isNull || isHidden) {
         state->ray = leavingRay(&s, state->ray.direction);
         state->passed += max(hit.t, FLT_MIN);
 #ifdef HAS_MEDIA
@@ -226,6 +238,7 @@ inline int collidePilot(const World* world, PilotPath* path, PilotState* state, 
     state->throughput *= sample.weight;
     noteScattering(state, sample.scattering, world->params->bdd);
     state->lobePdf = 0; /* no emitter is sampled at collisions */
+    state->hasScattered = 1;
     state->ray.origin = state->from = position;
     state->ray.direction = sample.direction;
     state->ray.tMin = 0;
@@ -253,7 +266,7 @@ inline int followPilot(const World* world, PilotPath* path, PilotState* state) {
     if (hit.primitive != QL_NONE) return meetPilotSurface(world, path, state, hit);
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
     const uint surroundings = emitterOfSurroundings(emitters, scene->emitterCount);
-    if (surroundings != QL_NONE)
+    if (surroundings != QL_NONE && !pilotLooksThrough(state))
         meetEmitter(world, path, state, surroundings, 0, INFINITY, -state->ray.direction, state->ray.origin);
     return 0;
 }
@@ -279,6 +292,7 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     state.d = state.events = state.vertices = 0;
     state.gathers = 0;
     state.lobePdf = state.passed = 0;
+    state.hasScattered = 0;
     state.medium = params.camera.medium;
 #ifdef HAS_IRRADIANCE_METER
     const MeterPlace place = meterPlace(&params.scene.meter, tables, pixel, rngNext2(&state.rng));
@@ -323,13 +337,13 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
     Rng rng = rngMake(0, 0, STREAM_SPARE, index);
     const float2 spare = rngNext2(&rng);
     __global const Emitter* emitters = SCENE_TABLE(tables, &scene, Emitter, emitters);
-    __global const EmitterTriangle* triangles = SCENE_TABLE(tables, &scene, EmitterTriangle, emitterTriangles);
+    const EmitterData data = emitterData(tables, &scene);
     for (uint k = firstSource(sources, sourceCount, record.emitter);
          k < sourceCount && sources[k].emitter == record.emitter && point.source == QL_NONE; ++k) {
         const float3 position = load3(record.position), direction = load3(record.direction);
         if (!holdsRay(sources + k, emitters + record.emitter, position, direction)) continue;
-        const EmissionNumbers u = invertSource(emitters + record.emitter, triangles, sources + k, record.element,
-                                               position, direction, (float3)(rngNext(&rng), spare));
+        const EmissionNumbers u = invertSource(emitters + record.emitter, &data, sources + k, record.element, position,
+                                               direction, (float3)(rngNext(&rng), spare));
         point.source = k;
         point.numbers[0] = u.part;
         point.numbers[1] = u.position.x;

@@ -198,6 +198,10 @@ typedef struct {
 /* The same radiance from everywhere outside; origin, radius: sphere about the scene; area: of its great disc. At most one,
  * the last of the table. */
 #define EMITTER_CONSTANT 5u
+/* As EMITTER_CONSTANT, but for the radiance, which is that of an EnvironmentMap; radiance: its mean over the sphere; edgeU, edgeV,
+ * normal: the map's own x, y, z in the world, unit. At most one of both. */
+#define EMITTER_ENVMAP 6u
+#define EMITTER_SPOT 7u /* as EMITTER_POINT, but for the intensity, which falls off with the angle to `normal` */
 
 typedef struct {
     unsigned int type;
@@ -213,6 +217,7 @@ typedef struct {
     float selectionCdf;                        /* sum of the probabilities up to and including this emitter; last = 1 */
     unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
     unsigned int medium;                       /* into which it emits: index or MEDIUM_NONE */
+    float beamAngle, cutoffAngle; /* spot: full intensity up to beamAngle, none beyond cutoffAngle, which is larger */
     unsigned int directByPhotons; /* 1: genuine diffuse lobes take its direct light from photons, not by sampling it */
 } Emitter;
 
@@ -220,6 +225,16 @@ typedef struct {
     Packed3 p0, e1, e2; /* the emitting side is the one of cross(e1, e2) */
     float areaCdf;      /* share of the emitter's area up to and including this triangle; last = 1 */
 } EmitterTriangle;
+
+/* Radiance from outside, by direction (kernels/emitters/envmap.clh). The words of its tables follow from here on. */
+#define ENVMAP_BLOCK 64
+typedef struct {
+    unsigned int width, height; /* pixels, at least 1 x 2 */
+    unsigned int texels;        /* Rgb, row by row from its own +y on */
+    /* Floats, sums of probabilities: of the height - 1 rows of cells; in each of them of its width cells; of those every
+     * ENVMAP_BLOCK-th and the last one. */
+    unsigned int rows, columns, blocks;
+} EnvironmentMap;
 
 /* Of a tree over emitters (kernels/light_tree.clh), which lie in its order: of a node of n of them the first child has the first n / 2
  * and follows it, the second one comes 2 (n / 2) nodes after it. */

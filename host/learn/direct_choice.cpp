@@ -184,7 +184,7 @@ DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTab
     unsigned sampled = 0;
     for (size_t e = 0; e < emitters.emitters.size(); ++e) {
         choice.byPhotons[e] =
-            mayUsePhotons && emitters.emitters[e].type == EMITTER_CONSTANT && variance[e] > mostVariance;
+            mayUsePhotons && isSurroundings(emitters.emitters[e]) && variance[e] > mostVariance;
         sampled += !choice.byPhotons[e];
     }
     choice.lightBlockSize = blocks.size;

@@ -51,6 +51,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     }
     features.borders = !borders.segments.empty();
     features.depthLimit = scene.maxDepth >= 0;
+    features.hiddenEmitters = scene.hideEmitters && !isIrradiance(scene.sensor.meter);
     features.orthographicCamera = scene.sensor.orthographic;
     features.filterTable = needsFilterTable(scene.sensor);
     features.radianceMeter = scene.sensor.meter == MeterKind::ray;
@@ -197,6 +198,8 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.mediumPlanes = tables.append(media.planes);
     out.offsets.emitters = tables.append(out.emitters.emitters);
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
+    out.offsets.environment = tables.append(out.emitters.environment);
+    out.emitters.environment = {}; // it is large
     out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
     out.offsets.lightTree = tables.append(out.emitters.lightTree);
     out.offsets.lightTreeCount = out.emitters.countInTree();

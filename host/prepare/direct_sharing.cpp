@@ -11,7 +11,8 @@ constexpr double leastShareOfArea = 0.03;
 
 bool mustShare(const shared::Emitter& emitter) {
     const bool fromWithin = emitter.type == EMITTER_SPHERE && emitter.normalSign < 0; // sampled by area
-    return fromWithin || emitter.type == EMITTER_TRIANGLES || emitter.type == EMITTER_CONSTANT;
+    return fromWithin || emitter.type == EMITTER_TRIANGLES || emitter.type == EMITTER_CONSTANT ||
+           emitter.type == EMITTER_ENVMAP;
 }
 
 bool hasArea(const shared::Emitter& emitter) {

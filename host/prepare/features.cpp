@@ -11,8 +11,8 @@ namespace {
 #define LOBE_NAME(ID, argument) #ID,
 constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
 #undef LOBE_NAME
-constexpr std::array<const char*, 6> emitterNames = {"RECTANGLE", "TRIANGLES",   "SPHERE",
-                                                     "POINT",     "DIRECTIONAL", "CONSTANT"};
+constexpr std::array<const char*, 8> emitterNames = {"RECTANGLE",   "TRIANGLES", "SPHERE", "POINT",
+                                                     "DIRECTIONAL", "CONSTANT",  "ENVMAP", "SPOT"};
 constexpr std::array<const char*, 4> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH", "MIXED"}; // in the order of PHASE_*
 
 std::string lower(std::string text) {
@@ -40,6 +40,7 @@ constexpr std::array flags = {
     Flag{&Features::sharingLambert, "HAS_SHARING_LAMBERT", "diffuse paths that look for emitters"},
     Flag{&Features::sharingMedia, "HAS_SHARING_MEDIA", "paths in media that look for emitters"},
     Flag{&Features::lightTree, "HAS_LIGHT_TREE", "many emitters"},
+    Flag{&Features::hiddenEmitters, "HAS_HIDDEN_EMITTERS", "emitters hidden from the camera"},
     Flag{&Features::directByPhotons, "HAS_DIRECT_BY_PHOTONS", "direct light of some emitters by photons"},
     Flag{&Features::directInMedia, "HAS_DIRECT_IN_MEDIA", "emitters that shine into media"},
 };
@@ -78,6 +79,7 @@ Features Features::generic() {
     for (unsigned type = 0; type < emitterNames.size(); ++type) all.emitterTypes.insert(type);
     for (unsigned type = 0; type < phaseNames.size(); ++type) all.phases.insert(type);
     for (const auto& flag : flags) all.*flag.member = true;
+    all.hiddenEmitters = false;
     all.genuineDiffuse = all.quasiSpecular = all.specular = true;
     all.genuineDiffuseMedia = all.quasiSpecularMedia = true;
     return all;

@@ -1,10 +1,12 @@
 // Emitting shapes, points and surroundings into the emitter table, with selection in proportion to power.
 #include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
+#include "prepare/environment.h"
 #include "prepare/light_tree.h"
 #include "prepare/pack.h"
 #include "scene/color.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace quasilux {
@@ -57,6 +59,12 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
     return emitter;
 }
 
+/// Of its intensity over that on the axis: 2 pi times the integral of min(1, (cutoff - angle) / (cutoff - beam)) sin(angle).
+double solidAngleOf(const PointEmitter::Spot& spot) {
+    const double b = spot.beamAngle, c = spot.cutoffAngle;
+    return 2 * pi * (1 - (std::sin(c) - std::sin(b)) / (c - b));
+}
+
 /// One that shines into the scene from outside of its bounds.
 shared::Emitter distantEmitter(unsigned type, const Rgb& radiance, const Sphere& bounds) {
     shared::Emitter emitter{};
@@ -67,6 +75,18 @@ shared::Emitter distantEmitter(unsigned type, const Rgb& radiance, const Sphere&
     emitter.origin = pack(bounds.center);
     emitter.radius = bounds.radius;
     emitter.area = static_cast<float>(pi * bounds.radius * bounds.radius);
+    return emitter;
+}
+
+/// `words`: of their image, if they have one.
+shared::Emitter surroundings(const Surroundings& from, const Sphere& bounds, std::vector<uint32_t>& words) {
+    if (!from.image) return distantEmitter(EMITTER_CONSTANT, from.radiance, bounds);
+    EnvironmentTable table = makeEnvironmentTable(*from.image);
+    words = std::move(table.words);
+    auto emitter = distantEmitter(EMITTER_ENVMAP, table.meanRadiance, bounds);
+    emitter.edgeU = pack(from.image->axes[0]);
+    emitter.edgeV = pack(from.image->axes[1]);
+    emitter.normal = pack(from.image->axes[2]);
     return emitter;
 }
 
@@ -84,9 +104,9 @@ void addDistantEmitters(const Scene& scene, EmitterTables& tables) {
         add(emitter, emitter.area * mean(light.irradiance), light.id);
     }
     if (scene.surroundings) { // last, where the kernels look for it
-        const auto emitter = distantEmitter(EMITTER_CONSTANT, scene.surroundings->radiance, bounds);
+        const auto emitter = surroundings(*scene.surroundings, bounds, tables.environment);
         // pi L by area on the sphere about the scene is 4 pi^2 R^2 L = 4 pi L times the great disc.
-        add(emitter, 4 * pi * emitter.area * mean(scene.surroundings->radiance), scene.surroundings->id);
+        add(emitter, 4 * pi * emitter.area * mean(emitter.radiance), scene.surroundings->id);
     }
 }
 
@@ -145,8 +165,16 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
         emitter.shape = QL_NONE;
         emitter.radiance = point.intensity;
         emitter.origin = pack(point.position);
+        double solidAngle = 4 * pi;
+        if (point.spot) {
+            emitter.type = EMITTER_SPOT;
+            emitter.normal = pack(point.spot->axis);
+            emitter.beamAngle = static_cast<float>(point.spot->beamAngle);
+            emitter.cutoffAngle = static_cast<float>(point.spot->cutoffAngle);
+            solidAngle = solidAngleOf(*point.spot);
+        }
         tables.emitters.push_back(emitter);
-        tables.power.push_back(4 * pi * mean(point.intensity));
+        tables.power.push_back(solidAngle * mean(point.intensity));
         tables.ids.push_back(point.id);
     }
     sortIntoTree(tables);

@@ -28,8 +28,12 @@ double fluxOf(const EmitterTables& emitters, const shared::GuideSource& source) 
 
 } // namespace
 
+bool isSurroundings(const shared::Emitter& emitter) {
+    return emitter.type == EMITTER_CONSTANT || emitter.type == EMITTER_ENVMAP;
+}
+
 bool isDistant(const shared::Emitter& emitter) {
-    return emitter.type == EMITTER_CONSTANT || emitter.type == EMITTER_DIRECTIONAL;
+    return isSurroundings(emitter) || emitter.type == EMITTER_DIRECTIONAL;
 }
 
 double GuideBox::volume() const {

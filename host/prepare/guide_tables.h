@@ -38,6 +38,8 @@ GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::G
 
 /// Shines into the scene from outside.
 bool isDistant(const shared::Emitter& emitter);
+/// Of radiance from all around.
+bool isSurroundings(const shared::Emitter& emitter);
 
 /// An emitter in its own coordinates; `first`: its first source.
 shared::GuideSource plainSource(unsigned emitter, unsigned first);

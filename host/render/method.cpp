@@ -96,7 +96,8 @@ bool learns(const Features& features, const RenderSettings& settings) {
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings) {
     return settings.direct == DirectLight::emitters && settings.map == MapOrder::photons && !isMeter(features) &&
            !features.media && features.genuineDiffuse && !settings.genericKernels &&
-           settings.emission == Emission::guided && features.emitterTypes.contains(EMITTER_CONSTANT);
+           settings.emission == Emission::guided &&
+           (features.emitterTypes.contains(EMITTER_CONSTANT) || features.emitterTypes.contains(EMITTER_ENVMAP));
 }
 
 bool meterCountsPhotons(const Features& features, const RenderSettings& settings) {
@@ -108,7 +109,10 @@ bool meterCountsCaustics(const Features& features, const RenderSettings& setting
 }
 
 Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings) {
-    return settings.genericKernels ? Features::generic() : scene.features;
+    if (!settings.genericKernels) return scene.features;
+    Features all = Features::generic();
+    all.hiddenEmitters = scene.features.hiddenEmitters; // that is another image, no ability
+    return all;
 }
 
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings) {

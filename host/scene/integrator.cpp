@@ -47,4 +47,13 @@ int readMaxDepth(const Element& element, LoadContext& context) {
     return static_cast<int>(depth);
 }
 
+bool readHideEmitters(const Element& element, LoadContext& context) {
+    Properties properties(element, context);
+    bool inherited = false;
+    const Element* nested = properties.object("integrator");
+    for (const Element& child : element.children)
+        if (&child == nested) inherited = readHideEmitters(child, context);
+    return properties.boolean("hide_emitters", inherited);
+}
+
 } // namespace quasilux

@@ -15,7 +15,7 @@ namespace quasilux {
 struct Image {
     unsigned width = 0, height = 0;
     Texels pixels;
-    unsigned clamped = 0; ///< pixels that were above 1
+    unsigned clamped = 0; ///< pixels that were out of range
 };
 
 struct MeshSource;

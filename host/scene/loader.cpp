@@ -164,7 +164,7 @@ void checkEmitters(const Scene& scene) {
         throw InputError(
             {scene.path},
             "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
-            "<emitter type=\"point\">, <emitter type=\"directional\"> or <emitter type=\"constant\">.");
+            "<emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or <emitter type=\"envmap\">.");
 }
 
 /// The last warnings: what was unknown, and how much of it.
@@ -211,7 +211,10 @@ Scene readScene(const SceneDocument& document, const std::string& path, Unknown 
     checkUnusedMedia(root, context);
     checkUnusedVolumes(root, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
-    if (!integrators.empty()) scene.maxDepth = readMaxDepth(*integrators[0], context);
+    if (!integrators.empty()) {
+        scene.maxDepth = readMaxDepth(*integrators[0], context);
+        scene.hideEmitters = readHideEmitters(*integrators[0], context);
+    }
     checkEmitters(scene);
     listForgiven(context);
     return scene;

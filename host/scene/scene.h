@@ -145,7 +145,13 @@ struct PointEmitter {
     std::string id;
     SourceLocation where;
     glm::vec3 position{};
-    Rgb intensity{};                ///< W sr^-1
+    Rgb intensity{}; ///< W sr^-1; of a spot on its axis
+    struct Spot {
+        glm::vec3 axis{}; ///< unit
+        double beamAngle = 0,
+               cutoffAngle = 0; ///< radians: full intensity up to the one, none beyond the other, linear between
+    };
+    std::optional<Spot> spot;
     std::optional<unsigned> medium; ///< in which it stands, as stated, index into Scene::media
 };
 
@@ -157,11 +163,20 @@ struct DirectionalEmitter {
     Rgb irradiance{};      ///< of a surface across it, W m^-2
 };
 
+/// An image by latitude and longitude (kernels/emitters/envmap.clh).
+struct EnvironmentImage {
+    unsigned width = 0, height = 0; ///< pixels, at least 1 × 2
+    std::vector<Rgb> pixels;        ///< W sr^-1 m^-2, row by row from +y on
+    glm::dmat3 axes{1.0};           ///< its own x, y, z in the world, orthonormal
+};
+
 /// Radiance that comes from everywhere outside of the scene, W sr^-1 m^-2.
-struct ConstantEmitter {
+struct Surroundings {
     std::string id;
     SourceLocation where;
-    Rgb radiance{};
+    std::string plugin;
+    Rgb radiance{}; ///< without an image: the same from everywhere
+    std::optional<EnvironmentImage> image;
 };
 
 /// What a sensor measures that is no camera.
@@ -232,9 +247,11 @@ struct Scene {
     std::vector<MediumDescription> media;
     std::vector<PointEmitter> pointEmitters;
     std::vector<DirectionalEmitter> directionalEmitters;
-    std::optional<ConstantEmitter> surroundings;
+    std::optional<Surroundings> surroundings;
     Sensor sensor;
     std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid
+    bool hideEmitters =
+        false;         ///< the camera looks through emitting shapes and sees no surroundings (Mitsuba's hide_emitters)
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
     SceneSettings settings;
     std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect

@@ -13,7 +13,8 @@ using glm::dvec3;
 Program& program() {
     static Program built =
         testProgram("emitters.cl", "-DHAS_EMITTER_RECTANGLE -DHAS_EMITTER_TRIANGLES -DHAS_EMITTER_SPHERE "
-                                   "-DHAS_EMITTER_POINT -DHAS_EMITTER_DIRECTIONAL -DHAS_EMITTER_CONSTANT");
+                                   "-DHAS_EMITTER_POINT -DHAS_EMITTER_DIRECTIONAL -DHAS_EMITTER_CONSTANT "
+                                   "-DHAS_EMITTER_ENVMAP -DHAS_EMITTER_SPOT");
     return built;
 }
 
@@ -69,6 +70,14 @@ shared::Emitter makeSphere(dvec3 centre, double radius, double normalSign) {
 
 shared::Emitter makePoint(dvec3 position) { return makeEmitter(EMITTER_POINT, position); }
 
+shared::Emitter makeSpot(dvec3 position, dvec3 axis, double beamAngle, double cutoffAngle) {
+    shared::Emitter emitter = makeEmitter(EMITTER_SPOT, position);
+    emitter.normal = pack(glm::normalize(axis));
+    emitter.beamAngle = float(beamAngle);
+    emitter.cutoffAngle = float(cutoffAngle);
+    return emitter;
+}
+
 shared::Emitter makeDirectional(dvec3 direction, dvec3 centre, double radius) {
     shared::Emitter emitter = makeDistant(EMITTER_DIRECTIONAL, centre, radius);
     emitter.normal = pack(glm::normalize(direction));
@@ -76,6 +85,17 @@ shared::Emitter makeDirectional(dvec3 direction, dvec3 centre, double radius) {
 }
 
 shared::Emitter makeConstant(dvec3 centre, double radius) { return makeDistant(EMITTER_CONSTANT, centre, radius); }
+
+std::pair<shared::Emitter, std::vector<uint32_t>> makeEnvmap(const EnvironmentImage& image, dvec3 centre,
+                                                             double radius) {
+    shared::Emitter emitter = makeDistant(EMITTER_ENVMAP, centre, radius);
+    EnvironmentTable table = makeEnvironmentTable(image);
+    emitter.radiance = table.meanRadiance;
+    emitter.edgeU = pack(image.axes[0]);
+    emitter.edgeV = pack(image.axes[1]);
+    emitter.normal = pack(image.axes[2]);
+    return {emitter, std::move(table.words)};
+}
 
 std::pair<shared::Emitter, std::vector<shared::EmitterTriangle>> makeTriangles(const std::vector<TriangleSpec>& specs) {
     shared::Emitter emitter = makeEmitter(EMITTER_TRIANGLES, {});
@@ -116,14 +136,16 @@ EmitterMixture mixedEmitters() {
 
 std::vector<SampledEmitter> sampleDirections(const std::vector<shared::Emitter>& emitters,
                                              const std::vector<shared::EmitterTriangle>& triangles, dvec3 from,
-                                             const std::vector<float>& numbers) {
+                                             const std::vector<float>& numbers,
+                                             const std::vector<uint32_t>& environment) {
     const size_t count = numbers.size() / 3;
+    Buffer<cl_uint> words(testDevice(), environment, "environment");
     Buffer<shared::Emitter> es(testDevice(), emitters, "emitters");
     Buffer<shared::EmitterTriangle> ts(testDevice(), triangles, "triangles");
     Buffer<float> in(testDevice(), numbers, "numbers"), out(testDevice(), 8 * count, "samples");
     program()
         .kernel("sampleDirections")
-        .launch(count, es, ts, cl_uint(emitters.size()), float(from.x), float(from.y), float(from.z), in, out,
+        .launch(count, es, ts, words, cl_uint(emitters.size()), float(from.x), float(from.y), float(from.z), in, out,
                 cl_uint(count));
     const auto values = out.read();
     std::vector<SampledEmitter> samples(count);
@@ -134,13 +156,15 @@ std::vector<SampledEmitter> sampleDirections(const std::vector<shared::Emitter>&
 }
 
 std::vector<double> directionPdfs(const std::vector<shared::Emitter>& emitters, unsigned index, dvec3 from,
-                                  const std::vector<dvec3>& points, const std::vector<dvec3>& normals) {
+                                  const std::vector<dvec3>& points, const std::vector<dvec3>& normals,
+                                  const std::vector<uint32_t>& environment) {
+    Buffer<cl_uint> words(testDevice(), environment, "environment");
     Buffer<shared::Emitter> es(testDevice(), emitters, "emitters");
     Buffer<float> ps(testDevice(), flat(points), "points"), ns(testDevice(), flat(normals), "normals");
     Buffer<float> out(testDevice(), points.size(), "pdfs");
     program()
         .kernel("directionPdfs")
-        .launch(points.size(), es, cl_uint(index), float(from.x), float(from.y), float(from.z), ps, ns, out,
+        .launch(points.size(), es, words, cl_uint(index), float(from.x), float(from.y), float(from.z), ps, ns, out,
                 cl_uint(points.size()));
     const auto values = out.read();
     return {values.begin(), values.end()};
@@ -148,13 +172,17 @@ std::vector<double> directionPdfs(const std::vector<shared::Emitter>& emitters, 
 
 std::vector<EmittedParticle> samplePhotons(const std::vector<shared::Emitter>& emitters,
                                            const std::vector<shared::EmitterTriangle>& triangles,
-                                           const std::vector<float>& numbers) {
+                                           const std::vector<float>& numbers,
+                                           const std::vector<uint32_t>& environment) {
     const size_t count = numbers.size() / 5;
+    Buffer<cl_uint> words(testDevice(), environment, "environment");
     Buffer<shared::Emitter> es(testDevice(), emitters, "emitters");
     Buffer<shared::EmitterTriangle> ts(testDevice(), triangles, "triangles");
     Buffer<float> in(testDevice(), numbers, "numbers"), out(testDevice(), 12 * count, "photons");
     Buffer<cl_uint> chosen(testDevice(), count, "emitter of each photon");
-    program().kernel("samplePhotons").launch(count, es, ts, cl_uint(emitters.size()), in, out, chosen, cl_uint(count));
+    program()
+        .kernel("samplePhotons")
+        .launch(count, es, ts, words, cl_uint(emitters.size()), in, out, chosen, cl_uint(count));
     const auto values = out.read();
     const auto indices = chosen.read();
     std::vector<EmittedParticle> photons(count);
@@ -162,6 +190,30 @@ std::vector<EmittedParticle> samplePhotons(const std::vector<shared::Emitter>& e
         photons[i] = {tripleAt(values, 12 * i), tripleAt(values, 12 * i + 3), tripleAt(values, 12 * i + 6),
                       tripleAt(values, 12 * i + 9), indices[i]};
     return photons;
+}
+
+std::vector<dvec3> radiances(const shared::Emitter& emitter, const std::vector<dvec3>& directions,
+                             const std::vector<uint32_t>& environment) {
+    Buffer<shared::Emitter> es(testDevice(), {emitter}, "emitter");
+    Buffer<cl_uint> words(testDevice(), environment, "environment");
+    Buffer<float> in(testDevice(), flat(directions), "directions"),
+        out(testDevice(), 3 * directions.size(), "radiances");
+    program().kernel("radiances").launch(directions.size(), es, words, in, out, cl_uint(directions.size()));
+    const auto values = out.read();
+    std::vector<dvec3> result;
+    for (size_t i = 0; i < directions.size(); ++i) result.push_back(tripleAt(values, 3 * i));
+    return result;
+}
+
+std::vector<float> invertedNumbers(const shared::Emitter& emitter, const std::vector<float>& numbers,
+                                   const std::vector<uint32_t>& environment) {
+    const size_t count = numbers.size() / 5;
+    Buffer<shared::Emitter> es(testDevice(), {emitter}, "emitter");
+    Buffer<shared::EmitterTriangle> ts(testDevice(), 1, "triangles");
+    Buffer<cl_uint> words(testDevice(), environment, "environment");
+    Buffer<float> in(testDevice(), numbers, "numbers"), out(testDevice(), numbers.size(), "inverted");
+    program().kernel("invertPhotons").launch(count, es, ts, words, in, out, cl_uint(count));
+    return out.read();
 }
 
 } // namespace quasilux

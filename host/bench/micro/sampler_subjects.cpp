@@ -36,6 +36,8 @@ shared::Emitter makeEmitter(unsigned type) {
     emitter.radius = radius;
     emitter.normalSign = emitter.selectionProbability = emitter.selectionCdf = 1;
     emitter.normal = {0, 0, -1};
+    emitter.beamAngle = 0.3f;
+    emitter.cutoffAngle = 0.4f;
     if (type == EMITTER_RECTANGLE) {
         emitter.origin = {-0.5f, -0.5f, 1};
         emitter.edgeU = {0, 1, 0};
@@ -45,6 +47,11 @@ shared::Emitter makeEmitter(unsigned type) {
         emitter.area = 0.5f;
         emitter.triangleCount = 1;
     } else {
+        if (type == EMITTER_ENVMAP) {
+            emitter.edgeU = {1, 0, 0};
+            emitter.edgeV = {0, 1, 0};
+            emitter.normal = {0, 0, 1};
+        }
         emitter.origin = {0, 0, 4};
         emitter.area = type == EMITTER_SPHERE ? 4 * pi * radius * radius : pi * radius * radius;
     }
@@ -68,10 +75,19 @@ std::vector<SamplerSubject<shared::Emitter>> emitterSubjects() {
             {"emitter sphere", "-DHAS_EMITTER_SPHERE", makeEmitter(EMITTER_SPHERE)},
             {"emitter point", "-DHAS_EMITTER_POINT", makeEmitter(EMITTER_POINT)},
             {"emitter directional", "-DHAS_EMITTER_DIRECTIONAL", makeEmitter(EMITTER_DIRECTIONAL)},
-            {"emitter constant", "-DHAS_EMITTER_CONSTANT", makeEmitter(EMITTER_CONSTANT)}};
+            {"emitter constant", "-DHAS_EMITTER_CONSTANT", makeEmitter(EMITTER_CONSTANT)},
+            {"emitter spot", "-DHAS_EMITTER_SPOT", makeEmitter(EMITTER_SPOT)},
+            {"emitter envmap", "-DHAS_EMITTER_ENVMAP", makeEmitter(EMITTER_ENVMAP)}};
 }
 
 shared::EmitterTriangle emitterTriangle() { return {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1}; }
+
+EnvironmentTable emitterEnvironment() {
+    EnvironmentImage image{1024, 512, {}, glm::dmat3(1)};
+    for (unsigned k = 0; k < image.width * image.height; ++k)
+        image.pixels.push_back(k % 101 == 0 ? shared::Rgb{100, 100, 100} : shared::Rgb{1, 1, 1});
+    return makeEnvironmentTable(image);
+}
 
 std::vector<SamplerSubject<shared::Medium>> phaseSubjects() {
     std::vector<SamplerSubject<shared::Medium>> subjects{{"phase isotropic", "-DHAS_PHASE_ISOTROPIC", {}},

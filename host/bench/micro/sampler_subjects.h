@@ -1,7 +1,7 @@
 // A typical lobe, emitter and phase function of every kind.
 #pragma once
 
-#include "shared_types.h"
+#include "prepare/environment.h"
 
 #include <string>
 #include <vector>
@@ -16,9 +16,11 @@ struct SamplerSubject {
 };
 
 std::vector<SamplerSubject<shared::Lobe>> lobeSubjects();
-/// They shine on what lies below z = 0. A mesh's triangle is that of emitterTriangle().
+/// They shine on what lies below z = 0. A mesh's triangle is that of emitterTriangle(), an environment map's tables those of
+/// emitterEnvironment().
 std::vector<SamplerSubject<shared::Emitter>> emitterSubjects();
 shared::EmitterTriangle emitterTriangle();
+EnvironmentTable emitterEnvironment();
 std::vector<SamplerSubject<shared::Medium>> phaseSubjects();
 
 } // namespace quasilux

@@ -22,8 +22,10 @@ struct SceneEmitterPlugin {
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"point", readPoint},
+    {"spot", readSpot},
     {"directional", readDirectional},
     {"constant", readConstant},
+    {"envmap", readEnvmap},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {
@@ -59,6 +61,21 @@ bool leavesOutEmitter(const Element& element, LoadContext& context) {
         return false;
     context.refuseUnknown(element.where, fmt::format("unknown emitter plugin '{}'.", element.get("type")), "left out");
     return true;
+}
+
+Surroundings& addSurroundings(Properties& properties) {
+    auto& surroundings = properties.context().scene.surroundings;
+    const Element& element = properties.element();
+    if (surroundings)
+        throw InputError(
+            element.where,
+            fmt::format("a second emitter all around the scene, after the emitter '{}' of line {}; keep one.",
+                        surroundings->plugin, surroundings->where.line));
+    surroundings.emplace();
+    surroundings->id = idOf(element);
+    surroundings->where = element.where;
+    surroundings->plugin = properties.plugin();
+    return *surroundings;
 }
 
 AreaEmitter readShapeEmitter(const Element& element, LoadContext& context) {

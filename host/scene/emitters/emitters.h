@@ -14,9 +14,14 @@ AreaEmitter readShapeEmitter(const Element& element, LoadContext& context);
 /// An emitter of its own, directly in the scene; it is added to context.scene.
 void readSceneEmitter(const Element& element, LoadContext& context);
 
+/// The scene's surroundings, still without radiance. Throws InputError where it has some already.
+Surroundings& addSurroundings(Properties& properties);
+
 AreaEmitter readArea(Properties& properties);
 void readConstant(Properties& properties);
+void readEnvmap(Properties& properties);
 void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
+void readSpot(Properties& properties);
 
 } // namespace quasilux

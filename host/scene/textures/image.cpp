@@ -5,6 +5,7 @@
 #include <OpenImageIO/imageio.h>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <sstream>
 
 namespace quasilux {
@@ -22,9 +23,16 @@ float decodeSrgb(float encoded) {
     throw InputError(where, fmt::format("cannot read the image '{}': {}", path, why));
 }
 
-} // namespace
+// What values of pixels may be.
+struct Range {
+    float least, most;  // beyond them a value is moved to the nearest one
+    bool mayBeNegative; // or else that is an error
+    const char* rule;
+};
+constexpr Range reflectances{0, 1, false, "reflectances lie within [0, 1]"};
+constexpr Range radiances{0, std::numeric_limits<float>::max(), true, "radiance is a finite number"};
 
-Image readImage(const std::string& path, bool raw, const SourceLocation& where) {
+Image readWithin(const Range& range, const std::string& path, bool raw, const SourceLocation& where) {
     readFile(path, where, "image"); // says what is wrong with the name
     OIIO::ImageSpec asStored;
     asStored["oiio:UnassociatedAlpha"] = 1; // colours are not to be multiplied by an alpha that is left out
@@ -51,22 +59,32 @@ Image readImage(const std::string& path, bool raw, const SourceLocation& where) 
     pixels.reserve(static_cast<size_t>(count));
     for (size_t i = 0; i < values.size(); i += step) {
         float pixel[3] = {values[i], values[i + green], values[i + blue]};
-        bool above = false;
+        bool beyond = false;
         for (float& value : pixel) {
-            if (!(value >= 0) || !std::isfinite(value))
+            if (!std::isfinite(value) || (value < 0 && !range.mayBeNegative))
                 failImage(path,
-                          fmt::format("pixel {}, {} has the value {}; reflectances lie within [0, 1].",
-                                      i / step % image.width, i / step / image.width, value),
+                          fmt::format("pixel {}, {} has the value {}; {}.", i / step % image.width,
+                                      i / step / image.width, value, range.rule),
                           where);
             if (encoded) value = decodeSrgb(value);
-            above |= value > 1;
-            value = std::min(value, 1.f);
+            beyond |= value < range.least || value > range.most;
+            value = std::min(std::max(value, range.least), range.most);
         }
-        image.clamped += above;
+        image.clamped += beyond;
         pixels.push_back({pixel[0], pixel[1], pixel[2]});
     }
     image.pixels = std::move(pixels);
     return image;
+}
+
+} // namespace
+
+Image readImage(const std::string& path, bool raw, const SourceLocation& where) {
+    return readWithin(reflectances, path, raw, where);
+}
+
+Image readRadianceImage(const std::string& path, const SourceLocation& where) {
+    return readWithin(radiances, path, false, where);
 }
 
 } // namespace quasilux

@@ -1,0 +1,131 @@
+#include "prepare/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace quasilux {
+
+namespace {
+
+using std::numbers::pi;
+
+// Share of directions that are even over rows, and over the cells of a row, whatever their radiance: or else a dim pixel beside a
+// bright one had a probability below the step of random numbers.
+constexpr double evenShare = 1.0 / 256;
+constexpr double steps = 1 << 24; // of random numbers in [0,1)
+
+// Sums of probabilities in proportion to `weights`, in steps of random numbers.
+void addSums(const std::vector<double>& weights, std::vector<float>& sums) {
+    double all = 0, below = 0;
+    for (const double weight : weights) all += weight;
+    const double even = (all > 0 ? evenShare : 1) / static_cast<double>(weights.size());
+    const double scale = all > 0 ? (1 - evenShare) / all : 0;
+    for (const double weight : weights) {
+        below += scale * weight + even;
+        sums.push_back(static_cast<float>(std::min(std::round(below * steps) / steps, 1.0)));
+    }
+    sums.back() = 1;
+}
+
+float brightness(const Rgb& color) { return color.r + color.g + color.b; }
+
+// envmapWeight of the kernels.
+std::vector<float> weightsOfRow(const EnvironmentImage& image, unsigned row) {
+    const auto at = [&](unsigned column, unsigned r) {
+        return brightness(image.pixels[size_t(r) * image.width + column]);
+    };
+    std::vector<float> weights(image.width);
+    for (unsigned column = 0; column < image.width; ++column) weights[column] = at(column, row);
+    if (row > 0 && row + 1 < image.height) return weights;
+    const unsigned next = row == 0 ? 1 : row - 1;
+    for (unsigned column = 0; column < image.width; ++column)
+        weights[column] = std::max(weights[column], at(column, next));
+    return weights;
+}
+
+struct Probabilities {
+    std::vector<float> rows, columns, blocks; // as shared::EnvironmentMap has them
+};
+
+Probabilities probabilitiesOf(const EnvironmentImage& image) {
+    Probabilities found;
+    found.columns.reserve(size_t(image.height - 1) * image.width);
+    std::vector<double> cells(image.width), rows;
+    auto upper = weightsOfRow(image, 0);
+    for (unsigned row = 0; row + 1 < image.height; ++row) {
+        auto lower = weightsOfRow(image, row + 1);
+        double all = 0;
+        for (unsigned column = 0; column < image.width; ++column) {
+            const unsigned next = column + 1 == image.width ? 0 : column + 1;
+            cells[column] = double(upper[column]) + upper[next] + lower[column] + lower[next];
+            all += cells[column];
+        }
+        const size_t first = found.columns.size();
+        addSums(cells, found.columns);
+        for (size_t end = first + ENVMAP_BLOCK;; end += ENVMAP_BLOCK) {
+            found.blocks.push_back(found.columns[std::min(end, found.columns.size()) - 1]);
+            if (end >= found.columns.size()) break;
+        }
+        rows.push_back(all *
+                       std::sin(pi * (row + 0.5) / (image.height - 1))); // in proportion to the difference of cosines
+        upper = std::move(lower);
+    }
+    addSums(rows, found.rows);
+    return found;
+}
+
+// Over the sphere, of the image as it is looked up: linear in the angle between rows.
+Rgb meanRadiance(const EnvironmentImage& image) {
+    const double step = pi / (image.height - 1);
+    std::vector<double> weights(image.height);
+    for (unsigned row = 0; row + 1 < image.height; ++row) {
+        const double a = row * step, b = (row + 1) * step, all = std::cos(a) - std::cos(b);
+        const double lower =
+            (std::sin(b) - std::sin(a)) / step - std::cos(b); // integral of sin weighted by (angle - a) / step
+        weights[row] += all - lower;
+        weights[row + 1] += lower;
+    }
+    double sum[3] = {0, 0, 0};
+    for (unsigned row = 0; row < image.height; ++row) {
+        double ofRow[3] = {0, 0, 0};
+        for (unsigned column = 0; column < image.width; ++column) {
+            const Rgb& pixel = image.pixels[size_t(row) * image.width + column];
+            ofRow[0] += pixel.r;
+            ofRow[1] += pixel.g;
+            ofRow[2] += pixel.b;
+        }
+        for (int c = 0; c < 3; ++c) sum[c] += weights[row] * ofRow[c] / (2.0 * image.width);
+    }
+    return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
+}
+
+template <typename T>
+unsigned append(const std::vector<T>& records, std::vector<uint32_t>& words) {
+    const auto first = static_cast<unsigned>(words.size());
+    words.resize(first + records.size() * sizeof(T) / sizeof(uint32_t));
+    std::memcpy(words.data() + first, records.data(), records.size() * sizeof(T));
+    return first;
+}
+
+} // namespace
+
+EnvironmentTable makeEnvironmentTable(const EnvironmentImage& image) {
+    EnvironmentTable table;
+    const Probabilities probabilities = probabilitiesOf(image);
+    constexpr size_t headWords = sizeof(shared::EnvironmentMap) / sizeof(uint32_t);
+    table.words.reserve(headWords + 3 * image.pixels.size() + probabilities.rows.size() + probabilities.columns.size() +
+                        probabilities.blocks.size());
+    table.words.resize(headWords);
+    shared::EnvironmentMap head{image.width, image.height, 0, 0, 0, 0};
+    head.texels = append(image.pixels, table.words);
+    head.rows = append(probabilities.rows, table.words);
+    head.columns = append(probabilities.columns, table.words);
+    head.blocks = append(probabilities.blocks, table.words);
+    std::memcpy(table.words.data(), &head, sizeof head);
+    table.meanRadiance = meanRadiance(image);
+    return table;
+}
+
+} // namespace quasilux

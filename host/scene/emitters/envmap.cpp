@@ -1,0 +1,69 @@
+// <emitter type="envmap">: radiance from outside of the scene by an image of latitude and longitude.
+#include "scene/emitters/emitters.h"
+#include "scene/textures/texture_plugin.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+// Sums of probabilities are multiples of 2^-24, and each pixel of a row or column is to have some (host/prepare/environment.cpp).
+constexpr unsigned longestSide = 32768;
+// Of a matrix from a turn or a mirroring: digits that a file leaves out.
+constexpr double looseness = 1e-3;
+
+// The nearest axes at right angles, or InputError where they are not nearly.
+glm::dmat3 readAxes(Properties& properties) {
+    const glm::dmat3 given(properties.transform("to_world"));
+    const glm::dmat3 product = glm::transpose(given) * given;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (std::abs(product[column][row] - (column == row ? 1 : 0)) > looseness)
+                throw InputError(
+                    properties.where("to_world"),
+                    "the to_world of an emitter 'envmap' may turn and mirror it, not scale or shear it: the "
+                    "surroundings are infinitely far away. Remove <scale> from it.");
+    const glm::dvec3 x = glm::normalize(given[0]), y = glm::normalize(given[1] - glm::dot(given[1], x) * x);
+    const glm::dvec3 z = glm::cross(x, y);
+    return {x, y, glm::dot(z, given[2]) < 0 ? -z : z};
+}
+
+} // namespace
+
+void readEnvmap(Properties& properties) {
+    Surroundings& surroundings = addSurroundings(properties);
+    const std::string name = properties.string("filename", "");
+    const SourceLocation where = properties.where("filename");
+    if (name.empty())
+        throw InputError(where,
+                         fmt::format("{} needs <string name=\"filename\" value=\"…\"/>.", properties.describe()));
+    const auto scale = static_cast<float>(properties.numberAbove("scale", 1, 0, true));
+    properties.accept({"mis_compensation"});
+    EnvironmentImage image;
+    image.axes = readAxes(properties);
+
+    const std::string path = properties.context().files.resolve(name, where);
+    const Image read = readRadianceImage(path, where);
+    if (read.height < 2 || std::max(read.width, read.height) > longestSide)
+        throw InputError(where,
+                         fmt::format("the image '{}' has {} x {} pixels; an environment map has at least two rows, "
+                                     "and at most {} pixels on a side.",
+                                     path, read.width, read.height, longestSide));
+    if (read.clamped > 0)
+        properties.context().warn(where, fmt::format("{} of the {} pixels of '{}' are negative and are taken as 0.",
+                                                     read.clamped, read.pixels.size(), name));
+    image.pixels = read.pixels;
+    bool isBlack = true;
+    for (Rgb& pixel : image.pixels) {
+        pixel = pixel * scale;
+        isBlack = isBlack && quasilux::isBlack(pixel);
+    }
+    if (isBlack)
+        throw InputError(where, fmt::format("the image '{}' is black, so it emits nothing; remove the emitter.", path));
+    image.width = read.width;
+    image.height = read.height;
+    surroundings.image = std::move(image);
+}
+
+} // namespace quasilux
