@@ -295,8 +295,26 @@ const BadBody badBodies[] = {
      "<sensor type=\"perspective\">\n<string name=\"focal_length\" value=\"wide\"/></sensor>",
      {"scene.xml:5:1: parameter 'focal_length'", "'wide' is not a number"}},
     {"PrincipalPoint",
-     "<sensor type=\"perspective\">\n<float name=\"principal_point_offset_x\" value=\"0.1\"/></sensor>",
-     {"scene.xml:5:1: parameter 'principal_point_offset_x'", "not supported"}},
+     "<sensor type=\"thinlens\"><float name=\"aperture_radius\" value=\"1\"/>\n<float "
+     "name=\"principal_point_offset_x\" value=\"0.1\"/></sensor>",
+     {"scene.xml:5:1:", "'principal_point_offset_x'"}},
+    {"LensWithoutAperture",
+     "<sensor type=\"thinlens\"/>",
+     {"scene.xml:4:1: sensor 'thinlens' needs <float name=\"aperture_radius\""}},
+    {"LensWithNegativeAperture",
+     "<sensor type=\"thinlens\">\n<float name=\"aperture_radius\" value=\"-1\"/></sensor>",
+     {"scene.xml:5:1: parameter 'aperture_radius' of sensor 'thinlens' is -1; it must be at least 0"}},
+    {"FocusAtTheLens",
+     "<sensor type=\"thinlens\"><float name=\"aperture_radius\" value=\"1\"/>\n<float name=\"focus_distance\" "
+     "value=\"0\"/></sensor>",
+     {"scene.xml:5:1: parameter 'focus_distance' of sensor 'thinlens' is 0; it must be greater than 0"}},
+    {"LensWithScale",
+     "<sensor type=\"thinlens\"><float name=\"aperture_radius\" value=\"1\"/>\n<transform name=\"to_world\"><scale "
+     "value=\"2\"/></transform></sensor>",
+     {"scene.xml:5:1: to_world of the sensor scales"}},
+    {"SpectralResponse",
+     "<sensor type=\"perspective\">\n<spectrum name=\"srf\" value=\"1\"/></sensor>",
+     {"scene.xml:5:1: parameter 'srf'", "remove it"}},
     {"Clip",
      "<sensor type=\"perspective\"><float name=\"near_clip\" value=\"5\"/>\n<float name=\"far_clip\" "
      "value=\"5\"/></sensor>",

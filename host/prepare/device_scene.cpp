@@ -51,6 +51,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     features.borders = !borders.segments.empty();
     features.depthLimit = scene.maxDepth >= 0;
     features.orthographicCamera = scene.sensor.orthographic;
+    features.thinLens = scene.sensor.apertureRadius > 0;
     features.filterTable = needsFilterTable(scene.sensor);
     features.radianceMeter = scene.sensor.meter == MeterKind::ray;
     features.irradianceMeter = isIrradiance(scene.sensor.meter);

@@ -17,9 +17,8 @@ struct SensorPlugin {
     bool isOnShape;
 };
 constexpr SensorPlugin sensorPlugins[] = {
-    {"perspective", readPerspective, true, false},
-    {"orthographic", readOrthographic, true, false},
-    {"radiancemeter", readRadiancemeter, false, false},
+    {"perspective", readPerspective, true, false},         {"thinlens", readThinLens, true, false},
+    {"orthographic", readOrthographic, true, false},       {"radiancemeter", readRadiancemeter, false, false},
     {"irradiancemeter", readIrradiancemeter, false, true},
 };
 
@@ -60,6 +59,10 @@ Sensor readSensor(const Element& element, LoadContext& context, std::optional<un
     }
     if (const Element* medium = properties.object("medium")) sensor.medium = useMedium(*medium, context);
     plugin.read(properties, sensor);
+    properties.accept({"shutter_open", "shutter_close"}); // nothing moves
+    if (properties.find("srf") || properties.texture("srf"))
+        throw InputError(properties.where("srf"), "parameter 'srf': light is linear RGB here, so that a sensor has no "
+                                                  "spectral response; remove it.");
     properties.finish();
     return sensor;
 }
