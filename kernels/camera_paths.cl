@@ -123,6 +123,9 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     path.roulette.survival = 1;
 #endif
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
+#ifdef HAS_DEPTH_LIMIT
+    if (params->maxDepth == 0) return -1; /* not even emitters are seen */
+#endif
 #ifdef HAS_IRRADIANCE_METER
     const MeterSequence sequence = {index % pathsPerPixel(params), pathsPerPixel(params),
                                     rngMake(seed, params->pass, STREAM_PIXEL, pixel).key};

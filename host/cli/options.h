@@ -17,6 +17,7 @@ namespace quasilux {
 /// What render and info share: a scene, the device, and settings that override those of the scene.
 struct SceneOptions {
     std::string scene;
+    std::string sensor;                   ///< its number or id; empty: the first one; render: or "all"
     std::vector<std::string> definitions; ///< "name=value"
     std::optional<unsigned> bdd, photons, cameraPaths;
     std::optional<uint64_t> seed;
@@ -45,6 +46,8 @@ struct RenderOptions : SceneOptions {
 
     /// `output`, or the scene's stem with .exr in the current folder; empty where only the grid is asked for.
     std::string outputPath() const;
+    /// For sensor number `index` of several: the files' names end with _0, _1 …
+    RenderOptions forSensor(size_t index) const;
 };
 
 struct Options {

@@ -166,7 +166,7 @@ void warnOfRarePhotons(const RenderOptions& options, const RenderRecord& record)
                               100 * learned.lightOfPhotons, effective));
 }
 
-RenderRecord makeRecord(const RenderOptions& options, Device& device, const AutoRender& render, MeterKind meter) {
+RenderRecord makeRecord(const RenderOptions& options, Device& device, const AutoRender& render, const Sensor& sensor) {
     RenderRecord record;
     record.scene = std::filesystem::path(options.scene).filename().string();
     record.settings = render.settings;
@@ -178,7 +178,8 @@ RenderRecord makeRecord(const RenderOptions& options, Device& device, const Auto
     record.gathered = render.gathered;
     record.search = render.search;
     record.error = estimateError(render.image);
-    record.meter = meter;
+    record.meter = sensor.meter;
+    record.pixelFormat = sensor.pixelFormat;
     record.kernels = device.timings();
     record.peakBufferBytes = render.peakBufferBytes;
     record.peakHostBytes = peakResidentBytes();
@@ -188,13 +189,15 @@ RenderRecord makeRecord(const RenderOptions& options, Device& device, const Auto
 
 } // namespace
 
-int renderCommand(const RenderOptions& options) {
+namespace {
+
+int renderSensor(const RenderOptions& options) {
     exitOnInterrupt();
     checkOutputs(options);
     ProgressLine progress(stderr, !options.quiet);
     progress.update({.phase = "loading"});
     const auto start = Clock::now();
-    Scene scene = loadScene(options.scene, options.parameters());
+    Scene scene = loadScene(options.scene, options.parameters(), options.sensor);
     if (!options.grid.empty()) measureGrid(scene);
     const double loadSeconds = secondsSince(start);
     progress.clear();
@@ -230,7 +233,7 @@ int renderCommand(const RenderOptions& options) {
     }
 
     progress.update({.phase = "writing"});
-    RenderRecord record = makeRecord(options, device, render, scene.sensor.meter);
+    RenderRecord record = makeRecord(options, device, render, scene.sensor);
     record.loadSeconds = loadSeconds;
     const WrittenFiles written = writeFiles(options, scene, image, record);
     progress.clear();
@@ -240,6 +243,19 @@ int renderCommand(const RenderOptions& options) {
         printJsonSummary(record, image, written);
     else if (!options.quiet)
         printSummary(record, image, written);
+    return 0;
+}
+
+} // namespace
+
+int renderCommand(const RenderOptions& options) {
+    if (options.sensor != "all") return renderSensor(options);
+    if (!options.grid.empty())
+        throw InputError({options.scene}, "--grid measures the illuminance-grid instead of a sensor; give it without "
+                                          "--sensor all.");
+    const size_t count = loadScene(options.scene, options.parameters(), "0").sensorCount;
+    for (size_t index = 0; index < count; ++index)
+        if (const int code = renderSensor(options.forSensor(index)); code != 0 || interruptFlag()) return code;
     return 0;
 }
 

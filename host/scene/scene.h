@@ -186,6 +186,26 @@ struct SceneSettings {
     std::optional<std::string> units; ///< of radiance and intensity: "radiometric" (default), "photometric"
 };
 
+/// What a layer of integrator 'aov' shows of the surface that a pixel's rays meet first.
+enum class AovQuantity {
+    albedo,
+    depth,
+    position,
+    uv,
+    geo_normal,
+    sh_normal,
+    dp_du,
+    dp_dv,
+    duv_dx,
+    duv_dy,
+    prim_index,
+    shape_index
+};
+struct AovLayer {
+    std::string name; ///< of its channels, before the dot
+    AovQuantity quantity;
+};
+
 struct Scene {
     std::string path;
     glm::dvec3 origin{0}; ///< coordinates here are those of the file less this (host/scene/origin.h)
@@ -196,16 +216,22 @@ struct Scene {
     std::vector<PointEmitter> pointEmitters;
     std::vector<DirectionalEmitter> directionalEmitters;
     std::optional<ConstantEmitter> surroundings;
-    Sensor sensor;
+    Sensor sensor;                       ///< the one that is rendered
+    size_t sensorCount = 0;              ///< in the file
     std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
+    std::vector<AovLayer> aovs; ///< that the integrator asks for
     SceneSettings settings;
     std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
+    std::vector<std::string>
+        withoutEffect; ///< parameters that are given and accepted without effect and without a warning
 };
 
 /// Loads a Mitsuba 3 scene (docs/reference/scene-language.md). Throws InputError at file:line:column.
-/// `parameters` replace `<default>` values, as `-D name=value` does.
-Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {});
+/// `parameters` replace `<default>` values, as `-D name=value` does. `sensor` is the number, in the order of the file from 0 on, or the
+/// id of the sensor that is rendered; empty: the first one.
+Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {},
+                const std::string& sensor = {});
 
 /// Makes the grid of the scene its sensor. Throws InputError where the scene has none.
 void measureGrid(Scene& scene);

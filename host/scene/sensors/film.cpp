@@ -65,6 +65,7 @@ void readFileFormats(Properties& properties, LoadContext& context) {
         context.warn(properties.where("file_format"),
                      fmt::format("file_format '{}': images are written as OpenEXR.", file));
     readChoice(properties, "component_format", "float16", {"float16", "float32", "uint32"});
+    properties.accept({"component_format"});
 }
 
 } // namespace
@@ -88,6 +89,7 @@ void readFilm(const Element& element, LoadContext& context, Sensor& sensor) {
     readFilter(properties.object("rfilter"), context, sensor);
     sensor.filterEnds = !properties.boolean("sample_border", true);
     sensor.pixelFormat = readPixelFormat(properties);
+    if (sensor.pixelFormat.alpha) context.warn(properties.where("pixel_format"), "pixel_format: alpha is not written.");
     readFileFormats(properties, context);
     properties.accept({"banner", "high_quality_edges", "compensate"});
     properties.finish();

@@ -22,8 +22,19 @@ constexpr SensorPlugin sensorPlugins[] = {
     {"irradiancemeter", readIrradiancemeter, false, true},
 };
 
+struct RefusedSensor {
+    std::string_view name, why;
+};
+constexpr RefusedSensor refusedSensors[] = {
+    {"batch", "put its sensors into the <scene> themselves and render them with --sensor all"},
+    {"distant", "use sensor 'orthographic', whose rays are parallel too, or 'radiancemeter' for a single ray"},
+};
+
 const SensorPlugin& findPlugin(const Element& element) {
     const std::string& plugin = element.get("type");
+    for (const RefusedSensor& refused : refusedSensors)
+        if (refused.name == plugin)
+            throw InputError(element.where, fmt::format("sensor '{}' is not supported; {}.", plugin, refused.why));
     Names known;
     for (const SensorPlugin& entry : sensorPlugins) {
         if (entry.name == plugin) return entry;
@@ -73,6 +84,7 @@ void readSampler(const Element& element, LoadContext& context) {
     if (std::find(known.begin(), known.end(), properties.plugin()) == known.end())
         throw InputError(element.where, fmt::format("unknown sampler plugin '{}'.{}", properties.plugin(),
                                                     knownNames(properties.plugin(), known)));
+    properties.acceptAll();
 }
 
 } // namespace quasilux
