@@ -233,8 +233,7 @@ TEST(Integrator, DepthLimit) {
     ASSERT_EQ(scene.aovs.size(), 1u);
     EXPECT_EQ(scene.aovs[0].name, "dd.y");
     EXPECT_EQ(scene.aovs[0].quantity, AovQuantity::depth);
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_THAT(scene.warnings[0], testing::HasSubstr("scene.xml:4:1: integrator 'aov'"));
+    EXPECT_TRUE(scene.warnings.empty());
     EXPECT_THAT(load(R"(<integrator type="moment"><integrator type="path"/></integrator>)").warnings[0],
                 testing::HasSubstr("stderr.R"));
 }

@@ -13,6 +13,7 @@
 #include "output/statistics.h"
 #include "util/process_memory.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -38,6 +39,9 @@ void checkOutputs(const RenderOptions& options) {
     if (!options.stats.empty()) checkOutputPath(options.stats, "--stats", ".json");
 }
 
+// As many as passes, whose places in the pixel they take; more would hardly change what is met first.
+unsigned samplesOfAovs(unsigned passes) { return std::min(passes, 256u); }
+
 // Photons of caustics that a pixel of a meter needs for its standard error to mean anything.
 constexpr uint64_t causticsPerPixel = 30;
 
@@ -46,11 +50,11 @@ void warn(const RenderOptions& options, const std::string& message) {
 }
 
 WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
-                        RenderRecord& record) {
+                        const std::vector<AovImage>& aovs, RenderRecord& record) {
     const auto start = Clock::now();
     WrittenFiles written;
     if (const std::string path = options.outputPath(); !path.empty()) {
-        writeExr(path, image, record);
+        writeExr(path, image, record, aovs);
         written.paths.push_back(path);
     }
     if (!options.grid.empty()) {
@@ -235,7 +239,8 @@ int renderSensor(const RenderOptions& options) {
     progress.update({.phase = "writing"});
     RenderRecord record = makeRecord(options, device, render, scene.sensor);
     record.loadSeconds = loadSeconds;
-    const WrittenFiles written = writeFiles(options, scene, image, record);
+    const WrittenFiles written = writeFiles(
+        options, scene, image, renderAovs(device, scene, render.settings, samplesOfAovs(image.passes)), record);
     progress.clear();
     warnOfCounters(options, record.counters, uint64_t(image.width) * image.height);
     warnOfRarePhotons(options, record);

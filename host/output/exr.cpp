@@ -44,7 +44,7 @@ struct OtherTerms {
     std::vector<float> luminance, xyz;
 };
 
-std::vector<Layer> layersOf(const FilmImage& image, const OtherTerms& terms) {
+std::vector<Layer> layersOf(const FilmImage& image, const OtherTerms& terms, const std::vector<AovImage>& aovs) {
     std::vector<Layer> layers{colors("", image.radiance)};
     if (!terms.luminance.empty()) layers.push_back({{"Y"}, &terms.luminance});
     if (!terms.xyz.empty()) layers.push_back({{"X", "Y", "Z"}, &terms.xyz});
@@ -55,6 +55,7 @@ std::vector<Layer> layersOf(const FilmImage& image, const OtherTerms& terms) {
         layers.push_back(colors("bias.", image.bias));
         layers.push_back(colors("bias_stderr.", image.biasError));
     }
+    for (const auto& aov : aovs) layers.push_back({aov.channels, &aov.values});
 
     const size_t pixels = size_t{image.width} * image.height;
     for (const auto& layer : layers)
@@ -138,9 +139,10 @@ bool writeRows(OIIO::ImageOutput& output, const FilmImage& image, const std::vec
 
 } // namespace
 
-void writeExr(const std::string& path, const FilmImage& image, const RenderRecord& record) {
+void writeExr(const std::string& path, const FilmImage& image, const RenderRecord& record,
+              const std::vector<AovImage>& aovs) {
     const OtherTerms terms(image, record.pixelFormat);
-    const auto layers = layersOf(image, terms);
+    const auto layers = layersOf(image, terms, aovs);
     OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height),
                          static_cast<int>(channelsOf(layers)), OIIO::TypeDesc::FLOAT);
     spec.channelnames.clear();

@@ -9,8 +9,6 @@ namespace quasilux {
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
 // Of the mean radiance one splat may be 2^-37 and the sum of a pixel 2^27 before anything is lost: photons bring about
 // 2^-5 of it each, at a caustic's focus or in a narrow lobe up to 2^15 of that.
 constexpr int quantumBits = 36;
@@ -28,7 +26,7 @@ size_t splatWords(unsigned slots) {
 
 float sampleScale(const shared::Meter& meter) {
     const bool isIrradiance = meter.kind == METER_AREA || meter.kind == METER_GRID;
-    return (isIrradiance ? pi : 1.f) / static_cast<float>(meter.samples);
+    return (isIrradiance ? std::numbers::pi_v<float> : 1.f) / static_cast<float>(meter.samples);
 }
 
 } // namespace quasilux

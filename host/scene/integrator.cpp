@@ -49,6 +49,11 @@ AovQuantity quantityOf(const std::string& name, const SourceLocation& where) {
         throw InputError(where,
                          fmt::format("parameter 'aovs': unknown quantity '{}'.{}", name,
                                      knownNames(name, Names(std::begin(quantityNames), std::end(quantityNames)))));
+    if (name == "uv" || name.starts_with("dp_") || name.starts_with("duv_"))
+        throw InputError(where,
+                         fmt::format("parameter 'aovs': '{}' goes by texture coordinates, which are not among the "
+                                     "layers; remove it.",
+                                     name));
     return static_cast<AovQuantity>(found - std::begin(quantityNames));
 }
 
@@ -80,12 +85,11 @@ int readNested(Properties& properties) {
     properties.accept(sampling);
     properties.accept({"hide_emitters"});
     const std::string& plugin = properties.plugin();
-    properties.context().warn(
-        properties.element().where,
-        plugin == "moment" ? "integrator 'moment': every image has its standard error in layers stderr.R, stderr.G and "
-                             "stderr.B; layers of second moments are not written."
-                           : "integrator 'aov': the image of its nested integrator is written, without the layers of "
-                             "'aovs'.");
+    if (plugin == "moment")
+        properties.context().warn(
+            properties.element().where,
+            "integrator 'moment': every image has its standard error in layers stderr.R, stderr.G "
+            "and stderr.B; layers of second moments are not written.");
     if (plugin == "aov") properties.context().scene.aovs = readLayers(properties);
     const Element* nested = properties.object("integrator");
     return nested ? readMaxDepth(*nested, properties.context()) : -1;

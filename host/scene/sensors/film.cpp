@@ -89,7 +89,6 @@ void readFilm(const Element& element, LoadContext& context, Sensor& sensor) {
     readFilter(properties.object("rfilter"), context, sensor);
     sensor.filterEnds = !properties.boolean("sample_border", true);
     sensor.pixelFormat = readPixelFormat(properties);
-    if (sensor.pixelFormat.alpha) context.warn(properties.where("pixel_format"), "pixel_format: alpha is not written.");
     readFileFormats(properties, context);
     properties.accept({"banner", "high_quality_edges", "compensate"});
     properties.finish();
