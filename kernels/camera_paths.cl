@@ -99,7 +99,7 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     CameraPath path;
     const float4 even = pixelNumbers(index, number, seed);
     const FilterPlace place = filterPlace(&params->camera, world->tables, pixel, even.xy);
-    path.ray = cameraRay(&params->camera, pixel, place.offset);
+    path.ray = cameraRay(&params->camera, pixel, place.offset, lensNumbers(index, params->pass, seed));
     path.firstChoice = even.z;
     path.lightChoice = evenChoice(pixelChoiceShift(index, seed), number * params->directSamples);
     path.strata = strataOfPath(seed, number, index);
@@ -125,6 +125,9 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     path.roulette.survival = 1;
 #endif
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
+#ifdef HAS_DEPTH_LIMIT
+    if (params->maxDepth == 0) return -1; /* not even emitters are seen */
+#endif
 #ifdef HAS_IRRADIANCE_METER
     const MeterSequence sequence = {index % pathsPerPixel(params), pathsPerPixel(params),
                                     rngMake(seed, params->pass, STREAM_PIXEL, pixel).key};

@@ -271,6 +271,15 @@ inline int followPilot(const World* world, PilotPath* path, PilotState* state) {
     return 0;
 }
 
+inline Ray pilotRay(const Camera* camera, __global const uint* tables, uint pixel, Rng* rng) {
+    const FilterPlace place = filterPlace(camera, tables, pixel, rngNext2(rng));
+#ifdef HAS_THIN_LENS
+    return cameraRay(camera, pixel, place.offset, rngNext2(rng));
+#else
+    return cameraRay(camera, pixel, place.offset, 0);
+#endif
+}
+
 __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                               __global const uint* tables, __global PilotPath* paths, const CameraParams params,
                               const uint count) {
@@ -303,8 +312,7 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     state.gathers = 1;
     state.events = SCATTER_GENUINE_DIFFUSE; /* direct light at the meter is sampled */
 #else
-    state.ray =
-        cameraRay(&params.camera, pixel, filterPlace(&params.camera, tables, pixel, rngNext2(&state.rng)).offset);
+    state.ray = pilotRay(&params.camera, tables, pixel, &state.rng);
 #endif
     state.from = state.ray.origin;
     uint event = 0;

@@ -266,6 +266,8 @@ typedef struct {
     Packed3 forward;      /* unit */
     float nearClip, farClip; /* depths along `forward` */
     unsigned int orthographic;
+    Packed3 lensX, lensY; /* from the centre of a thin lens to its rim; 0: a pinhole */
+    float focusDistance;  /* of a thin lens: depth of the plane that is sharp */
     unsigned int width, height;
     unsigned int filter;      /* FILTER_* */
     float filterRadius;       /* pixels */

@@ -1,4 +1,4 @@
-// Rays of the orthographic camera against values computed by hand, and an image of a rectangle of known extent.
+// Rays of the cameras against values computed by hand and by Mitsuba, and an image of a rectangle of known extent.
 #include "prepare/device_scene.h"
 #include "render/renderer.h"
 #include "support/scene_files.h"
@@ -34,6 +34,90 @@ std::vector<RayValues> rays(shared::Camera camera) {
         result.push_back({{v[k], v[k + 1], v[k + 2]}, {v[k + 3], v[k + 4], v[k + 5]}, v[k + 6], v[k + 7]});
     return result;
 }
+
+// ---- perspective and thin lens
+
+Scene loadView(const std::string& plugin, const std::string& parameters) {
+    test::SceneFiles files;
+    return loadScene(files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"" + plugin +
+                                                  R"("><float name="fov" value="60"/>)" + parameters +
+                                                  R"(<film type="hdrfilm"><integer name="width" value="40"/><integer
+        name="height" value="20"/><integer name="crop_offset_x" value="8"/><integer name="crop_offset_y" value="2"/><integer
+        name="crop_width" value="10"/><integer name="crop_height" value="12"/><rfilter type="box"/></film></sensor><emitter
+        type="point"/></scene>)"));
+}
+
+// Corners of the image, x / z and y / z of the direction there, by Mitsuba 3.9; +x points to the left.
+TEST(Perspective, CropAndPrincipalPointMoveTheViewAsInMitsuba) {
+    const auto corner = [](const std::string& parameters) {
+        const shared::Camera camera = flattenCamera(loadView("perspective", parameters).sensor);
+        const glm::vec3 upperLeft(camera.corner.x, camera.corner.y, camera.corner.z);
+        const glm::vec3 across = upperLeft + 10.f * glm::vec3(camera.stepX.x, camera.stepX.y, camera.stepX.z);
+        const glm::vec3 down = upperLeft + 12.f * glm::vec3(camera.stepY.x, camera.stepY.y, camera.stepY.z);
+        return std::vector<glm::vec3>{upperLeft, across, down};
+    };
+    const auto plain = corner("");
+    test::expectNear(plain[0], {0.3464f, 0.2309f, 1}, 1e-4f);
+    test::expectNear(plain[1], {0.0577f, 0.2309f, 1}, 1e-4f);
+    test::expectNear(plain[2], {0.3464f, -0.1155f, 1}, 1e-4f);
+    const auto moved = corner(R"(<float name="principal_point_offset_x" value="0.1"/>
+                                 <float name="principal_point_offset_y" value="0.25"/>)");
+    test::expectNear(moved[0], {0.2309f, 0.0866f, 1}, 1e-4f);
+    test::expectNear(moved[1], {-0.0577f, 0.0866f, 1}, 1e-4f);
+    test::expectNear(moved[2], {0.2309f, -0.2598f, 1}, 1e-4f);
+}
+
+/// Rays of pixel 0, through its centre, in the first passes.
+std::vector<RayValues> lensRays(shared::Camera camera, unsigned passes) {
+    camera.filterRadius = 0;
+    Program program = testProgram("camera.cl", "-DBVH_STACK_SIZE=32 -DHAS_THIN_LENS");
+    std::vector<RayValues> result;
+    Buffer<float> out(testDevice(), size_t(8) * camera.width * camera.height, "rays");
+    for (unsigned pass = 0; pass < passes; ++pass) {
+        program.kernel("cameraRays").launch(size_t(camera.width) * camera.height, camera, pass, out);
+        const auto v = out.read();
+        result.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6], v[7]});
+    }
+    return result;
+}
+
+TEST(ThinLens, RaysComeFromTheWholeLensAndMeetWhereItIsFocused) {
+    const Scene scene = loadView("thinlens", R"(<float name="aperture_radius" value="0.2"/><float name="focus_distance"
+        value="3"/><float name="near_clip" value="0.5"/><float name="far_clip" value="7"/>)");
+    const shared::Camera camera = flattenCamera(scene.sensor);
+    const float step = 2 * std::tan(glm::radians(30.f)) / 40;
+    const glm::vec3 sharp = 3.f * glm::vec3((20 - 8.5f) * step, (10 - 2.5f) * step, 1);
+    const auto rays = lensRays(camera, 512);
+    double radius = 0, square = 0, product = 0;
+    glm::dvec2 mean(0);
+    for (const auto& ray : rays) {
+        EXPECT_EQ(ray.origin.z, 0);
+        EXPECT_LE(glm::length(ray.origin), 0.2001f);
+        test::expectNear(ray.origin + ray.direction * (3 / ray.direction.z), sharp, 2e-6f);
+        EXPECT_NEAR(ray.tMin * ray.direction.z, 0.5f, 1e-5f);
+        EXPECT_NEAR(ray.tMax * ray.direction.z, 7, 1e-5f);
+        const double r = glm::length(ray.origin) / 0.2;
+        radius += r / double(rays.size());
+        square += r * r / double(rays.size());
+        product += double(ray.origin.x) * ray.origin.y / 0.04 / double(rays.size());
+        mean += glm::dvec2(ray.origin) / 0.2 / double(rays.size());
+    }
+    // Of an even disc, to what 512 places of the sequence reach: independent ones would be off by 0.01 to 0.02.
+    EXPECT_NEAR(radius, 2.0 / 3, 4e-3);
+    EXPECT_NEAR(square, 0.5, 4e-3);
+    EXPECT_NEAR(product, 0, 8e-3);
+    EXPECT_NEAR(glm::length(mean), 0, 8e-3);
+}
+
+TEST(ThinLens, WithoutAnApertureIsAPinhole) {
+    const Scene scene = loadView("thinlens", R"(<float name="aperture_radius" value="0"/>)");
+    const shared::Camera camera = flattenCamera(scene.sensor);
+    EXPECT_EQ(camera.focusDistance, 0);
+    EXPECT_EQ(lensRays(camera, 1)[0].origin, glm::vec3(0));
+    EXPECT_EQ(scene.sensor.focusDistance, 1e4) << "Mitsuba's default: the far clipping plane";
+}
+
+// ---- orthographic
 
 TEST(Orthographic, RaysAreParallelAndSpacedByScaleAndPixels) {
     // Twice the size, at (1, 2, 3), looking along -z with +y up: the film covers x in [-1, 3] and y in [1, 3].

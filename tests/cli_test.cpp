@@ -159,6 +159,34 @@ TEST_F(CommandLineTest, MissingScenesAndDevicesAreRefused) {
     expectRefused({"info", "scene.xml", "--device", "999"}, "--device 999");
 }
 
+TEST_F(CommandLineTest, SensorsAreRenderedByNumberOrAll) {
+    std::ofstream(folder / "two.xml")
+        << R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"><integer name="width"
+        value="5"/><integer name="height" value="4"/></film></sensor><sensor type="perspective" id="small"><film
+        type="hdrfilm"><integer name="width" value="3"/><integer name="height" value="2"/></film></sensor><emitter
+        type="constant"/></scene>)";
+    const auto written = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", "two.xml", "--passes", "1", "--fixed"});
+        const Outcome outcome = run(more);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            const std::string name = entry.path().filename().string();
+            if (name == "scene.xml" || name == "two.xml") continue;
+            names.push_back(name);
+            fs::remove(entry.path());
+        }
+        return names;
+    };
+    EXPECT_THAT(written({}), testing::ElementsAre("two.exr"));
+    EXPECT_THAT(written({"--sensor", "small", "-o", "a.exr"}), testing::ElementsAre("a.exr"));
+    EXPECT_THAT(written({"--sensor", "all", "--png", "p.png"}),
+                testing::UnorderedElementsAre("two_0.exr", "two_1.exr", "p_0.png", "p_1.png"));
+    expectRefused({"render", "two.xml", "--passes", "1", "--sensor", "2"},
+                  "no sensor '2'; its sensors have the numbers 0 to 1");
+    expectRefused({"info", "two.xml", "--sensor", "all"}, "no sensor 'all'");
+}
+
 /// How far a render gets in 5 s depends on the machine; that it ends soon, by exit, with a whole file or none, does
 /// not.
 TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {

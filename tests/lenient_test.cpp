@@ -15,7 +15,7 @@ Scene loadLeniently(const std::string& body) {
     SceneFiles files;
     const std::string path = files.write("scene.xml", sceneWith(body));
     test::errorOf(path); // an error unless it is forgiven
-    return loadScene(path, {}, Unknown::forgiven);
+    return loadScene(path, {}, {{}, Unknown::forgiven});
 }
 
 float greyOf(const Scene& scene) { return scene.bsdfs.at(0).front.at(0).device.reflectance.g; }
@@ -84,13 +84,13 @@ TEST(Lenient, WhatIsKnownAndWrongRemainsAnError) {
     SceneFiles files;
     const std::string scene =
         files.write("scene.xml", sceneWith("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"));
-    EXPECT_THROW(loadScene(scene, {}, Unknown::forgiven), InputError);
+    EXPECT_THROW(loadScene(scene, {}, {{}, Unknown::forgiven}), InputError);
 }
 
 TEST(Lenient, AKnownSceneIsTheSame) {
     SceneFiles files;
     const std::string path = files.write("scene.xml", sceneWith("<shape type=\"cube\"/>"));
-    EXPECT_TRUE(loadScene(path, {}, Unknown::forgiven).warnings.empty());
+    EXPECT_TRUE(loadScene(path, {}, {{}, Unknown::forgiven}).warnings.empty());
 }
 
 } // namespace

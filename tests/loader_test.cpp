@@ -188,18 +188,60 @@ TEST(Sensors, TheFirstOfSeveralIsTakenWithAWarning) {
     EXPECT_THAT(scene.warnings[0], testing::HasSubstr("scene.xml:4:1: a further <sensor>"));
 }
 
+TEST(Sensors, OneOfSeveralIsChosenByNumberOrId) {
+    SceneFiles files;
+    const std::string path = files.write("scene.xml", R"(<scene version="3.0.0">
+<sensor type="perspective" id="left"><float name="fov" value="10"/></sensor>
+<shape type="sphere" id="ball"><sensor type="irradiancemeter" id="meter"/></shape>
+<sensor type="perspective"><float name="fov" value="20"/></sensor>
+<sensor type="perspective" id="0"><float name="fov" value="30"/></sensor>
+<emitter type="point"/></scene>)");
+    const auto fov = [&](const std::string& sensor) {
+        const Scene scene = loadScene(path, {}, {sensor});
+        EXPECT_EQ(scene.sensorCount, 4u);
+        EXPECT_EQ(scene.warnings.size(), sensor.empty() ? 3u : 0u);
+        return scene.sensor.fovX / degree;
+    };
+    EXPECT_NEAR(fov(""), 10, 1e-9);
+    EXPECT_NEAR(fov("left"), 10, 1e-9);
+    EXPECT_NEAR(fov("2"), 20, 1e-9); // in the order of the file, those in shapes too, as in Mitsuba 3.9
+    EXPECT_NEAR(fov("0"), 30, 1e-9) << "an id that is a number";
+    EXPECT_EQ(loadScene(path, {}, {"1"}).sensor.meter, MeterKind::area);
+    EXPECT_EQ(loadScene(path, {}, {"meter"}).sensor.meter, MeterKind::area);
+    for (const char* wrong : {"4", "lef", "-1", "99999999999999999999", "all"}) try {
+            loadScene(path, {}, wrong);
+            ADD_FAILURE() << wrong;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(std::string("has no sensor '") + wrong + "'"));
+            EXPECT_THAT(error.what(), testing::HasSubstr("numbers 0 to 3"));
+        }
+}
+
 TEST(Integrator, DepthLimit) {
-    EXPECT_EQ(load("").maxDepth, -1);
-    EXPECT_EQ(
-        load(
-            R"(<integrator type="volpath"><integer name="max_depth" value="7"/><boolean name="anything" value="x"/></integrator>)")
-            .maxDepth,
-        7);
-    EXPECT_EQ(
-        load(
-            R"(<integrator type="aov"><integrator type="path"><integer name="max_depth" value="3"/></integrator></integrator>)")
-            .maxDepth,
-        3);
+    const auto depth = [](const std::string& integrator) { return load(integrator).maxDepth; };
+    const auto path = [&](const std::string& value) {
+        return depth(R"(<integrator type="path"><integer name="max_depth" value=")" + value + R"("/></integrator>)");
+    };
+    EXPECT_EQ(depth(""), -1);
+    for (const int value : {-1, 0, 1, 2, 7}) EXPECT_EQ(path(std::to_string(value)), value);
+    EXPECT_EQ(depth(R"(<integrator type="volpath"/>)"), -1);
+    EXPECT_EQ(depth(R"(<integrator type="direct"><integer name="emitter_samples" value="4"/></integrator>)"), 2);
+    const std::string aov =
+        R"(<integrator type="aov"><string name="aovs" value="dd.y:depth"/><integrator type="direct"/></integrator>)";
+    EXPECT_EQ(depth(aov), 2);
+    const Scene scene = load(aov);
+    ASSERT_EQ(scene.aovs.size(), 1u);
+    EXPECT_EQ(scene.aovs[0].name, "dd.y");
+    EXPECT_EQ(scene.aovs[0].quantity, AovQuantity::depth);
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_THAT(load(R"(<integrator type="moment"><integrator type="path"/></integrator>)").warnings[0],
+                testing::HasSubstr("stderr.R"));
+}
+
+TEST(Integrator, WhatHasNoEffectIsListed) {
+    const Scene scene = load(R"(<integrator type="path"><integer name="rr_depth" value="3"/></integrator>)");
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_THAT(scene.withoutEffect, testing::ElementsAre("rr_depth"));
 }
 
 // ---- emitters

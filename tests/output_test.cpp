@@ -121,6 +121,36 @@ TEST_F(OutputTest, ExrHoldsEveryLayerUnchanged) {
         }
 }
 
+TEST_F(OutputTest, PixelFormatsAddLuminanceAndXyz) {
+    FilmImage image = distinctImage();
+    const auto channelOf = [&](const PixelFormat& format, const std::string& name) {
+        RenderRecord record = exampleRecord();
+        record.pixelFormat = format;
+        writeExr(path("a.exr"), image, record);
+        const auto input = OIIO::ImageInput::open(path("a.exr"));
+        const OIIO::ImageSpec& spec = input->spec();
+        const int channel = spec.channelindex(name), all = spec.nchannels;
+        std::vector<float> pixels(size_t{5} * 150 * size_t(all)), values;
+        EXPECT_TRUE(input->read_image(0, 0, 0, all, OIIO::TypeDesc::FLOAT, pixels.data()));
+        for (size_t i = 0; channel >= 0 && i < size_t{5} * 150; ++i)
+            values.push_back(pixels[i * size_t(all) + size_t(channel)]);
+        return values;
+    };
+    const PixelFormat luminance{true, false, false}, xyz{false, true, false};
+    const auto y = channelOf(luminance, "Y"), sameY = channelOf(xyz, "Y"), x = channelOf(xyz, "X"),
+               z = channelOf(xyz, "Z");
+    ASSERT_EQ(y.size(), size_t{5} * 150);
+    EXPECT_EQ(y, sameY);
+    for (size_t i = 0; i < y.size(); ++i) {
+        const float* rgb = &image.radiance[3 * i];
+        EXPECT_FLOAT_EQ(y[i], 0.212671f * rgb[0] + 0.71516f * rgb[1] + 0.072169f * rgb[2]);
+        EXPECT_FLOAT_EQ(x[i], 0.412453f * rgb[0] + 0.35758f * rgb[1] + 0.180423f * rgb[2]);
+        EXPECT_FLOAT_EQ(z[i], 0.019334f * rgb[0] + 0.119193f * rgb[1] + 0.950227f * rgb[2]);
+    }
+    EXPECT_EQ(channelOf(xyz, "R").size(), y.size()) << "R, G, B stay";
+    EXPECT_TRUE(channelOf({}, "Y").empty());
+}
+
 TEST_F(OutputTest, ExrHeaderHoldsAllSettings) {
     writeExr(path("a.exr"), distinctImage(), exampleRecord());
     const auto input = OIIO::ImageInput::open(path("a.exr"));

@@ -108,7 +108,7 @@ void printMemory(const MemoryForecast& forecast) {
 
 void infoCommand(const SceneOptions& options) {
     exitOnInterrupt();
-    const Scene scene = loadScene(options.scene, options.parameters(), options.unknown());
+    const Scene scene = loadScene(options.scene, options.parameters(), options.choice());
     if (!options.quiet)
         for (const auto& warning : scene.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
     const Freedom freedom = options.freedom(scene);

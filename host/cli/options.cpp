@@ -134,8 +134,13 @@ void declareDevice(CLI::App& command, SceneOptions& options) {
         ->group(group);
 }
 
-void declareScene(CLI::App& command, SceneOptions& options) {
+void declareScene(CLI::App& command, SceneOptions& options, const std::string& moreSensors) {
     command.add_option("SCENE", options.scene, "Scene file, Mitsuba 3 XML")->required()->type_name("FILE");
+    command
+        .add_option("--sensor", options.sensor,
+                    "Sensor of the scene, by its number in the order of the file, from 0, or by its id" + moreSensors +
+                        " (default: 0)")
+        ->type_name("N");
     command
         .add_option(
             "-D", options.definitions,
@@ -286,12 +291,24 @@ std::string RenderOptions::outputPath() const {
     return output.empty() ? std::filesystem::path(scene).stem().string() + ".exr" : output;
 }
 
+RenderOptions RenderOptions::forSensor(size_t index) const {
+    RenderOptions one = *this;
+    one.sensor = std::to_string(index);
+    one.output = outputPath();
+    for (std::string* file : {&one.output, &one.png, &one.stats}) {
+        if (file->empty()) continue;
+        const std::filesystem::path path(*file);
+        *file = (path.parent_path() / (path.stem().string() + "_" + one.sensor + path.extension().string())).string();
+    }
+    return one;
+}
+
 void declareOptions(CLI::App& app, Options& options) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "quasilux " QUASILUX_VERSION, "Print the version");
 
     CLI::App& render = *app.add_subcommand("render", "Render a scene to an OpenEXR image");
-    declareScene(render, options.render);
+    declareScene(render, options.render, ", or all, one after the other, into files NAME_0.exr, NAME_1.exr ...");
     declareFiles(render, options.render);
     declareStop(render, options.render.stop);
     declareCheckpoints(render, options.render);
@@ -307,7 +324,7 @@ void declareOptions(CLI::App& app, Options& options) {
 
     CLI::App& info =
         *app.add_subcommand("info", "Print what a scene needs and what is chosen for it, after a trial pass");
-    declareScene(info, options.info);
+    declareScene(info, options.info, "");
     declareSettings(info, options.info);
     declareDevice(info, options.info);
 }

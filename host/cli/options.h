@@ -18,6 +18,7 @@ namespace quasilux {
 /// What render and info share: a scene, the device, and settings that override those of the scene.
 struct SceneOptions {
     std::string scene;
+    std::string sensor;                   ///< its number or id; empty: the first one; render: or "all"
     std::vector<std::string> definitions; ///< "name=value"
     bool lenient = false;                 ///< what the scene says and is not known is left out
     std::optional<unsigned> bdd, photons, cameraPaths;
@@ -35,6 +36,7 @@ struct SceneOptions {
     /// `definitions` as loadScene takes them.
     std::vector<std::pair<std::string, std::string>> parameters() const;
     Unknown unknown() const { return lenient ? Unknown::forgiven : Unknown::refused; }
+    LoadChoice choice() const { return {sensor, unknown()}; }
     /// The scene's settings, overridden by what was given here. Throws InputError.
     RenderSettings settings(const Scene& loaded) const;
     /// What is left to a search.
@@ -50,6 +52,8 @@ struct RenderOptions : SceneOptions {
 
     /// `output`, or the scene's stem with .exr in the current folder; empty where only the grid is asked for.
     std::string outputPath() const;
+    /// For sensor number `index` of several: the files' names end with _0, _1 …
+    RenderOptions forSensor(size_t index) const;
 };
 
 struct Options {

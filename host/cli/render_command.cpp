@@ -13,6 +13,7 @@
 #include "util/error.h"
 #include "util/process_memory.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -39,6 +40,9 @@ void checkOutputs(const RenderOptions& options) {
     checkCheckpointOptions(options);
 }
 
+// As many as passes, whose places in the pixel they take; more would hardly change what is met first.
+unsigned samplesOfAovs(unsigned passes) { return std::min(passes, 256u); }
+
 // Photons of caustics that a pixel of a meter needs for its standard error to mean anything.
 constexpr uint64_t causticsPerPixel = 30;
 
@@ -47,11 +51,11 @@ void warn(const RenderOptions& options, const std::string& message) {
 }
 
 WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
-                        RenderRecord& record) {
+                        const std::vector<AovImage>& aovs, RenderRecord& record) {
     const auto start = Clock::now();
     WrittenFiles written;
     if (const std::string path = options.outputPath(); !path.empty()) {
-        writeExr(path, image, record);
+        writeExr(path, image, record, aovs);
         written.paths.push_back(path);
     }
     if (!options.grid.empty()) {
@@ -170,7 +174,7 @@ void warnOfRarePhotons(const RenderOptions& options, const RenderRecord& record)
 }
 
 RenderRecord makeRecord(const RenderOptions& options, const StopRule& stop, Device& device, const AutoRender& render,
-                        MeterKind meter) {
+                        const Sensor& sensor) {
     RenderRecord record;
     record.scene = std::filesystem::path(options.scene).filename().string();
     record.settings = render.settings;
@@ -182,7 +186,8 @@ RenderRecord makeRecord(const RenderOptions& options, const StopRule& stop, Devi
     record.gathered = render.gathered;
     record.search = render.search;
     record.error = estimateError(render.image);
-    record.meter = meter;
+    record.meter = sensor.meter;
+    record.pixelFormat = sensor.pixelFormat;
     record.peakBufferBytes = render.peakBufferBytes;
     record.peakHostBytes = peakResidentBytes();
     record.interrupted = interruptFlag();
@@ -194,13 +199,15 @@ RenderRecord makeRecord(const RenderOptions& options, const StopRule& stop, Devi
 
 } // namespace
 
-int renderCommand(const RenderOptions& options) {
+namespace {
+
+int renderSensor(const RenderOptions& options) {
     exitOnInterrupt();
     checkOutputs(options);
     ProgressLine progress(stderr, !options.quiet);
     progress.update({.phase = "loading"});
     const auto start = Clock::now();
-    Scene scene = loadScene(options.scene, options.parameters(), options.unknown());
+    Scene scene = loadScene(options.scene, options.parameters(), options.choice());
     if (!options.grid.empty()) measureGrid(scene);
     const double loadSeconds = secondsSince(start);
     progress.clear();
@@ -231,9 +238,10 @@ int renderCommand(const RenderOptions& options) {
     }
 
     progress.update({.phase = "writing"});
-    RenderRecord record = makeRecord(options, started.stop(), device, render, scene.sensor.meter);
+    RenderRecord record = makeRecord(options, started.stop(), device, render, scene.sensor);
     record.loadSeconds = loadSeconds;
-    const WrittenFiles written = writeFiles(options, scene, image, record);
+    const WrittenFiles written = writeFiles(
+        options, scene, image, renderAovs(device, scene, render.settings, samplesOfAovs(image.passes)), record);
     progress.clear();
     warnOfCounters(options, record.counters, uint64_t(image.width) * image.height);
     warnOfRarePhotons(options, record);
@@ -246,6 +254,19 @@ int renderCommand(const RenderOptions& options) {
     if (!started.checkpointFailure().empty())
         throw std::runtime_error("no checkpoint of the last passes could be written: " + started.checkpointFailure());
     return exitCodeWhenWritten();
+}
+
+} // namespace
+
+int renderCommand(const RenderOptions& options) {
+    if (options.sensor != "all") return renderSensor(options);
+    if (!options.grid.empty())
+        throw InputError({options.scene}, "--grid measures the illuminance-grid instead of a sensor; give it without "
+                                          "--sensor all.");
+    const size_t count = loadScene(options.scene, options.parameters(), {"0", options.unknown()}).sensorCount;
+    for (size_t index = 0; index < count; ++index)
+        if (const int code = renderSensor(options.forSensor(index)); code != 0 || interruptFlag()) return code;
+    return 0;
 }
 
 } // namespace quasilux

@@ -23,6 +23,7 @@ struct RenderRecord {
     std::optional<GatheredCount> gathered; ///< which photons of a pass camera paths gather
     SearchReport search;                   ///< which settings were searched, and why these were chosen
     ErrorEstimate error;
+    PixelFormat pixelFormat;           ///< what the image holds beside R, G, B
     MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
     std::map<std::string, KernelTiming> kernels;
     uint64_t peakBufferBytes = 0;             ///< most that were in use at once, of all candidates

@@ -21,7 +21,14 @@ void placePerspective(const Sensor& sensor, shared::Camera& camera) {
     camera.origin = pack(glm::dvec3(sensor.toWorld[3]));
     camera.stepX = pack(-left * step);
     camera.stepY = pack(-up * step);
-    camera.corner = pack(forward + step * (left * toCorner(sensor).x + up * toCorner(sensor).y));
+    const glm::dvec2 corner =
+        toCorner(sensor) - sensor.principalPoint * glm::dvec2(sensor.filmWidth, sensor.filmHeight);
+    camera.corner = pack(forward + step * (left * corner.x + up * corner.y));
+    if (sensor.apertureRadius > 0) {
+        camera.lensX = pack(left * sensor.apertureRadius);
+        camera.lensY = pack(up * sensor.apertureRadius);
+        camera.focusDistance = static_cast<float>(sensor.focusDistance);
+    }
     camera.forward = pack(forward);
 }
 

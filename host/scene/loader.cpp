@@ -142,18 +142,45 @@ void collectNested(const Element& element, const LoadContext& context, std::vect
     }
 }
 
-/// A scene with a grid needs no sensor: the grid is what is measured then.
-void readSensors(const std::vector<PlacedSensor>& sensors, LoadContext& context) {
-    if (sensors.empty() && context.scene.grid) {
+bool isNumber(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Of the sensor that `wanted` says by number or id. A sensor whose id is a number goes by it.
+size_t chooseSensor(const std::vector<PlacedSensor>& sensors, const std::string& wanted, const LoadContext& context) {
+    if (wanted.empty()) return 0;
+    Names ids;
+    for (size_t i = 0; i < sensors.size(); ++i) {
+        const std::string* id = sensors[i].element->find("id");
+        if (id && *id == wanted) return i;
+        if (id) ids.push_back(*id);
+    }
+    if (isNumber(wanted) && wanted.size() < 10 && std::stoul(wanted) < sensors.size()) return std::stoul(wanted);
+    throw InputError({context.scene.path},
+                     fmt::format("the scene has no sensor '{}'; its sensors have the numbers 0 to {}.{}", wanted,
+                                 sensors.size() - 1, ids.empty() ? "" : knownNames(wanted, ids)));
+}
+
+/// A scene with a grid needs no sensor: the grid is what is measured then. All sensors are checked, one is kept.
+void readSensors(const std::vector<PlacedSensor>& sensors, const std::string& wanted, LoadContext& context) {
+    context.scene.sensorCount = sensors.size();
+    if (sensors.empty() && context.scene.grid && wanted.empty()) {
         measureGrid(context.scene);
         return;
     }
     if (sensors.empty())
         throw InputError({context.scene.path}, "the scene has no <sensor>; add <sensor type=\"perspective\">.");
-    context.scene.sensor = readSensor(*sensors[0].element, context, sensors[0].shape);
-    for (size_t i = 1; i < sensors.size(); ++i) {
-        readSensor(*sensors[i].element, context, sensors[i].shape);
-        context.warn(sensors[i].element->where, "a further <sensor>; only the first one is rendered.");
+    const size_t chosen = chooseSensor(sensors, wanted, context);
+    for (size_t i = 0; i < sensors.size(); ++i) {
+        const Sensor sensor = readSensor(*sensors[i].element, context, sensors[i].shape);
+        if (i == chosen)
+            context.scene.sensor = sensor;
+        else if (wanted.empty())
+            context.warn(
+                sensors[i].element->where,
+                fmt::format("a further <sensor>; only the first one is rendered (--sensor {} renders this one, "
+                            "--sensor all each of them).",
+                            i));
     }
 }
 
@@ -178,13 +205,14 @@ void listForgiven(LoadContext& context) {
 }
 
 /// The scene in coordinates of the file less `origin`.
-Scene readScene(const SceneDocument& document, const std::string& path, Unknown unknown, const glm::dvec3& origin) {
+Scene readScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice,
+                const glm::dvec3& origin) {
     const Element& root = document.root;
     Scene scene;
     scene.path = path;
     scene.origin = origin;
     LoadContext context(root, document.files, scene);
-    context.unknown = unknown;
+    context.unknown = choice.unknown;
     context.forgiven = document.forgiven;
     checkVersion(root, context);
     std::vector<Instruction> settings;
@@ -207,7 +235,7 @@ Scene readScene(const SceneDocument& document, const std::string& path, Unknown 
     checkUnusedBsdfs(root, context, nestedBsdfs);
     checkUnusedTextures(root, context);
     checkUnusedEmitters(root, context);
-    readSensors(sensors, context);
+    readSensors(sensors, choice.sensor, context);
     checkUnusedMedia(root, context);
     checkUnusedVolumes(root, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
@@ -221,24 +249,24 @@ Scene readScene(const SceneDocument& document, const std::string& path, Unknown 
 }
 
 /// The scene about the origin of the file. Where that is so far away that a shape has no area left, about the sensor.
-Scene readSceneAnywhere(const SceneDocument& document, const std::string& path, Unknown unknown) {
+Scene readSceneAnywhere(const SceneDocument& document, const std::string& path, const LoadChoice& choice) {
     try {
-        return readScene(document, path, unknown, glm::dvec3(0));
+        return readScene(document, path, choice, glm::dvec3(0));
     } catch (const InputError&) {
         const glm::dvec3 place = placeOfSensor(document.root);
         if (place == glm::dvec3(0)) throw;
-        return readScene(document, path, unknown, place);
+        return readScene(document, path, choice, place);
     }
 }
 
 } // namespace
 
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters,
-                Unknown unknown) {
-    const SceneDocument document = readSceneDocument(path, parameters, unknown);
-    Scene scene = readSceneAnywhere(document, path, unknown);
+                const LoadChoice& choice) {
+    const SceneDocument document = readSceneDocument(path, parameters, choice.unknown);
+    Scene scene = readSceneAnywhere(document, path, choice);
     const glm::dvec3 origin = chooseOrigin(scene);
-    return origin == scene.origin ? scene : readScene(document, path, unknown, origin);
+    return origin == scene.origin ? scene : readScene(document, path, choice, origin);
 }
 
 } // namespace quasilux

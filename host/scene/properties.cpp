@@ -198,7 +198,10 @@ const Element* Properties::constantTexture(const std::string& name) {
     return nullptr;
 }
 
-void Properties::accept(const Names& names) { knownNames_.insert(names.begin(), names.end()); }
+void Properties::accept(const Names& names) {
+    for (const std::string_view name : names)
+        if (find(std::string(name))) context_.scene.withoutEffect.emplace_back(name);
+}
 
 void Properties::refuse(const std::string& name, const std::string& why) {
     if (find(name))
@@ -207,7 +210,7 @@ void Properties::refuse(const std::string& name, const std::string& why) {
 }
 
 void Properties::acceptAll() {
-    for (const auto& entry : parameters_) knownNames_.insert(entry.first);
+    for (const auto& entry : parameters_) accept({std::string_view(entry.first)});
     for (const Element* object : objects_) knownTags_.insert(context_.resolve(*object).tag);
 }
 

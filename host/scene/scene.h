@@ -208,10 +208,13 @@ struct Sensor {
     SourceLocation where;
     std::string plugin = "perspective";
     MeterKind meter = MeterKind::none;
-    unsigned meterShape = 0;   ///< MeterKind::area: which lies on it
-    glm::dmat4 toWorld{1.0};   ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
-    bool orthographic = false; ///< parallel rays from local x in [-1, 1]; else perspective
-    double fovX = 0;           ///< perspective: full horizontal angle, radians (fov_axis already resolved)
+    unsigned meterShape = 0;      ///< MeterKind::area: which lies on it
+    glm::dmat4 toWorld{1.0};      ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
+    bool orthographic = false;    ///< parallel rays from local x in [-1, 1]; else perspective
+    double fovX = 0;              ///< perspective: full horizontal angle, radians (fov_axis already resolved)
+    glm::dvec2 principalPoint{0}; ///< perspective: of the film's size, by how much the view lies to the right and down
+    double apertureRadius = 0;    ///< of a thin lens, scene units; 0: a pinhole
+    double focusDistance = 0;     ///< and depth of the plane that is sharp
     double nearClip = 1e-2, farClip = 1e4;
     unsigned width = 768, height = 576;         ///< pixels of the image: the film's, or those of its crop window
     unsigned filmWidth = 768, filmHeight = 576; ///< of the whole film, which the view is laid over
@@ -237,6 +240,26 @@ struct SceneSettings {
     std::optional<std::string> units; ///< of radiance and intensity: "radiometric" (default), "photometric"
 };
 
+/// What a layer of integrator 'aov' shows of the surface that a pixel's rays meet first.
+enum class AovQuantity {
+    albedo,
+    depth,
+    position,
+    uv,
+    geo_normal,
+    sh_normal,
+    dp_du,
+    dp_dv,
+    duv_dx,
+    duv_dy,
+    prim_index,
+    shape_index
+};
+struct AovLayer {
+    std::string name; ///< of its channels, before the dot
+    AovQuantity quantity;
+};
+
 struct Scene {
     std::string path;
     glm::dvec3 origin{0}; ///< coordinates here are those of the file less this (host/scene/origin.h)
@@ -248,22 +271,32 @@ struct Scene {
     std::vector<PointEmitter> pointEmitters;
     std::vector<DirectionalEmitter> directionalEmitters;
     std::optional<Surroundings> surroundings;
-    Sensor sensor;
+    Sensor sensor;                       ///< the one that is rendered
+    size_t sensorCount = 0;              ///< in the file
     std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid
     bool hideEmitters =
         false;         ///< the camera looks through emitting shapes and sees no surroundings (Mitsuba's hide_emitters)
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
+    std::vector<AovLayer> aovs; ///< that the integrator asks for
     SceneSettings settings;
     std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
+    std::vector<std::string>
+        withoutEffect; ///< parameters that are given and accepted without effect and without a warning
 };
 
 /// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is known.
 enum class Unknown { refused, forgiven };
 
+/// How a file is read.
+struct LoadChoice {
+    std::string sensor = {}; ///< which is rendered: its number, in the order of the file from 0 on, or its id; empty: the first one
+    Unknown unknown = Unknown::refused;
+};
+
 /// Loads a Mitsuba 3 scene (docs/reference/scene-language.md). Throws InputError at file:line:column.
 /// `parameters` replace `<default>` values, as `-D name=value` does.
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {},
-                Unknown unknown = Unknown::refused);
+                const LoadChoice& choice = {});
 
 /// Makes the grid of the scene its sensor. Throws InputError where the scene has none.
 void measureGrid(Scene& scene);

@@ -65,6 +65,7 @@ void readFileFormats(Properties& properties, LoadContext& context) {
         context.warn(properties.where("file_format"),
                      fmt::format("file_format '{}': images are written as OpenEXR.", file));
     readChoice(properties, "component_format", "float16", {"float16", "float32", "uint32"});
+    properties.accept({"component_format"});
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// <sensor type="perspective">: a pinhole camera.
+// <sensor type="perspective">: a pinhole camera, and <sensor type="thinlens">.
 #include "scene/sensors/sensors.h"
 #include "scene/transform.h"
 #include "scene/xml/numbers.h"
@@ -58,14 +58,26 @@ glm::dmat4 readPlacement(Properties& properties) {
     return toWorld;
 }
 
+/// What both have.
+void readView(Properties& properties, Sensor& sensor) {
+    sensor.fovX = readFieldOfView(properties, static_cast<double>(sensor.filmWidth) / sensor.filmHeight);
+    sensor.toWorld = readPlacement(properties);
+}
+
 } // namespace
 
 void readPerspective(Properties& properties, Sensor& sensor) {
-    sensor.fovX = readFieldOfView(properties, static_cast<double>(sensor.filmWidth) / sensor.filmHeight);
-    sensor.toWorld = readPlacement(properties);
-    for (const char* name : {"principal_point_offset_x", "principal_point_offset_y"})
-        if (properties.number(name, 0) != 0)
-            properties.refuse(name, "the view must be centred; crop a larger image instead");
+    readView(properties, sensor);
+    sensor.principalPoint = {properties.number("principal_point_offset_x", 0),
+                             properties.number("principal_point_offset_y", 0)};
+}
+
+void readThinLens(Properties& properties, Sensor& sensor) {
+    readView(properties, sensor);
+    if (!properties.has("aperture_radius"))
+        throw InputError(sensor.where, "sensor 'thinlens' needs <float name=\"aperture_radius\" value=\"...\"/>.");
+    sensor.apertureRadius = properties.numberAbove("aperture_radius", 0, 0, false);
+    sensor.focusDistance = properties.numberAbove("focus_distance", sensor.farClip, 0, true);
 }
 
 } // namespace quasilux

@@ -17,14 +17,24 @@ struct SensorPlugin {
     bool isOnShape;
 };
 constexpr SensorPlugin sensorPlugins[] = {
-    {"perspective", readPerspective, true, false},
-    {"orthographic", readOrthographic, true, false},
-    {"radiancemeter", readRadiancemeter, false, false},
+    {"perspective", readPerspective, true, false},         {"thinlens", readThinLens, true, false},
+    {"orthographic", readOrthographic, true, false},       {"radiancemeter", readRadiancemeter, false, false},
     {"irradiancemeter", readIrradiancemeter, false, true},
+};
+
+struct RefusedSensor {
+    std::string_view name, why;
+};
+constexpr RefusedSensor refusedSensors[] = {
+    {"batch", "put its sensors into the <scene> themselves and render them with --sensor all"},
+    {"distant", "use sensor 'orthographic', whose rays are parallel too, or 'radiancemeter' for a single ray"},
 };
 
 const SensorPlugin& findPlugin(const Element& element) {
     const std::string& plugin = element.get("type");
+    for (const RefusedSensor& refused : refusedSensors)
+        if (refused.name == plugin)
+            throw InputError(element.where, fmt::format("sensor '{}' is not supported; {}.", plugin, refused.why));
     Names known;
     for (const SensorPlugin& entry : sensorPlugins) {
         if (entry.name == plugin) return entry;
@@ -60,6 +70,10 @@ Sensor readSensor(const Element& element, LoadContext& context, std::optional<un
     }
     if (const Element* medium = properties.object("medium")) sensor.medium = useMedium(*medium, context);
     plugin.read(properties, sensor);
+    properties.accept({"shutter_open", "shutter_close"}); // nothing moves
+    if (properties.find("srf") || properties.texture("srf"))
+        throw InputError(properties.where("srf"), "parameter 'srf': light is linear RGB here, so that a sensor has no "
+                                                  "spectral response; remove it.");
     properties.finish();
     return sensor;
 }
@@ -70,6 +84,7 @@ void readSampler(const Element& element, LoadContext& context) {
     if (std::find(known.begin(), known.end(), properties.plugin()) == known.end())
         throw InputError(element.where, fmt::format("unknown sampler plugin '{}'.{}", properties.plugin(),
                                                     knownNames(properties.plugin(), known)));
+    properties.acceptAll();
 }
 
 } // namespace quasilux

@@ -11,6 +11,7 @@ Sensor readSensor(const Element& element, LoadContext& context, std::optional<un
 
 /// What each plugin has of its own; size of the film and clipping planes are known already.
 void readPerspective(Properties& properties, Sensor& sensor);
+void readThinLens(Properties& properties, Sensor& sensor);
 void readOrthographic(Properties& properties, Sensor& sensor);
 void readRadiancemeter(Properties& properties, Sensor& sensor);
 void readIrradiancemeter(Properties& properties, Sensor& sensor);

@@ -1,0 +1,115 @@
+// Layers of integrator 'aov' and alpha, of scenes where each value is known; channels and meanings are Mitsuba 3.9's.
+#include "render/aovs.h"
+#include "support/scene_files.h"
+#include "support/test_kernels.h"
+
+#include <gmock/gmock.h>
+#include <map>
+
+namespace quasilux {
+namespace {
+
+const std::string allLayers = "a:albedo,dd:depth, p.q:position,gn:geo_normal,sn:sh_normal,pi:prim_index,si:shape_index";
+
+/// 8 x 4 pixels over x in [-1, 1] and y in [-0.5, 0.5], seen from (x, 0, 5) towards -z; the near plane is at z = 4.5.
+Scene sceneOf(const std::string& shapes, const std::string& light = "<emitter type=\"point\"/>", double x = 0) {
+    test::SceneFiles files;
+    const std::string place = std::to_string(x);
+    return loadScene(files.write(
+        "scene.xml", R"(<scene version="3.0.0"><integrator type="aov"><string name="aovs" value=")" + allLayers +
+                         R"("/><integrator type="path"/></integrator><sensor type="orthographic">
+        <float name="near_clip" value="0.5"/><transform name="to_world"><lookat origin=")" +
+                         place + ",0,5\" target=\"" + place +
+                         R"(,0,0" up="0,1,0"/></transform><film type="hdrfilm"><rfilter
+        type="box"/><string name="pixel_format" value="rgba"/><integer name="width" value="8"/><integer name="height"
+        value="4"/></film></sensor>)" +
+                         shapes + light + "</scene>"));
+}
+
+/// Channels by name, one value for each pixel.
+std::map<std::string, std::vector<float>> channelsOf(const Scene& scene, unsigned samples = 64) {
+    std::map<std::string, std::vector<float>> channels;
+    for (const AovImage& layer : renderAovs(testDevice(), scene, RenderSettings{}, samples))
+        for (size_t k = 0; k < layer.values.size(); ++k)
+            channels[layer.channels[k % layer.channels.size()]].push_back(layer.values[k]);
+    return channels;
+}
+
+std::string rectangle(const std::string& transform, const std::string& bsdf) {
+    return "<shape type=\"rectangle\"><transform name=\"to_world\">" + transform + "</transform>" + bsdf + "</shape>";
+}
+
+const std::string diffuse = R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.1,0.2,0.3"/></bsdf>)";
+// Left of x = -0.5 the one, right of x = 0 the other, which is further away and shows its back.
+const std::string twoShapes = rectangle(R"(<scale x="0.25"/><translate x="-0.75"/>)", diffuse) +
+                              rectangle(R"(<scale x="0.5"/><rotate y="1" angle="180"/><translate x="0.5" z="-2"/>)",
+                                        "<bsdf type=\"twosided\"><bsdf type=\"plastic\"/></bsdf>");
+
+TEST(Aovs, AreNamedAsInMitsuba) {
+    std::vector<std::string> names;
+    for (const auto& layer : renderAovs(testDevice(), sceneOf(twoShapes), RenderSettings{}, 1))
+        names.insert(names.end(), layer.channels.begin(), layer.channels.end());
+    EXPECT_THAT(names, testing::ElementsAre("A", "a.R", "a.G", "a.B", "dd.T", "p.q.X", "p.q.Y", "p.q.Z", "gn.X", "gn.Y",
+                                            "gn.Z", "sn.X", "sn.Y", "sn.Z", "pi.I", "si.I"));
+}
+
+TEST(Aovs, SayWhatIsMetFirst) {
+    const auto c = channelsOf(sceneOf(twoShapes));
+    const auto expectAt = [&](size_t pixel, const std::map<std::string, float>& values) {
+        for (const auto& [name, value] : values) EXPECT_NEAR(c.at(name).at(pixel), value, 1e-5) << name << pixel;
+    };
+    // Pixel 9: second row, x in [-0.75, -0.5].
+    expectAt(9, {{"A", 1},
+                 {"a.R", 0.1f},
+                 {"a.G", 0.2f},
+                 {"a.B", 0.3f},
+                 {"dd.T", 4.5f},
+                 {"p.q.Z", 0},
+                 {"gn.X", 0},
+                 {"gn.Z", 1},
+                 {"sn.Z", 1},
+                 {"si.I", 1}});
+    expectAt(14, {{"A", 1}, {"a.R", 0.5f}, {"dd.T", 6.5f}, {"p.q.Z", -2}, {"gn.Z", -1}, {"sn.Z", -1}, {"si.I", 2}});
+    for (const auto& [name, values] : c) EXPECT_EQ(values.at(11), 0) << name << ": nothing is there";
+    EXPECT_NEAR(c.at("p.q.X").at(9), -0.625, 0.01); // means over 64 places
+    EXPECT_NEAR(c.at("p.q.Y").at(9), 0.125, 0.01);
+    for (const float index : c.at("pi.I")) EXPECT_TRUE(index >= 0 && index <= 1) << "two triangles";
+}
+
+TEST(Aovs, PixelsAtAnEdgeAreMeans) {
+    const auto c = channelsOf(sceneOf(rectangle(R"(<scale x="0.5"/><translate x="-0.625"/>)", diffuse)), 256);
+    // Its right edge lies at x = -0.125, in the middle of pixel 11.
+    EXPECT_NEAR(c.at("A").at(11), 0.5, 0.01);
+    EXPECT_NEAR(c.at("a.B").at(11), 0.15, 0.003);
+    EXPECT_NEAR(c.at("dd.T").at(11), 2.25, 0.045);
+    EXPECT_NEAR(c.at("p.q.X").at(11), 0.5 * -0.1875, 0.003);
+}
+
+TEST(Aovs, PlacesFarFromTheOriginAreThoseOfTheFile) {
+    const auto c = channelsOf(sceneOf(rectangle(R"(<translate x="100000"/>)", diffuse),
+                                      "<emitter type=\"point\"><point "
+                                      "name=\"position\" value=\"100000,0,3\"/></emitter>",
+                                      100000));
+    EXPECT_NEAR(c.at("p.q.X").at(9), 100000 - 0.625, 0.02);
+    EXPECT_NEAR(c.at("dd.T").at(9), 4.5, 1e-4);
+}
+
+TEST(Aovs, AlphaPassesNullSurfacesAndIsOneBeforeSurroundings) {
+    const std::string null = rectangle(R"(<translate z="1"/>)", "<bsdf type=\"null\"/>");
+    EXPECT_EQ(channelsOf(sceneOf(null)).at("A").at(9), 0);
+    EXPECT_EQ(channelsOf(sceneOf(null)).at("si.I").at(9), 1) << "it is met all the same";
+    EXPECT_EQ(channelsOf(sceneOf(null + twoShapes)).at("A").at(9), 1);
+    EXPECT_EQ(channelsOf(sceneOf(null + twoShapes)).at("A").at(11), 0);
+    EXPECT_EQ(channelsOf(sceneOf(twoShapes, "<emitter type=\"constant\"/>")).at("A").at(11), 1);
+    EXPECT_EQ(channelsOf(sceneOf(rectangle("", "<bsdf type=\"conductor\"/>"))).at("a.R").at(9), 0)
+        << "no diffuse light";
+}
+
+TEST(Aovs, AreNotTracedUnlessAskedFor) {
+    test::SceneFiles files;
+    const Scene scene = loadScene(files.write("scene.xml", test::sceneWith(diffuse)));
+    EXPECT_TRUE(renderAovs(testDevice(), scene, RenderSettings{}, 1).empty());
+}
+
+} // namespace
+} // namespace quasilux
