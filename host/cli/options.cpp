@@ -295,7 +295,7 @@ RenderOptions RenderOptions::forSensor(size_t index) const {
     RenderOptions one = *this;
     one.sensor = std::to_string(index);
     one.output = outputPath();
-    for (std::string* file : {&one.output, &one.png, &one.stats}) {
+    for (std::string* file : {&one.output, &one.png, &one.stats, &one.checkpoint}) {
         if (file->empty()) continue;
         const std::filesystem::path path(*file);
         *file = (path.parent_path() / (path.stem().string() + "_" + one.sensor + path.extension().string())).string();
