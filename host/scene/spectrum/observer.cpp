@@ -1,6 +1,7 @@
 #include "scene/spectrum/observer.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace quasilux {
 
