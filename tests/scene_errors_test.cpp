@@ -44,7 +44,7 @@ const BadBody badBodies[] = {
     {"ShapePlugin",
      "<shape type=\"cub\"/>",
      {"scene.xml:4:1: unknown shape plugin 'cub'", "Did you mean 'cube'?",
-      "Known: rectangle, cube, disk, cylinder, sphere, obj, ply"}},
+      "Known: instance, shapegroup, merge, rectangle, cube, disk, cylinder, sphere, obj, ply, serialized"}},
     {"BsdfPlugin",
      "<bsdf type=\"difuse\"/>",
      {"scene.xml:4:1: unknown bsdf plugin 'difuse'", "Did you mean 'diffuse'?"}},
