@@ -99,7 +99,7 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     CameraPath path;
     const float4 even = pixelNumbers(index, number, seed);
     const FilterPlace place = filterPlace(&params->camera, world->tables, pixel, even.xy);
-    path.ray = cameraRay(&params->camera, pixel, place.offset, lensNumbers(index, params->pass, seed));
+    path.ray = cameraRay(&params->camera, pixel, place.offset, lensNumbers(index, number, seed));
     path.firstChoice = even.z;
     path.lightChoice = evenChoice(pixelChoiceShift(index, seed), number * params->directSamples);
     path.strata = strataOfPath(seed, number, index);
