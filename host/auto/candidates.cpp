@@ -202,8 +202,9 @@ std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSet
 }
 
 std::string text(const RenderSettings& settings, unsigned photons) {
-    const std::string method = fmt::format("BDD {}, {}, split {}, {} photons/pass, radius {:.3g}", settings.bdd,
-                                           name(settings.variant), settings.quasiSpecular, photons, settings.radiusScale);
+    const std::string method =
+        fmt::format("BDD {}, {}, split {}, {} photons/pass, radius {:.3g}", settings.bdd, name(settings.variant),
+                    settings.quasiSpecular, photons, settings.radiusScale);
     return settings.cameraPaths == 1 ? method : fmt::format("{}, {} camera paths", method, settings.cameraPaths);
 }
 

@@ -53,7 +53,8 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
 
     const auto all = methods(settings, scene_, freedom_);
     const double time = pilotShare * report_.horizon, ofMethods = shareOfMethods * time;
-    const bool hasOthers = all.size() > 1 || freedom_.cameraPaths || !numbersBeside(settings, startPhotons_, freedom_).empty();
+    const bool hasOthers =
+        all.size() > 1 || freedom_.cameraPaths || !numbersBeside(settings, startPhotons_, freedom_).empty();
     report_.outOfTime = hasOthers && 2 * fewestPasses * startPassSeconds_ > ofMethods;
     if (!begun || !hasOthers || report_.outOfTime || report_.horizon < leastSeconds)
         return {settings, report_, std::move(first.pilot)};

@@ -65,9 +65,10 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->transform(wholeNumber(1, maximumCount))
         ->group(group);
     command
-        .add_option("--camera-paths", options.cameraPaths,
-                    "Camera paths of a pixel in each pass, which share its photons, a count (default: the scene's, else "
-                    "searched, else 1)")
+        .add_option(
+            "--camera-paths", options.cameraPaths,
+            "Camera paths of a pixel in each pass, which share its photons, a count (default: the scene's, else "
+            "searched, else 1)")
         ->type_name("N")
         ->transform(wholeNumber(1, 1024))
         ->group(group);
@@ -259,9 +260,10 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (photons) result.photonsPerPass = *photons;
     if (cameraPaths) result.cameraPaths = *cameraPaths;
     if (result.cameraPaths > 1 && !mayHaveCameraPaths(loaded.sensor.meter != MeterKind::none, result))
-        throw InputError(fmt::format("{} camera paths of a pixel are asked for, by --camera-paths or the scene's camera-paths; meters and "
-                                     "--map camera have their own number, leave it out",
-                                     result.cameraPaths));
+        throw InputError(fmt::format(
+            "{} camera paths of a pixel are asked for, by --camera-paths or the scene's camera-paths; meters and "
+            "--map camera have their own number, leave it out",
+            result.cameraPaths));
     if (seed) result.seed = *seed;
     if (quasiSpecular) {
         result.quasiSpecular = *quasiSpecular;

@@ -264,7 +264,8 @@ int renderCommand(const RenderOptions& options) {
         throw InputError({options.scene}, "--grid measures the illuminance-grid instead of a sensor; give it without "
                                           "--sensor all.");
     if (!options.resume.empty())
-        throw InputError(fmt::format("--resume {}: a checkpoint is of one sensor; give --sensor with its number.", options.resume));
+        throw InputError(
+            fmt::format("--resume {}: a checkpoint is of one sensor; give --sensor with its number.", options.resume));
     const size_t count = loadScene(options.scene, options.parameters(), {"0", options.unknown()}).sensorCount;
     for (size_t index = 0; index < count; ++index)
         if (const int code = renderSensor(options.forSensor(index)); code != 0 || interruptFlag()) return code;

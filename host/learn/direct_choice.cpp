@@ -183,8 +183,7 @@ DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTab
     const auto variance = variances(blocks, emitters.emitters.size());
     unsigned sampled = 0;
     for (size_t e = 0; e < emitters.emitters.size(); ++e) {
-        choice.byPhotons[e] =
-            mayUsePhotons && isSurroundings(emitters.emitters[e]) && variance[e] > mostVariance;
+        choice.byPhotons[e] = mayUsePhotons && isSurroundings(emitters.emitters[e]) && variance[e] > mostVariance;
         sampled += !choice.byPhotons[e];
     }
     choice.lightBlockSize = blocks.size;

@@ -54,6 +54,7 @@ SceneChecksums checksumsOf(const DeviceScene& flat, int maxDepth) {
     camera.add(&flat.camera, sizeof flat.camera);
     camera.add(&flat.offsets, sizeof flat.offsets);
     camera.add(&maxDepth, sizeof maxDepth);
+    camera.add(&flat.features.hiddenEmitters, sizeof flat.features.hiddenEmitters);
     return {{"geometry", geometry.text()},
             {"materials, textures or emitters", materials.text()},
             {"camera, film or depth", camera.text()}};

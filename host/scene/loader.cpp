@@ -191,7 +191,8 @@ void checkEmitters(const Scene& scene) {
         throw InputError(
             {scene.path},
             "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
-            "<emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or <emitter type=\"envmap\">.");
+            "<emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or <emitter "
+            "type=\"envmap\">.");
 }
 
 /// The last warnings: what was unknown, and how much of it.

@@ -289,7 +289,8 @@ enum class Unknown { refused, forgiven };
 
 /// How a file is read.
 struct LoadChoice {
-    std::string sensor = {}; ///< which is rendered: its number, in the order of the file from 0 on, or its id; empty: the first one
+    std::string sensor =
+        {}; ///< which is rendered: its number, in the order of the file from 0 on, or its id; empty: the first one
     Unknown unknown = Unknown::refused;
 };
 

@@ -14,7 +14,8 @@ namespace quasilux {
 
 namespace {
 
-const Names settingNames = {"bdd", "variant", "quasi-specular", "direct", "map", "photons", "camera-paths", "seed", "units"};
+const Names settingNames = {"bdd",     "variant",      "quasi-specular", "direct", "map",
+                            "photons", "camera-paths", "seed",           "units"};
 
 std::string oneOf(const Attribute& entry, const Names& known, const SourceLocation& where) {
     if (std::find(known.begin(), known.end(), entry.value) == known.end())

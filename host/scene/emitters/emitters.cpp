@@ -21,11 +21,8 @@ struct SceneEmitterPlugin {
     void (*read)(Properties&);
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
-    {"point", readPoint},
-    {"spot", readSpot},
-    {"directional", readDirectional},
-    {"constant", readConstant},
-    {"envmap", readEnvmap},
+    {"point", readPoint},       {"spot", readSpot},     {"directional", readDirectional},
+    {"constant", readConstant}, {"envmap", readEnvmap},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {
