@@ -37,7 +37,7 @@ std::vector<Scene> loadScenes(const BenchOptions& options) {
     std::vector<Scene> scenes;
     for (const auto& path : options.scenes)
         scenes.push_back(loadScene(path, parseDefinitions(options.definitions),
-                                   options.lenient ? Unknown::forgiven : Unknown::refused));
+                                   {{}, options.lenient ? Unknown::forgiven : Unknown::refused}));
     return scenes;
 }
 

@@ -4,6 +4,7 @@ import pathlib
 import sys
 
 import meshes
+import smoke
 import textures
 
 
@@ -12,6 +13,7 @@ def main(folder):
     for name in ("parquet", "rug", "painting"):
         textures.write_png(folder / f"{name}.png", getattr(textures, name)())
     textures.write_hdr(folder / "studio.hdr", textures.studio())
+    smoke.write(folder / "smoke.vol")
     meshes.torus_knot(folder / "knot.obj")
     # Points (radius, height), the outside on the right on the way along the profile.
     table = [(1e-4, 0.0), (0.26, 0.0), (0.26, 0.012), (0.05, 0.05), (0.035, 0.12), (0.035, 0.6), (0.09, 0.71), (0.55, 0.715), (0.56, 0.73),

@@ -1,14 +1,8 @@
-"""Writes smoke.vol: a plume of smoke that rises, widens and breaks up, for scenes/showcase/smoke.xml.
-
-    python3 scripts/showcase/smoke.py [FILE] [VOXELS]
-"""
-import pathlib
+"""A plume of smoke that rises, widens and breaks up, as a file of voxels (.vol, version 3)."""
 import struct
-import sys
 
 import numpy as np
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SEED, OCTAVES = 5, 4
 
 
@@ -45,13 +39,7 @@ def plume(n):
     return density / np.percentile(density[density > 0], 97)
 
 
-def main():
-    file = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "scenes" / "showcase" / "smoke.vol"
-    n = int(sys.argv[2]) if len(sys.argv) > 2 else 64
-    values = plume(n)
-    header = struct.pack("<3sBiiiii6f", b"VOL", 3, 1, n, n, 2 * n, 1, 0, 0, 0, 1, 1, 1)
-    file.write_bytes(header + values.astype("<f4").tobytes())
-
-
-if __name__ == "__main__":
-    main()
+def write(path, voxels=64):
+    """`voxels` in a row across the plume, twice as many along it."""
+    header = struct.pack("<3sBiiiii6f", b"VOL", 3, 1, voxels, voxels, 2 * voxels, 1, 0, 0, 0, 1, 1, 1)
+    path.write_bytes(header + plume(voxels).astype("<f4").tobytes())
