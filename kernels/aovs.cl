@@ -10,10 +10,10 @@
 inline float3 diffuseReflectance(const Surface* s, __global const Lobe* lobes, float3 wo) {
     float3 sum = 0;
     for (uint k = 0; k < s->lobeCount; ++k) {
-        const uint type = lobes[k].type;
-        const int isDiffuse = type == LOBE_LAMBERT || type == LOBE_COATEDLAMBERT;
-        if (isDiffuse)
+        if (lobes[k].type == LOBE_LAMBERT)
             sum += tinted(s, k, loadRgb(lobes[k].reflectance));
+        else if (lobes[k].type == LOBE_COATEDLAMBERT) /* of the base: the coat's own factors are taken out again */
+            sum += tinted(s, k, loadRgb(lobes[k].reflectance) * lobes[k].exponent);
         else if (lobes[k].scattering != SCATTER_SPECULAR)
             sum += M_PI_F * tintedEval(s, lobes, k, wo, (float3)(0, 0, 1));
     }
