@@ -18,10 +18,12 @@
  *   - at its next surface or collision where it went on for emission only (genuine diffuse, d = BDD: law.clh);
  *   - on a surface without lobes, which absorbs everything;
  *   - where it has as many segments as the scene's max_depth allows, after light is taken;
+ *   - where a bent normal looks away from it (relief.clh);
  *   - where no lobe is chosen: none may scatter any more (law.clh), or roulette ends it (scatterCameraPath);
  *   - where the sampled direction lies below the horizon, or on different sides of the shading normal and of the surface;
  *   - in a medium where the part of the phase function that was sampled may not scatter, or by roulette (collideCameraPath);
- *   - after PATH_EVENTS_MAX events: cut, and counted (traceCameraPath). */
+ *   - after PATH_EVENTS_MAX events: cut, and counted (traceCameraPath).
+ * Where a surface ends it for emission only, for its segments or for its normal, what the surface lets pass goes on (passOnly). */
 inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, float3* components) {
     const CameraParams* params = world->params;
     Hit hit;
@@ -52,28 +54,27 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
     takeEmission(world, path, &s, hit.t, components);
 #if defined(HAS_NULL_PRIMITIVES) || defined(HAS_MEDIA) || defined(HAS_HIDDEN_EMITTERS)
     if (s.isNull || (s.emitter != QL_NONE && looksThroughEmitters(path))) {
-        const float tMax = path->ray.tMax;
-        path->ray = leavingRay(&s, path->ray.direction);
-        path->ray.tMax = tMax - hit.t; /* the far clipping plane stays */
-        path->passed += max(hit.t, FLT_MIN);
-#ifdef HAS_MEDIA
-        path->medium =
-            mediumBeyond(SCENE_TABLE(world->tables, &params->scene, Shape, shapes) + s.shape, !s.front, path->medium);
-#endif
+        passSurface(world, path, &s, hit.t);
         return 1;
     }
 #endif
-    if (path->onlyEmission || s.lobeCount == 0) return 0;
+    if (s.lobeCount == 0) return 0;
     __global const Lobe* lobes = SCENE_TABLE(world->tables, &params->scene, Lobe, lobes) + s.firstLobe;
     const Frame frame = frameFromNormal(s.shadingNormal);
     const float3 wo = toLocal(&frame, -path->ray.direction);
+#ifdef HAS_LOBE_PASSAGE
+    if (path->onlyEmission || path->depth >= params->maxDepth || looksAway(&s, wo))
+        return passOnly(world, path, &s, lobes, hit.t, rng);
+#else
+    if (path->onlyEmission || looksAway(&s, wo)) return 0;
+#endif
     uint directMask = 0;
     for (uint k = 0; k < s.lobeCount; ++k)
         directMask |= (lightTaken(lobes[k].scattering, path, params) >> LIGHT_DIRECT & 1) << k;
     const LobeChoice choice = chooseProbabilities(path, &s, lobes, wo, params->bdd, directMask, &params->scene);
     takeLight(world, path, &s, &frame, wo, lobes, &choice, rng, components);
     if (path->depth >= params->maxDepth) return 0;
-    return scatterCameraPath(world, path, &s, &frame, wo, lobes, &choice, rng);
+    return scatterCameraPath(world, path, &s, &frame, wo, lobes, &choice, hit.t, rng);
 }
 
 /* Work-items of a pixel in a pass: one, of a meter several. */

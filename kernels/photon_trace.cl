@@ -22,9 +22,9 @@ inline uint storableClasses(__global const Lobe* lobes, uint count, uint variant
 }
 
 /* Factor on flux that is stored: photons arrive in proportion to |wi.ng|, and light is reflected in proportion to
- * |wi.ns|, none of it from below the horizon of the shading normal. */
+ * |wi.ns|, none of it from below the horizon of the shading normal. Where a texture bends it the latter is left to those who gather. */
 inline float shadingNormalArrival(const Surface* s) {
-#if defined(HAS_CORNER_NORMALS) && PHOTON_RULE != 4
+#if (defined(HAS_CORNER_NORMALS) || defined(HAS_RELIEF)) && PHOTON_RULE != 4
     return s->arrival;
 #else
     return 1.f;

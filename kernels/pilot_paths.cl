@@ -152,9 +152,19 @@ inline void noteScattering(PilotState* state, uint scattering, uint bdd) {
         state->gathers = 1;
 }
 
-/* Goes on with one lobe; 0 where the path ends. */
+/* Goes straight on through a surface, on the same segment. */
+inline void passPilot(const World* world, PilotState* state, const Surface* s, float distance) {
+    state->ray = leavingRay(s, state->ray.direction);
+    state->passed += max(distance, FLT_MIN);
+#ifdef HAS_MEDIA
+    state->medium = mediumBeyond(SCENE_TABLE(world->tables, &world->params->scene, Shape, shapes) + s->shape, !s->front,
+                                 state->medium);
+#endif
+}
+
+/* Goes on with one lobe; 0 where the path ends. It has come `distance` from the last surface. */
 inline int scatterPilot(const World* world, PilotState* state, const Surface* s, const Frame* frame, float3 wo,
-                        __global const Lobe* lobes, const LobeChoice* choice) {
+                        __global const Lobe* lobes, const LobeChoice* choice, float distance) {
     float rest;
     const uint k = chooseLobe(choice, s->lobeCount, rngNext(&state->rng), &rest);
     if (k == s->lobeCount) return 0;
@@ -163,6 +173,12 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
     const float3 wi = toWorld(frame, sample.wi);
     if (!sameSides(s, wi, sample.wi.z)) return 0;
     state->throughput *= sample.weight / choice->probability[k];
+#ifdef HAS_LOBE_PASSAGE
+    if (LOBE_PASSES(lobes[k].type)) {
+        passPilot(world, state, s, distance);
+        return 1;
+    }
+#endif
     state->lobePdf = lobes[k].scattering == SCATTER_SPECULAR ? 0.f : choice->probability[k] * sample.pdfSolidAngle;
     noteScattering(state, lobes[k].scattering, world->params->bdd);
     state->ray = leavingRay(s, wi);
@@ -196,17 +212,14 @@ inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* sta
         meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
                     hit.t, s.geometricNormal, s.position);
     if (s.isNull || isHidden) {
-        state->ray = leavingRay(&s, state->ray.direction);
-        state->passed += max(hit.t, FLT_MIN);
-#ifdef HAS_MEDIA
-        state->medium = mediumBeyond(shape, !s.front, state->medium);
-#endif
+        passPilot(world, state, &s, hit.t);
         return 1;
     }
     if (s.lobeCount == 0) return 0;
     __global const Lobe* lobes = SCENE_TABLE(world->tables, scene, Lobe, lobes) + s.firstLobe;
     const Frame frame = frameFromNormal(s.shadingNormal);
     const float3 wo = toLocal(&frame, -state->ray.direction);
+    if (looksAway(&s, wo)) return 0;
     LobeChoice choice;
     const float brightest = maxComponent(state->throughput);
     uint kinds = 0;
@@ -218,7 +231,7 @@ inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* sta
     if (state->gathers || (kinds & SCATTER_GENUINE_DIFFUSE && state->d == world->params->bdd))
         storeVertex(path, state, s.position, importanceFace(s.geometricNormal));
     if (kinds != SCATTER_SPECULAR) sampleEmitterFor(world, path, state, &s, &frame, wo, lobes, &choice);
-    return scatterPilot(world, state, &s, &frame, wo, lobes, &choice);
+    return scatterPilot(world, state, &s, &frame, wo, lobes, &choice, hit.t);
 }
 
 #ifdef HAS_MEDIA

@@ -91,8 +91,16 @@ typedef struct {
     Rgb k;                   /* imaginary part */
     float alphaU, alphaV;    /* microfacet roughness */
     float exponent;          /* Phong */
+    float coat[8];           /* rough coats: polynomial in the cosine */
     unsigned int reflectanceTexture, transmittanceTexture; /* 1 + index of the Texture that multiplies it; 0: none */
+    unsigned int firstWeight, weightCount;                 /* LobeWeight records, which multiply all of it */
 } Lobe;
+
+/* Share of a lobe in a blend or under a mask, by texture. */
+typedef struct {
+    unsigned int texture;    /* index of a Texture whose channels are equal */
+    unsigned int complement; /* 1: the share is 1 less its value */
+} LobeWeight;
 
 #define MATERIAL_NULL 1u
 /* Lobes seen from the side of the normal and from behind; a count of 0 is black. */
@@ -100,7 +108,21 @@ typedef struct {
     unsigned int frontFirst, frontCount;
     unsigned int backFirst, backCount;
     unsigned int flags;
+    unsigned int frontRelief, backRelief; /* 1 + index of the Relief that bends the side's normals; 0: none */
 } Material;
+
+#define RELIEF_NORMALS 0u  /* the texture holds normals: 2 rgb - 1, in the frame of dp/du */
+#define RELIEF_HEIGHTS 1u  /* it holds heights, times `scale`, along the shading normal */
+#define RELIEF_FLIPS 1u    /* flag: bent normals on the wrong side of the surface are turned over */
+#define RELIEF_SHADOWS 2u  /* flag: bent normals take light that the surface itself would shadow, by a factor */
+#define RELIEF_MIRRORED 4u /* flag: of the back, mirrored in the surface; else turned over */
+/* Bends shading normals by a texture: normal and bump maps. */
+typedef struct {
+    unsigned int type;    /* RELIEF_* */
+    unsigned int texture; /* index */
+    float scale;
+    unsigned int flags;
+} Relief;
 
 /* ---- participating media -------------------------------------------------------------------------------------- */
 

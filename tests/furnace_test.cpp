@@ -89,6 +89,17 @@ TEST_P(RightRule, SeesNothingOfGlassAndMirrors) {
     EXPECT_NEAR(result.mean, truth, allowed(result)) << "standard error " << result.standardError;
 }
 
+// Nor masks and blends with nothing, by number and by texture: what passes is no event, of paths, photons and shadow rays.
+TEST_P(RightRule, SeesNothingOfMasks) {
+    const auto result = renderFurnace(GetParam(), "furnace_mask.xml");
+    EXPECT_NEAR(result.mean, truth, allowed(result)) << "standard error " << result.standardError;
+}
+TEST(Furnace, SeesMasksThatAbsorb) {
+    const auto result =
+        renderFurnace({"Grey", 1, Variant::main, "auto", emitters}, "furnace_mask.xml", {{"reflectance", "0.8"}});
+    EXPECT_GT(std::abs(result.mean - truth), allowed(result)) << result.mean << " looks right";
+}
+
 // Negative controls: the same check must fail for every wrong reading of the law.
 class WrongRule : public testing::TestWithParam<Method> {};
 TEST_P(WrongRule, MissesTheClosedForm) {

@@ -24,11 +24,11 @@ void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& m
         features.genuineDiffuseMedia |= medium.level > 0;
         features.quasiSpecularMedia |= std::isfinite(medium.level);
     }
-    // Through anything but a null surface light comes as caustic photons, so emitter sampling would find nothing.
+    // What neither is null nor has holes lets no direct light pass: it comes as caustic photons.
     for (const auto& emitter : emitters.emitters) features.directInMedia |= emitter.medium != MEDIUM_NONE;
     for (const auto& shape : scene.shapes)
         features.directInMedia |=
-            scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull && (shape.interior || shape.exterior);
+            scene.bsdfs[static_cast<size_t>(shape.bsdf)].letsPass() && (shape.interior || shape.exterior);
 }
 
 Features findFeatures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters,
@@ -38,9 +38,12 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.lobes.insert(lobe.type);
         features.genuineDiffuse |= lobe.scattering == SCATTER_GENUINE_DIFFUSE;
         features.quasiSpecular |= lobe.scattering == SCATTER_QUASI_SPECULAR;
-        features.specular |= lobe.scattering == SCATTER_SPECULAR;
-        features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0;
+        features.specular |= lobe.scattering == SCATTER_SPECULAR && !LOBE_PASSES(lobe.type);
+        features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0 || lobe.weightCount > 0;
+        features.lobeWeights |= lobe.weightCount > 0;
     }
+    features.relief = !materials.reliefs.empty();
+    features.textures |= features.relief;
     for (const auto& emitter : emitters.emitters) features.emitterTypes.insert(emitter.type);
     features.lightTree = !emitters.lightTree.empty();
     findMediumFeatures(scene, media, emitters, features);
@@ -191,11 +194,13 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.cornerNormals = tables.append(flattenCornerNormals(scene));
     out.offsets.materials = tables.append(materials.materials);
     out.offsets.lobes = tables.append(materials.lobes);
-    const auto textures = flattenTextures(scene, materials.lobes);
+    const auto textures = flattenTextures(scene, materials);
     out.offsets.textures = tables.append(textures.textures);
     out.offsets.texels = tables.append(textures.texels);
     out.offsets.uvs = tables.append(flattenUvs(scene));
     out.offsets.media = appendMedia(media, tables);
+    out.offsets.reliefs = tables.append(materials.reliefs);
+    out.offsets.lobeWeights = tables.append(materials.weights);
     out.offsets.mediumPlanes = tables.append(media.planes);
     out.offsets.emitters = tables.append(out.emitters.emitters);
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);

@@ -83,14 +83,16 @@ std::vector<shared::Packed3> flattenCornerNormals(const Scene& scene);
 struct MaterialTables {
     std::vector<shared::Material> materials;
     std::vector<shared::Lobe> lobes;
+    std::vector<shared::LobeWeight> weights;
+    std::vector<shared::Relief> reliefs;
 };
 MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecision>& split);
 struct TextureTables {
     std::vector<shared::Texture> textures;
     std::vector<Rgb> texels;
 };
-/// Only textures that `lobes` use bring texels.
-TextureTables flattenTextures(const Scene& scene, const std::vector<shared::Lobe>& lobes);
+/// Only textures that `materials` use bring texels.
+TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials);
 /// Words of a textured shape in the table of flattenUvs; 0 for others.
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape);
 std::vector<float> flattenUvs(const Scene& scene);

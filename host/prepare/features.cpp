@@ -35,6 +35,8 @@ constexpr std::array flags = {
     Flag{&Features::thinLens, "HAS_THIN_LENS", "thin lens"},
     Flag{&Features::filterTable, "HAS_FILTER_TABLE", "tabulated reconstruction filter"},
     Flag{&Features::textures, "HAS_TEXTURES", "textures"},
+    Flag{&Features::lobeWeights, "HAS_LOBE_WEIGHTS", "blends by texture"},
+    Flag{&Features::relief, "HAS_RELIEF", "normal and bump maps"},
     Flag{&Features::media, "HAS_MEDIA", "media"},
     Flag{&Features::chromaticMedia, "HAS_CHROMATIC_MEDIA", "media with coloured extinction"},
     Flag{&Features::heterogeneousMedia, "HAS_HETEROGENEOUS_MEDIA", "media that vary in space"},

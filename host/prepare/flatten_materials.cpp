@@ -8,16 +8,26 @@ namespace quasilux {
 namespace {
 
 unsigned appendSide(const Bsdf& bsdf, const std::vector<LobeDescription>& side,
-                    const std::vector<LobeDecision>& decisions, std::vector<shared::Lobe>& lobes) {
+                    const std::vector<LobeDecision>& decisions, MaterialTables& tables) {
     if (side.size() > LOBES_MAX)
         throw InputError(bsdf.where, fmt::format("this bsdf has {} lobes on one side, expected at most {}: blend fewer",
                                                  side.size(), LOBES_MAX));
     for (size_t k = 0; k < side.size(); ++k) {
         shared::Lobe lobe = side[k].device;
         lobe.scattering = decisions[k].scattering;
-        lobes.push_back(lobe);
+        lobe.firstWeight = static_cast<unsigned>(tables.weights.size());
+        lobe.weightCount = static_cast<unsigned>(side[k].weights.size());
+        tables.weights.insert(tables.weights.end(), side[k].weights.begin(), side[k].weights.end());
+        tables.lobes.push_back(lobe);
     }
     return static_cast<unsigned>(side.size());
+}
+
+/// As in Material.
+unsigned appendRelief(const std::optional<shared::Relief>& relief, MaterialTables& tables) {
+    if (!relief) return 0;
+    tables.reliefs.push_back(*relief);
+    return static_cast<unsigned>(tables.reliefs.size());
 }
 
 } // namespace
@@ -29,9 +39,11 @@ MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecisi
         shared::Material material{};
         material.flags = bsdf.isNull ? MATERIAL_NULL : 0;
         material.frontFirst = static_cast<unsigned>(tables.lobes.size());
-        material.frontCount = appendSide(bsdf, bsdf.front, split[k].front, tables.lobes);
+        material.frontCount = appendSide(bsdf, bsdf.front, split[k].front, tables);
         material.backFirst = static_cast<unsigned>(tables.lobes.size());
-        material.backCount = appendSide(bsdf, bsdf.back, split[k].back, tables.lobes);
+        material.backCount = appendSide(bsdf, bsdf.back, split[k].back, tables);
+        material.frontRelief = appendRelief(bsdf.frontRelief, tables);
+        material.backRelief = appendRelief(bsdf.backRelief, tables);
         tables.materials.push_back(material);
     }
     return tables;

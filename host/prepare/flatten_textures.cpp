@@ -6,16 +6,27 @@
 
 namespace quasilux {
 
-TextureTables flattenTextures(const Scene& scene, const std::vector<shared::Lobe>& lobes) {
+namespace {
+
+std::vector<bool> texturesInUse(const Scene& scene, const MaterialTables& materials) {
+    std::vector<bool> used(scene.textures.size() + 1); // [0]: of lobes that have none
+    for (const auto& lobe : materials.lobes) used[lobe.reflectanceTexture] = used[lobe.transmittanceTexture] = true;
+    for (const auto& weight : materials.weights) used[weight.texture + 1] = true;
+    for (const auto& relief : materials.reliefs) used[relief.texture + 1] = true;
+    used.erase(used.begin());
+    return used;
+}
+
+} // namespace
+
+TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials) {
+    const std::vector<bool> used = texturesInUse(scene, materials);
     TextureTables tables;
     std::map<const void*, unsigned> placed; // images that several textures share, by Texels::identity
     for (unsigned k = 0; k < scene.textures.size(); ++k) {
-        const auto used = [&](const shared::Lobe& lobe) {
-            return lobe.reflectanceTexture == k + 1 || lobe.transmittanceTexture == k + 1;
-        };
         shared::Texture record = scene.textures[k].device;
         const Texels& texels = scene.textures[k].texels;
-        if (std::any_of(lobes.begin(), lobes.end(), used)) {
+        if (used[k]) {
             const auto [image, isNew] = placed.emplace(texels.identity(), static_cast<unsigned>(tables.texels.size()));
             record.firstTexel = image->second;
             if (isNew) tables.texels.insert(tables.texels.end(), texels.begin(), texels.end());

@@ -14,7 +14,9 @@ namespace {
 constexpr double degrees = 57.29577951308232;
 
 bool hasSpecialLobe(const Bsdf& bsdf) {
-    const auto special = [](const LobeDescription& lobe) { return !LOBE_IS_BROAD(lobe.device.type); };
+    const auto special = [](const LobeDescription& lobe) {
+        return !LOBE_IS_BROAD(lobe.device.type) && !LOBE_PASSES(lobe.device.type);
+    };
     return std::any_of(bsdf.front.begin(), bsdf.front.end(), special) ||
            std::any_of(bsdf.back.begin(), bsdf.back.end(), special);
 }

@@ -32,6 +32,13 @@ constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// Points of the camera map hold no plain normal.
+void refuseRelief(const Scene& scene) {
+    for (const Bsdf& bsdf : scene.bsdfs)
+        if (bsdf.frontRelief || bsdf.backRelief)
+            throw InputError(bsdf.where, "normal and bump maps need --map photons, and the map is 'camera'.");
+}
+
 } // namespace
 
 struct Renderer::Stages {
@@ -349,6 +356,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
                    std::shared_ptr<const LearnedScene> known, const SceneChecksums& expected) {
     const auto start = Clock::now();
     DeviceScene flat = flattenFor(scene, settings);
+    if (settings.map == MapOrder::camera) refuseRelief(scene);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
     auto checksums = checksumsOf(flat, scene.maxDepth);
     if (!expected.empty()) requireSame(expected, checksums);

@@ -31,8 +31,9 @@ struct QuasiSpecularChoice {
 /// host/prepare/split decides between genuine diffuse and quasi-specular.
 struct LobeDescription {
     shared::Lobe device{};
-    std::string name;                  ///< "diffuse", "specular", …, as a quasi-specular list names it
-    QuasiSpecularChoice quasiSpecular; ///< from the innermost bsdf that says something
+    std::vector<shared::LobeWeight> weights; ///< factors by texture; their textures count from 0 in Scene::textures
+    std::string name;                        ///< "diffuse", "specular", …, as a quasi-specular list names it
+    QuasiSpecularChoice quasiSpecular;       ///< from the innermost bsdf that says something
     double halfWidth = 0; ///< radians: half the lobe's energy lies within this angle of its peak (0 delta, 45° Lambert)
 };
 
@@ -40,12 +41,15 @@ struct Bsdf {
     std::string id;     ///< as in the scene, or "<plugin>@line" where it has none
     std::string plugin; ///< outermost plugin name
     SourceLocation where;
-    std::vector<LobeDescription> front; ///< lobes seen from the side of the normal
-    std::vector<LobeDescription> back;  ///< lobes seen from behind; empty = black (one-sided)
+    std::vector<LobeDescription> front;                    ///< lobes seen from the side of the normal
+    std::vector<LobeDescription> back;                     ///< lobes seen from behind; empty = black (one-sided)
+    std::optional<shared::Relief> frontRelief, backRelief; ///< what bends the normals; textures count from 0
     bool isNull = false;
 
-    /// Whether any lobe has a texture.
+    /// Whether any lobe, or what bends the normals, has a texture.
     bool isTextured() const;
+    /// Whether light passes as if the surface were not there, at least in part.
+    bool letsPass() const;
 };
 
 /// Radiance that a shape emits on the side of its normal, W sr^-1 m^-2.

@@ -41,10 +41,35 @@ shared::Lobe makeLobe(unsigned type) {
     return lobe;
 }
 
+/// The parts of `principled`.
+static void addPrincipledCases(std::vector<LobeCase>& cases) {
+    for (const float flatness : {0.0f, 0.7f}) {
+        cases.push_back({fmt::format("principled diffuse {}", flatness), makeLobe(LOBE_PRINCIPLEDDIFFUSE)});
+        cases.back().lobe.alphaU = 0.5f;
+        cases.back().lobe.exponent = flatness;
+    }
+    cases.push_back({"sheen", makeLobe(LOBE_SHEEN)});
+    cases.push_back({"ggx schlick", makeLobe(LOBE_GGXSCHLICK)});
+    cases.back().lobe.eta = {0.6f, 0.6f, 0.6f};
+    cases.back().lobe.k = {0.9f, 0.9f, 0.9f};
+    cases.back().lobe.alphaU = cases.back().lobe.alphaV = 0.3f;
+    for (const float alpha : {0.1f, 0.001f}) {
+        cases.push_back({fmt::format("clearcoat {}", alpha), makeLobe(LOBE_CLEARCOAT)});
+        cases.back().lobe.alphaU = alpha;
+    }
+}
+
 std::vector<LobeCase> finiteLobes() {
     std::vector<LobeCase> cases{{"lambert", makeLobe(LOBE_LAMBERT)}, {"coated lambert", makeLobe(LOBE_COATEDLAMBERT)}};
     cases.back().lobe.eta.r = 1.5f;
     cases.back().lobe.exponent = 0.908f; // what a coat of this index lets in of diffuse light
+    cases.push_back({"rough coated lambert", makeLobe(LOBE_ROUGHCOATEDLAMBERT)});
+    shared::Lobe& coated = cases.back().lobe; // T = 0.3 + 0.9 x - 0.4 x^3 in x = cos / (cos + 0.2)
+    coated.coat[0] = 0.3f;
+    coated.coat[1] = 0.9f;
+    coated.coat[3] = -0.4f;
+    coated.alphaU = 0.2f;
+    coated.exponent = 0.796f;
     for (float exponent : {0.0f, 1.0f, 30.0f, 1000.0f, 1e5f}) {
         cases.push_back({fmt::format("phong {}", exponent), makeLobe(LOBE_PHONG)});
         cases.back().lobe.exponent = exponent;
@@ -57,6 +82,7 @@ std::vector<LobeCase> finiteLobes() {
             cases.back().lobe.alphaU = alpha[0];
             cases.back().lobe.alphaV = alpha[1];
         }
+    addPrincipledCases(cases);
     return cases;
 }
 

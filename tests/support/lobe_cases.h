@@ -1,6 +1,7 @@
 // Lobes and directions that the lobe tests run over, and the kernels of tests/kernels/lobes.cl as functions.
 #pragma once
 
+#include "bsdf/lobe_list.h"
 #include "shared_types.h"
 
 #include <glm/glm.hpp>
@@ -10,10 +11,9 @@
 namespace quasilux {
 
 /// Compiles every lobe.
-inline const std::string allLobes = "-DHAS_LOBE_LAMBERT -DHAS_LOBE_PHONG -DHAS_LOBE_GGX -DHAS_LOBE_BECKMANN "
-                                    "-DHAS_LOBE_CONDUCTOR -DHAS_LOBE_DIELECTRIC -DHAS_LOBE_THINDIELECTRIC "
-                                    "-DHAS_LOBE_GGXDIELECTRIC -DHAS_LOBE_BECKMANNDIELECTRIC "
-                                    "-DHAS_LOBE_COATEDLAMBERT";
+#define QUASILUX_LOBE_OPTION(ID, argument) " -DHAS_LOBE_" #ID
+inline const std::string allLobes = LOBE_LIST(QUASILUX_LOBE_OPTION, );
+#undef QUASILUX_LOBE_OPTION
 
 struct LobeCase {
     std::string name;

@@ -55,7 +55,56 @@ double transmittedByCoat(double cosine, double eta) {
     return 1 - (rs * rs + rp * rp) / 2;
 }
 
-bool isGgx(const shared::Lobe& lobe) { return lobe.type == LOBE_GGX || lobe.type == LOBE_GGXDIELECTRIC; }
+double transmittedByRoughCoat(double cosine, const shared::Lobe& lobe) {
+    const double x = cosine / (cosine + double(lobe.alphaU));
+    double sum = 0;
+    for (int k = 0; k < 8; ++k) sum += double(lobe.coat[k]) * std::pow(x, k);
+    return sum;
+}
+
+bool isGgx(const shared::Lobe& lobe) {
+    return lobe.type == LOBE_GGX || lobe.type == LOBE_GGXDIELECTRIC || lobe.type == LOBE_GGXSCHLICK;
+}
+
+double schlick(double normal, double grazing, double cosine) {
+    return normal + (grazing - normal) * std::pow(1 - cosine, 5);
+}
+
+double clearcoatDistribution(double alpha, dvec3 h) {
+    const double a2 = alpha * alpha;
+    return (a2 - 1) / (pi * std::log(a2) * (h.x * h.x + h.y * h.y + a2 * h.z * h.z));
+}
+
+// s is the share of D cos about the normal: GTR1 integrated (Burley 2012, appendix B).
+LobeDirection clearcoatDirection(const shared::Lobe& lobe, dvec3 wo, double s, double phi) {
+    const double a2 = double(lobe.alphaU) * lobe.alphaU;
+    const double sine2 = (std::pow(a2, 1 - s) - a2) / (1 - a2);
+    const dvec3 h = {std::sqrt(sine2) * std::cos(phi), std::sqrt(sine2) * std::sin(phi), std::sqrt(1 - sine2)};
+    const double cosH = glm::dot(wo, h);
+    return {2 * cosH * h - wo, std::max(4 * cosH / (2 * pi * clearcoatDistribution(lobe.alphaU, h) * h.z), 0.0)};
+}
+
+LobeCoordinates clearcoatCoordinates(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
+    const dvec3 h = glm::normalize(wo + wi);
+    const double a2 = double(lobe.alphaU) * lobe.alphaU, sine2 = h.x * h.x + h.y * h.y;
+    return {1 - std::log((1 - a2) * sine2 + a2) / std::log(a2), positiveAngle(h.y, h.x)};
+}
+
+double clearcoatFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
+    const dvec3 h = glm::normalize(wo + wi);
+    const double d = clearcoatDistribution(lobe.alphaU, h);
+    const auto shadowing = [](double cosine) { return smithGgx(0.25 * std::sqrt(1 - cosine * cosine) / cosine); };
+    return schlick(0.04, 1, glm::dot(wo, h)) * d * shadowing(wo.z) * shadowing(wi.z) / 4;
+}
+
+double principledDiffuseFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
+    const double cosD = glm::dot(wo, glm::normalize(wo + wi)), retro = 2 * double(lobe.alphaU) * cosD * cosD;
+    const double fo = std::pow(1 - wo.z, 5), fi = std::pow(1 - wi.z, 5);
+    const double rough = (1 - fi / 2) * (1 - fo / 2) + retro * (fo + fi + fo * fi * (retro - 1));
+    const double below = schlick(1, retro / 2, wo.z) * schlick(1, retro / 2, wi.z);
+    const double flattened = 1.25 * (below * (1 / (wo.z + wi.z) - 0.5) + 0.5);
+    return (rough + (flattened - rough) * double(lobe.exponent)) / pi;
+}
 
 double microfacetFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
     return microfacetDistribution(lobe, glm::normalize(wo + wi)) * microfacetShadowing(lobe, wo) *
@@ -76,6 +125,7 @@ double microfacetShadowing(const shared::Lobe& lobe, dvec3 v) {
 }
 
 LobeDirection lobeDirection(const shared::Lobe& lobe, dvec3 wo, double s, double phi) {
+    if (lobe.type == LOBE_CLEARCOAT) return clearcoatDirection(lobe, wo, s, phi);
     if (LOBE_IS_BROAD(lobe.type)) return {polar(1 - s, phi), 1};
     if (lobe.type == LOBE_PHONG) {
         const double m = 1 / (double(lobe.exponent) + 1);
@@ -86,6 +136,7 @@ LobeDirection lobeDirection(const shared::Lobe& lobe, dvec3 wo, double s, double
 }
 
 LobeCoordinates lobeCoordinates(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
+    if (lobe.type == LOBE_CLEARCOAT) return clearcoatCoordinates(lobe, wo, wi);
     if (LOBE_IS_BROAD(lobe.type)) return {wi.z, positiveAngle(wi.y, wi.x)};
     if (lobe.type == LOBE_PHONG) {
         const dvec3 offset = wi - mirror(wo);
@@ -104,6 +155,13 @@ double lobeFormula(const shared::Lobe& lobe, dvec3 wo, dvec3 wi) {
     if (lobe.type == LOBE_LAMBERT) return 1 / pi;
     if (lobe.type == LOBE_COATEDLAMBERT)
         return transmittedByCoat(wo.z, lobe.eta.r) * transmittedByCoat(wi.z, lobe.eta.r) / pi;
+    if (lobe.type == LOBE_PRINCIPLEDDIFFUSE) return principledDiffuseFormula(lobe, wo, wi);
+    if (lobe.type == LOBE_SHEEN) return std::pow(1 - glm::dot(wo, glm::normalize(wo + wi)), 5);
+    if (lobe.type == LOBE_CLEARCOAT) return clearcoatFormula(lobe, wo, wi);
+    if (lobe.type == LOBE_GGXSCHLICK)
+        return schlick(lobe.eta.g, lobe.k.g, glm::dot(wo, glm::normalize(wo + wi))) * microfacetFormula(lobe, wo, wi);
+    if (lobe.type == LOBE_ROUGHCOATEDLAMBERT)
+        return transmittedByRoughCoat(wo.z, lobe) * transmittedByRoughCoat(wi.z, lobe) / pi;
     if (lobe.type == LOBE_PHONG) {
         const dvec3 offset = wi - mirror(wo);
         const double oneMinusCos = 0.5 * glm::dot(offset, offset);

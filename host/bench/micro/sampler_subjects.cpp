@@ -23,10 +23,13 @@ shared::Lobe makeLobe(unsigned type) {
     lobe.k = {1, 1, 1};
     lobe.alphaU = lobe.alphaV = 0.2f;
     lobe.exponent = 50;
+    lobe.coat[0] = 0.9f;
     return lobe;
 }
 
-bool isDelta(unsigned type) { return type == LOBE_CONDUCTOR || type == LOBE_DIELECTRIC || type == LOBE_THINDIELECTRIC; }
+bool isDelta(unsigned type) {
+    return type == LOBE_CONDUCTOR || type == LOBE_DIELECTRIC || type == LOBE_THINDIELECTRIC || type == LOBE_PASSAGE;
+}
 
 shared::Emitter makeEmitter(unsigned type) {
     constexpr float pi = std::numbers::pi_v<float>, radius = 2;

@@ -9,6 +9,7 @@ namespace quasilux {
 /// What a plugin makes of its parameters.
 struct BsdfLobes {
     std::vector<LobeDescription> front, back;
+    std::optional<shared::Relief> frontRelief, backRelief; ///< as in Bsdf
     bool isNull = false;
 };
 
@@ -30,8 +31,13 @@ int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
     X(dielectric, readDielectric)                                                                                      \
     X(thindielectric, readThinDielectric)                                                                              \
     X(plastic, readPlastic)                                                                                            \
+    X(roughplastic, readRoughPlastic)                                                                                  \
     X(roughdielectric, readRoughDielectric)                                                                            \
+    X(principled, readPrincipled)                                                                                      \
     X(blendbsdf, readBlend)                                                                                            \
+    X(mask, readMask)                                                                                                  \
+    X(normalmap, readNormalMap)                                                                                        \
+    X(bumpmap, readBumpMap)                                                                                            \
     X(twosided, readTwoSided)                                                                                          \
     X(null, readNull)
 
@@ -41,6 +47,12 @@ QUASILUX_BSDF_PLUGINS(QUASILUX_DECLARE_BSDF)
 
 /// A lobe of type LOBE_* with everything else zero. `halfWidth` in radians.
 LobeDescription makeLobe(unsigned type, const std::string& name, const Reflectance& reflectance, double halfWidth);
+
+/// Lets all light pass straight on: what a `null` bsdf is as part of another.
+LobeDescription passageLobe();
+
+/// (1 - weight) of the first plus weight of the second; `null` ones let pass. Throws InputError at `where` for too many lobes.
+BsdfLobes blend(BsdfLobes first, BsdfLobes second, const Scalar& weightOfSecond, const SourceLocation& where);
 
 constexpr double lambertHalfWidth = 0.78539816339744831; ///< cos² = 1/2
 /// Half the energy of cos^n about the mirror direction: cos^(n+1) = 1/2.
@@ -63,7 +75,10 @@ struct DielectricBorder {
 };
 DielectricBorder readDielectricBorder(Properties& properties, unsigned lobeType, double halfWidth);
 
-/// Microfacets of <bsdf type="roughconductor|roughdielectric">.
+/// Unpolarised reflectance of a smooth border, as kernels/fresnel.clh has it; eta: index beyond over the near one.
+double dielectricReflectance(double cosine, double eta);
+
+/// Microfacets of <bsdf type="roughconductor|roughdielectric|roughplastic">.
 struct Roughness {
     bool ggx = false; ///< else Beckmann
     float alphaU = 0, alphaV = 0;

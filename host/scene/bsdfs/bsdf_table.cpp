@@ -36,6 +36,8 @@ int addBsdf(BsdfLobes lobes, std::string id, std::string plugin, const SourceLoc
     bsdf.where = where;
     bsdf.front = std::move(lobes.front);
     bsdf.back = std::move(lobes.back);
+    bsdf.frontRelief = lobes.frontRelief;
+    bsdf.backRelief = lobes.backRelief;
     bsdf.isNull = lobes.isNull;
     scene.bsdfs.push_back(std::move(bsdf));
     return static_cast<int>(scene.bsdfs.size()) - 1;

@@ -1,6 +1,8 @@
 // What borders between two dielectrics have in common, be they smooth, rough or thin.
 #include "scene/bsdfs/bsdf_plugin.h"
 
+#include <cmath>
+
 namespace quasilux {
 
 DielectricBorder readDielectricBorder(Properties& properties, unsigned lobeType, double halfWidth) {
@@ -12,6 +14,14 @@ DielectricBorder readDielectricBorder(Properties& properties, unsigned lobeType,
     border.lobe.device.transmittance = transmittance.scale;
     border.lobe.device.transmittanceTexture = transmittance.texture;
     return border;
+}
+
+double dielectricReflectance(double cosine, double eta) {
+    const double squared = eta * eta - 1 + cosine * cosine;
+    if (squared <= 0) return 1;
+    const double g = std::sqrt(squared);
+    const double rs = (cosine - g) / (cosine + g), rp = (eta * eta * cosine - g) / (eta * eta * cosine + g);
+    return (rs * rs + rp * rp) / 2;
 }
 
 LobeDescription DielectricBorder::seenFrom(double near, double far) const {

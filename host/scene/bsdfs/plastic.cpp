@@ -1,20 +1,9 @@
 // <bsdf type="plastic">: a diffuse base under a smooth dielectric coat.
 #include "scene/bsdfs/bsdf_plugin.h"
 
-#include <cmath>
-
 namespace quasilux {
 
 namespace {
-
-// Unpolarised reflectance of a smooth border, as kernels/fresnel.clh has it.
-double fresnel(double cosine, double eta) {
-    const double squared = eta * eta - 1 + cosine * cosine;
-    if (squared <= 0) return 1;
-    const double g = std::sqrt(squared);
-    const double rs = (cosine - g) / (cosine + g), rp = (eta * eta * cosine - g) / (eta * eta * cosine + g);
-    return (rs * rs + rp * rp) / 2;
-}
 
 // Of diffuse light: the integral of 2 cos F over the cosines.
 double diffuseFresnel(double eta) {
@@ -22,7 +11,7 @@ double diffuseFresnel(double eta) {
     double sum = 0;
     for (int k = 0; k < steps; ++k) {
         const double cosine = (k + 0.5) / steps;
-        sum += 2 * cosine * fresnel(cosine, eta);
+        sum += 2 * cosine * dielectricReflectance(cosine, eta);
     }
     return sum / steps;
 }

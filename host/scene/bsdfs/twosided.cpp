@@ -7,14 +7,14 @@ namespace quasilux {
 
 namespace {
 
-std::vector<LobeDescription> readSide(const Element& nested, LoadContext& context) {
+BsdfLobes readSide(const Element& nested, LoadContext& context) {
     BsdfLobes lobes = readBsdfLobes(nested, context);
     if (lobes.isNull || !lobes.back.empty())
         throw InputError(nested.where,
                          fmt::format("twosided: the nested bsdf '{}' lets light through or has two sides already; "
                                      "use it without twosided.",
                                      nested.get("type")));
-    return lobes.front;
+    return lobes;
 }
 
 } // namespace
@@ -25,9 +25,15 @@ BsdfLobes readTwoSided(Properties& properties) {
         throw InputError(
             properties.element().where,
             fmt::format("twosided has {} nested bsdfs; it needs one, or two (front, back).", nested.size()));
-    BsdfLobes lobes;
-    lobes.front = readSide(*nested[0], properties.context());
-    lobes.back = nested.size() == 2 ? readSide(*nested[1], properties.context()) : lobes.front;
+    BsdfLobes lobes = readSide(*nested[0], properties.context());
+    lobes.backRelief = lobes.frontRelief;
+    lobes.back = lobes.front;
+    if (nested.size() == 2) {
+        const BsdfLobes back = readSide(*nested[1], properties.context());
+        lobes.back = back.front;
+        lobes.backRelief = back.frontRelief;
+    }
+    if (lobes.backRelief) lobes.backRelief->flags |= RELIEF_MIRRORED;
     return lobes;
 }
 

@@ -28,6 +28,22 @@ struct Reflectance {
 /// The parameter `name`, a colour or a texture within [0, 1]; `missing` where it is not given.
 Reflectance readReflectance(Properties& properties, const std::string& name, float missing);
 
+/// A number as the scene gives it, or a texture of numbers.
+struct Scalar {
+    float value = 0;
+    std::optional<unsigned> texture; ///< index into Scene::textures, of equal channels; `value` has no meaning then
+};
+
+/// Index into Scene::textures of the colours that `element` gives; read once however often it is used.
+unsigned useColorTexture(const Element& element, LoadContext& context);
+/// And of the numbers, as readShare takes them.
+unsigned useScalarTexture(const Element& element, LoadContext& context);
+
+/// The parameter `name`, a number or a texture within [0, 1], such as a weight; `missing` where it is not given. Of the
+/// colours of a texture it takes, as Mitsuba, the luminance (bitmap) or the mean of the channels (others); a checkerboard's
+/// squares change places then, as in Mitsuba 3.9.
+Scalar readShare(Properties& properties, const std::string& name, float missing);
+
 /// Reads an image file. Files of integers are taken as sRGB encoded unless `raw`; one channel is grey, alpha is left
 /// out. Throws InputError at `where` where the file cannot be read, or has negative or non-finite values.
 Image readImage(const std::string& path, bool raw, const SourceLocation& where);

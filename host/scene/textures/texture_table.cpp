@@ -4,6 +4,7 @@
 #include "scene/textures/texture_plugin.h"
 #include "scene/transform.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -45,6 +46,17 @@ int useTexture(const Element& element, LoadContext& context) {
     return index;
 }
 
+bool isGrey(Rgb color) { return color.r == color.g && color.r == color.b; }
+
+bool isGreyBitmap(const TextureDescription& texture) {
+    const auto grey = [](Rgb color) { return isGrey(color); };
+    return std::all_of(texture.texels.begin(), texture.texels.end(), grey);
+}
+
+Rgb greyOf(float value) { return {value, value, value}; }
+Rgb meanOf(Rgb color) { return greyOf((color.r + color.g + color.b) / 3); }
+Rgb luminanceOf(Rgb color) { return greyOf(0.212671f * color.r + 0.715160f * color.g + 0.072169f * color.b); }
+
 } // namespace
 
 bool replacesTexture(const Element& element, LoadContext& context) {
@@ -69,6 +81,40 @@ Reflectance readReflectance(Properties& properties, const std::string& name, flo
     const int index = useTexture(*texture, properties.context());
     const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
     return {static_cast<unsigned>(index) + 1, largestValue(read)};
+}
+
+unsigned useColorTexture(const Element& element, LoadContext& context) {
+    return static_cast<unsigned>(useTexture(element, context));
+}
+
+unsigned useScalarTexture(const Element& element, LoadContext& context) {
+    const int index = useTexture(element, context);
+    std::vector<TextureDescription>& textures = context.scene.textures;
+    const bool isBoard = textures[static_cast<size_t>(index)].device.type == TEXTURE_CHECKERBOARD;
+    if (!isBoard && isGreyBitmap(textures[static_cast<size_t>(index)])) return static_cast<unsigned>(index);
+    const auto known = context.scalarTextureIndex.find(index);
+    if (known != context.scalarTextureIndex.end()) return known->second;
+    TextureDescription grey = textures[static_cast<size_t>(index)];
+    // Mitsuba 3.9 has the squares the other way round where it asks a checkerboard for numbers.
+    std::swap(grey.device.color0, grey.device.color1);
+    grey.device.color0 = meanOf(grey.device.color0);
+    grey.device.color1 = meanOf(grey.device.color1);
+    std::vector<Rgb> luminances(grey.texels.size());
+    std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
+    grey.texels = std::move(luminances);
+    textures.push_back(std::move(grey));
+    const auto copy = static_cast<unsigned>(textures.size() - 1);
+    context.scalarTextureIndex.emplace(index, copy);
+    return copy;
+}
+
+Scalar readShare(Properties& properties, const std::string& name, float missing) {
+    if (const Element* texture = properties.texture(name)) return {0, useScalarTexture(*texture, properties.context())};
+    const double value = properties.number(name, missing);
+    if (value < 0 || value > 1)
+        throw InputError(properties.where(name), fmt::format("parameter '{}' of {} is {}; it must lie within [0, 1].",
+                                                             name, properties.describe(), value));
+    return {static_cast<float>(value), std::nullopt};
 }
 
 } // namespace quasilux

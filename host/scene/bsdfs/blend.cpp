@@ -1,0 +1,69 @@
+// Sums of bsdfs, weighted by a number or a texture.
+#include "scene/bsdfs/bsdf_plugin.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+constexpr size_t maximumLobes = 32; // a blend of blends doubles them at each level
+
+/// As part of a sum a surface that is not there lets light pass.
+void turnIntoLobes(BsdfLobes& bsdf) {
+    if (!bsdf.isNull) return;
+    bsdf.front = bsdf.back = {passageLobe()};
+    bsdf.isNull = false;
+}
+
+/// Appends `lobes` to `to`, times the weight or, where `isRest`, 1 less the weight.
+void appendShare(const std::vector<LobeDescription>& lobes, const Scalar& weight, bool isRest,
+                 std::vector<LobeDescription>& to) {
+    const float factor = weight.texture ? 1.0f : (isRest ? 1 - weight.value : weight.value);
+    for (LobeDescription lobe : lobes) {
+        lobe.device.reflectance = lobe.device.reflectance * factor;
+        lobe.device.transmittance = lobe.device.transmittance * factor;
+        if (weight.texture) lobe.weights.push_back({*weight.texture, isRest});
+        to.push_back(std::move(lobe));
+    }
+}
+
+bool same(const shared::Relief& a, const shared::Relief& b) {
+    return a.type == b.type && a.texture == b.texture && a.scale == b.scale && a.flags == b.flags;
+}
+
+/// Of one side of the sum: a part without lobes has no say.
+std::optional<shared::Relief> commonRelief(bool firstScatters, const std::optional<shared::Relief>& first,
+                                           bool secondScatters, const std::optional<shared::Relief>& second,
+                                           const SourceLocation& where) {
+    if (!firstScatters) return second;
+    if (!secondScatters) return first;
+    if (first.has_value() != second.has_value() || (first && !same(*first, *second)))
+        throw InputError(where,
+                         "the blended bsdfs have different normals; put the blend into one normalmap or bumpmap.");
+    return first;
+}
+
+} // namespace
+
+BsdfLobes blend(BsdfLobes first, BsdfLobes second, const Scalar& weightOfSecond, const SourceLocation& where) {
+    if (first.isNull && second.isNull) return first;
+    BsdfLobes sum;
+    const auto scatters = [](const BsdfLobes& part, const auto& side) { return !part.isNull && !side.empty(); };
+    sum.frontRelief = commonRelief(scatters(first, first.front), first.frontRelief, scatters(second, second.front),
+                                   second.frontRelief, where);
+    sum.backRelief = commonRelief(scatters(first, first.back), first.backRelief, scatters(second, second.back),
+                                  second.backRelief, where);
+    turnIntoLobes(first);
+    turnIntoLobes(second);
+    appendShare(first.front, weightOfSecond, true, sum.front);
+    appendShare(first.back, weightOfSecond, true, sum.back);
+    appendShare(second.front, weightOfSecond, false, sum.front);
+    appendShare(second.back, weightOfSecond, false, sum.back);
+    if (sum.front.size() > maximumLobes || sum.back.size() > maximumLobes)
+        throw InputError(
+            where, fmt::format("this blend comes to more than {} lobes on one side; blend fewer bsdfs.", maximumLobes));
+    return sum;
+}
+
+} // namespace quasilux

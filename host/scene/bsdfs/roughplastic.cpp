@@ -1,0 +1,62 @@
+// <bsdf type="roughplastic">: a diffuse base under a coat of microfacets.
+#include "scene/bsdfs/bsdf_plugin.h"
+#include "scene/bsdfs/rough_coat.h"
+
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+LobeDescription coatLobe(Properties& properties, const Roughness& roughness, double eta) {
+    LobeDescription lobe = makeLobe(roughness.ggx ? LOBE_GGX : LOBE_BECKMANN, "specular",
+                                    readReflectance(properties, "specular_reflectance", 1), roughness.halfWidth());
+    lobe.device.alphaU = lobe.device.alphaV = roughness.alphaU;
+    const auto index = static_cast<float>(eta);
+    lobe.device.eta = {index, index, index}; // without absorption: a dielectric's reflectance
+    lobe.device.k = {0, 0, 0};
+    return lobe;
+}
+
+/// `base` with reflectances as seen through the coat.
+LobeDescription baseLobe(const Reflectance& base, const RoughCoat& coat, bool nonlinear) {
+    LobeDescription lobe = makeLobe(LOBE_ROUGHCOATEDLAMBERT, "diffuse", base, lambertHalfWidth);
+    const double within = coat.internalReflectance();
+    const auto seen = [&](float reflectance) {
+        return static_cast<float>(reflectance / (coat.eta * coat.eta * (1 - (nonlinear ? reflectance : 1) * within)));
+    };
+    Rgb& scale = lobe.device.reflectance;
+    scale = {seen(scale.r), seen(scale.g), seen(scale.b)};
+    const CoatFit fit = fitTransmission(coat);
+    for (size_t k = 0; k < fit.factors.size(); ++k) lobe.device.coat[k] = static_cast<float>(fit.factors[k]);
+    lobe.device.alphaU = static_cast<float>(fit.knee);
+    lobe.device.exponent = static_cast<float>(fit.ofDiffuseLight());
+    return lobe;
+}
+
+} // namespace
+
+BsdfLobes readRoughPlastic(Properties& properties) {
+    const double inside = readRefractiveIndex(properties, "int_ior", "polypropylene");
+    const double outside = readRefractiveIndex(properties, "ext_ior", "air");
+    if (inside <= outside)
+        throw InputError(properties.where("int_ior"),
+                         fmt::format("roughplastic: int_ior is {} and ext_ior {}; the coat must have the larger index.",
+                                     inside, outside));
+    const Roughness roughness = readRoughness(properties, "plastic");
+    if (roughness.alphaU != roughness.alphaV)
+        throw InputError(properties.where("alpha_u"),
+                         "roughplastic: alpha_u and alpha_v differ; its coat is isotropic, so give alpha.");
+    const Reflectance base = readReflectance(properties, "diffuse_reflectance", 0.5f);
+    const bool nonlinear = properties.boolean("nonlinear", false);
+    if (nonlinear && base.texture != 0)
+        throw InputError(properties.where("nonlinear"),
+                         "roughplastic: the colour shift of nonlinear needs one colour, and diffuse_reflectance is a "
+                         "texture; give it as <rgb>, or leave nonlinear out.");
+    const RoughCoat coat{roughness.ggx, roughness.alphaU, inside / outside};
+    BsdfLobes lobes;
+    lobes.front = {baseLobe(base, coat, nonlinear), coatLobe(properties, roughness, coat.eta)};
+    return lobes;
+}
+
+} // namespace quasilux
