@@ -76,7 +76,7 @@ TEST(Lenient, UnknownParametersObjectsAndElementsAreIgnored) {
     EXPECT_THAT(scene.warnings,
                 testing::Contains(HasSubstr("scene.xml:5:1: unknown parameter 'bevel' of shape 'cube'")));
     EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("scene.xml:6:1: shape 'cube' takes no <film>")));
-    EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("scene.xml:7:1: <volume> is not supported yet")));
+    EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("scene.xml:7:1: shape 'cube' takes no <volume>")));
     EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("takes no texture as 'exponent'")));
 }
 

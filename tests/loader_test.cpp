@@ -209,7 +209,7 @@ TEST(Sensors, OneOfSeveralIsChosenByNumberOrId) {
     EXPECT_EQ(loadScene(path, {}, {"1"}).sensor.meter, MeterKind::area);
     EXPECT_EQ(loadScene(path, {}, {"meter"}).sensor.meter, MeterKind::area);
     for (const char* wrong : {"4", "lef", "-1", "99999999999999999999", "all"}) try {
-            loadScene(path, {}, wrong);
+            loadScene(path, {}, {wrong});
             ADD_FAILURE() << wrong;
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), testing::HasSubstr(std::string("has no sensor '") + wrong + "'"));

@@ -71,7 +71,9 @@ TEST(SpotEmitter, PhotonsAreEvenInTheConeAndCarryTheIntensity) {
                                std::atan2(glm::dot(p.direction, t), glm::dot(p.direction, s)))];
             ASSERT_LT(glm::length(p.position - place), 1e-6);
             const double angle = 2 * std::asin(std::min(1.0, glm::length(off) / 2));
-            if (cone.cutoff - cone.beam > 0.01) ASSERT_NEAR(p.flux.x / solidAngle, shareAt(cone, angle), 1e-4);
+            if (cone.cutoff - cone.beam > 0.01) {
+                ASSERT_NEAR(p.flux.x / solidAngle, shareAt(cone, angle), 1e-4);
+            }
             sum += p.flux.x;
             squares += p.flux.x * p.flux.x;
         }
@@ -93,7 +95,9 @@ TEST(SpotEmitter, InversionGivesTheNumbersOfAPhoton) {
         for (size_t i = 0; i < numbers.size(); i += 5) {
             ASSERT_NEAR(inverted[i + 3], numbers[i + 3], 5e-3) << cone.cutoff;
             const double turn = std::abs(inverted[i + 4] - numbers[i + 4]);
-            if (numbers[i + 3] > 0.01) ASSERT_LT(std::min(turn, 1 - turn), 5e-3) << cone.cutoff;
+            if (numbers[i + 3] > 0.01) {
+                ASSERT_LT(std::min(turn, 1 - turn), 5e-3) << cone.cutoff;
+            }
         }
     }
 }

@@ -108,9 +108,10 @@ TEST(Textures, AnImageIsHeldOnceHoweverManyTexturesShowIt) {
                                            shape("a.exr", "<string name=\"filter_type\" value=\"nearest\"/>"))));
     ASSERT_EQ(scene.textures.size(), 3u);
     EXPECT_EQ(scene.textures[0].texels.identity(), scene.textures[2].texels.identity());
-    std::vector<shared::Lobe> lobes(3);
-    for (unsigned k = 0; k < 3; ++k) lobes[k].reflectanceTexture = k + 1;
-    const TextureTables tables = flattenTextures(scene, lobes);
+    MaterialTables materials;
+    materials.lobes.resize(3);
+    for (unsigned k = 0; k < 3; ++k) materials.lobes[k].reflectanceTexture = k + 1;
+    const TextureTables tables = flattenTextures(scene, materials);
     EXPECT_EQ(tables.texels.size(), 4u); // two images of two pixels
     EXPECT_EQ(tables.textures[0].firstTexel, tables.textures[2].firstTexel);
     EXPECT_EQ(tables.texels[tables.textures[1].firstTexel].r, 0.1f);

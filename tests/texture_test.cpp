@@ -34,7 +34,7 @@ std::vector<float> lookUp(const TextureDescription& texture, const std::vector<g
     Device& device = testDevice();
     static Program program = testProgram("textures.cl", "-DHAS_TEXTURES -DHAS_LOBE_LAMBERT -DBVH_STACK_SIZE=64");
     Buffer<shared::Texture> record(device, std::vector{texture.device}, "texture");
-    Buffer<Rgb> texels(device, texture.texels.empty() ? std::vector<Rgb>(1) : texture.texels, "texels");
+    Buffer<Rgb> texels(device, texture.texels.empty() ? Texels(std::vector<Rgb>(1)) : texture.texels, "texels");
     Buffer<float> in(device, coordinates, "uvs"), out(device, 3 * uvs.size(), "values");
     program.kernel("textureValues").launch(uvs.size(), record, texels, in, out, cl_uint(uvs.size()));
     return out.read();
