@@ -88,7 +88,8 @@ class Compatibility : public testing::Test {
 protected:
     Compatibility() {
         const std::string data = QUASILUX_SOURCE_DIR "/tests/data/";
-        for (const char* name : {"quads.obj", "tetrahedron.ply", "triangle.serialized"}) files_.write(name, textOf(data + name));
+        for (const char* name : {"quads.obj", "tetrahedron.ply", "triangle.serialized"})
+            files_.write(name, textOf(data + name));
         files_.write("checker.ppm", std::string("P6\n2 2\n255\n") + std::string("\x10\x20\x30\x80\x80\x80\x80\x80\x80"
                                                                                 "\x10\x20\x30",
                                                                                 12));

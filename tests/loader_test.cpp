@@ -339,10 +339,11 @@ TEST(Documents, FilesAreLookedForInTheFoldersOfPathsAndOfTheScene) {
 TEST(Documents, ScenesOfTheComparisonWithMitsubaLoad) {
     size_t scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(QUASILUX_SOURCE_DIR "/tests/scenes/compare")) {
+        if (entry.path().extension() != ".xml") continue; // images and volumes of the scenes
         EXPECT_EQ(loadScene(entry.path().string()).warnings.size(), 0u) << entry.path();
         ++scenes;
     }
-    EXPECT_GE(scenes, 3u);
+    EXPECT_GE(scenes, 20u);
 }
 
 TEST(Documents, AnAliasIsASecondId) {
