@@ -1,5 +1,6 @@
 // Links of the documents lead where they say: to headings that exist, to symbols that the linked source file has, and from
 // docs/README.md to every page. Pages of the guide can be read in ten minutes. Diagrams are those of their script.
+#include "support/documents.h"
 #include "util/temporary_folder.h"
 
 #include <algorithm>
@@ -18,22 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = QUASILUX_SOURCE_DIR;
-
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return content.str();
-}
-
-std::vector<fs::path> pages() {
-    std::vector<fs::path> list;
-    for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
-        if (entry.path().extension() == ".md") list.push_back(entry.path());
-    std::sort(list.begin(), list.end());
-    return list;
-}
+using test::pages;
+using test::readText;
+using test::root;
 
 struct Link {
     std::string text, file, anchor;

@@ -303,7 +303,6 @@ std::string writeImage(const test::SceneFiles& files, const EnvironmentImage& im
     return path;
 }
 
-constexpr unsigned resolution = 16;
 // The upper face of a cube of albedo 0.5 fills the picture, under an image whose +y is the world's +z.
 Scene cubeUnder(const EnvironmentImage& image) {
     test::SceneFiles files;
@@ -314,15 +313,6 @@ Scene cubeUnder(const EnvironmentImage& image) {
         </sensor><emitter type="envmap"><string name="filename" value="sky.exr"/><float name="scale" value="2"/>
         <transform name="to_world"><rotate x="1" angle="90"/></transform></emitter>
         <shape type="cube"><bsdf type="diffuse"/></shape></scene>)"));
-}
-
-MeanAndError render(const Scene& scene, DirectLight direct, bool wrongly) {
-    RenderSettings settings;
-    settings.direct = direct;
-    settings.photonsPerPass = 16000;
-    return renderGroups(scene, settings, std::vector<int>(resolution * resolution, 0), 10, 8,
-                        wrongly ? wronglyLearned(scene, settings) : nullptr)
-        .front();
 }
 
 TEST(EnvmapRender, AFaceShowsTheIntegralByEmittersAndByPhotonsWhateverWasLearned) {
@@ -336,7 +326,7 @@ TEST(EnvmapRender, AFaceShowsTheIntegralByEmittersAndByPhotonsWhateverWasLearned
     const double truth = 2 * 0.5 / pi * integral(grey, [](const dvec3& d) { return std::max(d.y, 0.0); }).y;
     for (const DirectLight direct : {DirectLight::emitters, DirectLight::photons})
         for (const bool wrongly : {false, true}) {
-            const auto result = render(scene, direct, wrongly);
+            const auto result = meanOfImage(scene, direct, wrongly);
             const double allowed = 4 * result.standardError + 0.003 * truth;
             EXPECT_NEAR(result.mean, truth, allowed) << "photons " << (direct == DirectLight::photons) << wrongly;
             EXPECT_LT(allowed, 0.03 * truth) << "too noisy to tell anything";

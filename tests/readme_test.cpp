@@ -1,5 +1,6 @@
 // The documentation holds: every quasilux command in README.md and docs/ runs, every script exists and parses, every
 // relative link leads somewhere.
+#include "support/documents.h"
 #include "util/temporary_folder.h"
 
 #include <cstdlib>
@@ -18,19 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = QUASILUX_SOURCE_DIR;
-
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return content.str();
-}
+using test::pages;
+using test::readText;
+using test::root;
 
 std::vector<fs::path> documents() {
     std::vector<fs::path> list{root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md"};
-    for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
-        if (entry.path().extension() == ".md") list.push_back(entry.path());
+    for (const auto& page : pages()) list.push_back(page);
     return list;
 }
 

@@ -104,8 +104,6 @@ TEST(SpotEmitter, InversionGivesTheNumbersOfAPhoton) {
 
 // --- renders ---
 
-constexpr unsigned resolution = 16;
-
 /// A floor of albedo 0.5 under a spot at height 2 that looks down; the picture covers [-1, 1]^2 of it.
 Scene floorUnderSpot(const std::string& integrator = "", const std::string& more = "") {
     test::SceneFiles files;
@@ -133,21 +131,12 @@ double floorRadiance() {
     return 0.5 / pi * sum / (n * n);
 }
 
-MeanAndError meanOf(const Scene& scene, DirectLight direct, bool wrongly) {
-    RenderSettings settings;
-    settings.direct = direct;
-    settings.photonsPerPass = 16000;
-    return renderGroups(scene, settings, std::vector<int>(resolution * resolution, 0), 10, 8,
-                        wrongly ? wronglyLearned(scene, settings) : nullptr)
-        .front();
-}
-
 TEST(SpotRender, FloorIsLitByTheLawWhateverWasLearned) {
     const Scene scene = floorUnderSpot();
     const double truth = floorRadiance();
     for (const DirectLight direct : {DirectLight::emitters, DirectLight::photons})
         for (const bool wrongly : {false, true}) {
-            const auto result = meanOf(scene, direct, wrongly);
+            const auto result = meanOfImage(scene, direct, wrongly);
             const double allowed = 4 * result.standardError + 0.005 * truth;
             EXPECT_NEAR(result.mean, truth, allowed) << "photons " << (direct == DirectLight::photons) << wrongly;
             EXPECT_GT(std::abs(result.mean - 1.05 * truth), allowed) << "negative control";
@@ -163,10 +152,10 @@ TEST(HiddenEmitters, CameraLooksThroughThemAndSeesNoSky) {
     const double truth = floorRadiance();
     for (const char* kind : {"emitters", "photons"}) {
         const DirectLight direct = kind[0] == 'e' ? DirectLight::emitters : DirectLight::photons;
-        const auto hidden = meanOf(floorUnderSpot(hide, lamp), direct, false);
+        const auto hidden = meanOfImage(floorUnderSpot(hide, lamp), direct, false);
         EXPECT_NEAR(hidden.mean, truth, 4 * hidden.standardError + 0.005 * truth) << kind;
     }
-    EXPECT_GT(meanOf(floorUnderSpot("", lamp), DirectLight::emitters, false).mean, 90) << "control: it is seen";
+    EXPECT_GT(meanOfImage(floorUnderSpot("", lamp), DirectLight::emitters, false).mean, 90) << "control: it is seen";
     // Nothing but sky in the picture.
     const auto sky = [](const std::string& integrator) {
         test::SceneFiles files;
@@ -177,8 +166,8 @@ TEST(HiddenEmitters, CameraLooksThroughThemAndSeesNoSky) {
             </sensor><emitter type="constant"/><shape type="cube"><transform name="to_world"><translate z="-9"/></transform>
             </shape></scene>)"));
     };
-    EXPECT_EQ(meanOf(sky(hide), DirectLight::emitters, false).mean, 0);
-    EXPECT_NEAR(meanOf(sky(""), DirectLight::emitters, false).mean, 1, 1e-6) << "control";
+    EXPECT_EQ(meanOfImage(sky(hide), DirectLight::emitters, false).mean, 0);
+    EXPECT_NEAR(meanOfImage(sky(""), DirectLight::emitters, false).mean, 1, 1e-6) << "control";
 }
 
 // --- reading ---

@@ -99,7 +99,7 @@ void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, cons
 }
 
 std::string differenceOfWanted(const Checkpoint& there, const Checkpoint& here) {
-    if (const auto settings = firstDifference(toJson(there.wanted), toJson(here.wanted)); !settings.empty())
+    if (auto settings = firstDifference(toJson(there.wanted), toJson(here.wanted)); !settings.empty())
         return settings;
     if (there.freedom != here.freedom)
         return fmt::format("left to a search is {} there, {} here", there.freedom, here.freedom);
@@ -107,7 +107,7 @@ std::string differenceOfWanted(const Checkpoint& there, const Checkpoint& here) 
 }
 
 std::string differenceOfImage(const Checkpoint& there, const Checkpoint& here) {
-    if (const auto wanted = differenceOfWanted(there, here); !wanted.empty()) return wanted;
+    if (auto wanted = differenceOfWanted(there, here); !wanted.empty()) return wanted;
     if (there.width != here.width || there.height != here.height)
         return fmt::format("the film has {} x {} pixels there, {} x {} here", there.width, there.height, here.width,
                            here.height);

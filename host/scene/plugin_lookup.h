@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/load_context.h"
+#include "scene/unsupported_plugins.h"
 #include "scene/xml/element.h"
 #include "scene/xml/names.h"
 
@@ -9,6 +10,16 @@
 #include <fmt/format.h>
 
 namespace quasilux {
+
+/// Throws InputError with what to use instead of a plugin that Mitsuba has, or else with the nearest of the `known` ones.
+[[noreturn]] inline void throwUnknownPlugin(const Element& element, const Names& known) {
+    const std::string& plugin = element.get("type");
+    const std::string_view instead = insteadOfUnsupported(element.tag, plugin);
+    throw InputError(element.where,
+                     instead.empty()
+                         ? fmt::format("unknown {} plugin '{}'.{}", element.tag, plugin, knownNames(plugin, known))
+                         : fmt::format("{} '{}' is not supported: {}.", element.tag, plugin, instead));
+}
 
 /// The row of `plugins` whose `name` is the element's type. Throws InputError with the nearest name if there is none, of
 /// `others` too, which are known besides.
@@ -19,8 +30,7 @@ const Plugin& findPlugin(const Plugin (&plugins)[count], const Element& element,
         if (plugin.name == element.get("type")) return plugin;
         known.push_back(plugin.name);
     }
-    throw InputError(element.where, fmt::format("unknown {} plugin '{}'.{}", element.tag, element.get("type"),
-                                                knownNames(element.get("type"), known)));
+    throwUnknownPlugin(element, known);
 }
 
 /// The same, or nullptr where the unknown is forgiven; `instead` is what the caller does then.

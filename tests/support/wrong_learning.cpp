@@ -42,4 +42,12 @@ std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSet
     return learned;
 }
 
+MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly) {
+    RenderSettings settings;
+    settings.direct = direct;
+    settings.photonsPerPass = 16000;
+    const std::vector<int> one(size_t{scene.sensor.width} * scene.sensor.height, 0);
+    return renderGroups(scene, settings, one, 10, 8, wrongly ? wronglyLearned(scene, settings) : nullptr).front();
+}
+
 } // namespace quasilux

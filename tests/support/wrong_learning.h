@@ -4,6 +4,7 @@
 #include "learn/guide_tree.h"
 #include "learn/learning.h"
 #include "render/settings.h"
+#include "support/render_statistics.h"
 
 #include <memory>
 #include <vector>
@@ -18,5 +19,8 @@ GuideTables cornerGuide(const EmitterTables& emitters);
 
 /// That guide; and no place is said to be gathered from, so that most photons are not stored.
 std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSettings& settings);
+
+/// Mean luminance of the image, over 80 passes; `wrongly`: by wronglyLearned().
+MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly);
 
 } // namespace quasilux

@@ -1,6 +1,8 @@
 // The tables of emitter plugins: those of shapes, and those that stand alone.
 #include "scene/emitters/emitters.h"
 
+#include "scene/plugin_lookup.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -40,7 +42,7 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
                              fmt::format("emitter '{}' is nested in a shape; put it directly into <scene>.", plugin));
         known.push_back(entry.name);
     }
-    throw InputError(element.where, fmt::format("unknown emitter plugin '{}'.{}", plugin, knownNames(plugin, known)));
+    throwUnknownPlugin(element, known);
 }
 
 } // namespace
@@ -81,6 +83,7 @@ AreaEmitter readShapeEmitter(const Element& element, LoadContext& context) {
         context.usedEmitters.insert(&element);
         Properties properties(element, context);
         AreaEmitter emitter = plugin.read(properties);
+        properties.accept({"sampling_weight"}); // which emitter is chosen is learned
         properties.finish();
         return emitter;
     }
@@ -92,6 +95,7 @@ void readSceneEmitter(const Element& element, LoadContext& context) {
         if (plugin.name != element.get("type")) continue;
         Properties properties(element, context);
         plugin.read(properties);
+        properties.accept({"sampling_weight"}); // which emitter is chosen is learned
         properties.finish();
         return;
     }

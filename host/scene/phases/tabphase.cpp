@@ -13,7 +13,7 @@ namespace {
 constexpr size_t valuesMax = 1 << 16;
 
 std::vector<double> readValues(Properties& properties) {
-    const std::vector<double> values =
+    std::vector<double> values =
         parseNumbers(properties.string("values", ""), properties.where("values"), "parameter 'values'");
     for (const double value : values)
         if (value < 0)

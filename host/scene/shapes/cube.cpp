@@ -26,6 +26,7 @@ void readCube(Properties& properties, ShapeDescription& shape) {
     uvs.reserve(3 * triangles.size());
     for (size_t t = 0; t < triangles.size(); ++t)
         for (int i = 0; i < 3; ++i) uvs.push_back(cubeUv(t / 2, corners[triangles[t][i]]));
+    properties.accept({"face_normals"}); // its normals are those of its faces
     shape.mesh = flatMesh(corners, triangles, uvs, properties.transform("to_world"), shape.flipNormals, shape.where);
 }
 

@@ -8,6 +8,7 @@ namespace quasilux {
 
 void readRectangle(Properties& properties, ShapeDescription& shape) {
     const glm::dmat4 toWorld = properties.transform("to_world");
+    properties.accept({"face_normals"}); // its normals are its face's
     const std::vector<glm::dvec3> corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     const std::vector<glm::vec2> uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     shape.mesh = flatMesh(corners, {{0, 1, 2}, {0, 2, 3}}, uvs, toWorld, shape.flipNormals, shape.where);

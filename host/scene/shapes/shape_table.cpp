@@ -41,6 +41,7 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     shape.where = element.where;
     shape.flipNormals = properties.boolean("flip_normals", false);
     plugin.read(properties, shape);
+    properties.accept({"silhouette_sampling_weight"}); // for derivatives
     const Element* bsdf = properties.object("bsdf");
     const Element* emitter = properties.object("emitter");
     if (emitter && leavesOutEmitter(*emitter, context)) emitter = nullptr;

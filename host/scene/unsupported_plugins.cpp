@@ -1,0 +1,47 @@
+#include "scene/unsupported_plugins.h"
+
+namespace quasilux {
+
+namespace {
+
+struct Unsupported {
+    std::string_view tag, plugin, instead;
+};
+
+constexpr std::string_view noPolarisation = "light has no polarisation here; remove it";
+constexpr std::string_view asMesh = "export the shape as a mesh, such as 'ply'";
+constexpr std::string_view ofSky = "use 'envmap' with an image of the sky, or 'constant', and 'directional' for the sun";
+
+constexpr Unsupported unsupported[] = {
+    {"shape", "bsplinecurve", asMesh},
+    {"shape", "linearcurve", asMesh},
+    {"shape", "sdfgrid", asMesh},
+    {"shape", "ellipsoids", asMesh},
+    {"shape", "ellipsoidsmesh", asMesh},
+    {"bsdf", "principledthin", "use 'principled' without spec_trans"},
+    {"bsdf", "hair", "fibres are not modelled; use 'principled' or 'roughplastic'"},
+    {"bsdf", "measured", "tables of measured scattering are not read; use 'principled' or a rough bsdf that is near"},
+    {"bsdf", "measured_polarized", noPolarisation},
+    {"bsdf", "pplastic", "light has no polarisation here; use 'roughplastic'"},
+    {"bsdf", "polarizer", noPolarisation},
+    {"bsdf", "retarder", noPolarisation},
+    {"bsdf", "circular", noPolarisation},
+    {"texture", "mesh_attribute", "use a 'bitmap' and texture coordinates"},
+    {"texture", "volume", "use a 'bitmap' and texture coordinates"},
+    {"texture", "rawconstant", "give the value itself, or use 'uniform'"},
+    {"emitter", "projector", "use 'spot', or an 'area' emitter of the picture's mean radiance"},
+    {"emitter", "directionalarea", "use 'directional'"},
+    {"emitter", "sunsky", ofSky},
+    {"emitter", "timed_sunsky", ofSky},
+    {"phase", "sggx", "use 'hg', or 'tabphase' with its mean over the fibres' directions"},
+};
+
+} // namespace
+
+std::string_view insteadOfUnsupported(std::string_view tag, std::string_view plugin) {
+    for (const Unsupported& entry : unsupported)
+        if (entry.tag == tag && entry.plugin == plugin) return entry.instead;
+    return {};
+}
+
+} // namespace quasilux
