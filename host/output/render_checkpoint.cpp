@@ -99,8 +99,7 @@ void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, cons
 }
 
 std::string differenceOfWanted(const Checkpoint& there, const Checkpoint& here) {
-    if (auto settings = firstDifference(toJson(there.wanted), toJson(here.wanted)); !settings.empty())
-        return settings;
+    if (auto settings = firstDifference(toJson(there.wanted), toJson(here.wanted)); !settings.empty()) return settings;
     if (there.freedom != here.freedom)
         return fmt::format("left to a search is {} there, {} here", there.freedom, here.freedom);
     return {};
