@@ -60,8 +60,9 @@ MeanAndError measure(Lean lean, bool atScreen, unsigned bdd, DirectLight direct,
     settings.map = map;
     settings.photonsPerPass = bdd == 0 ? 40'000 : 2000;
     settings.radiusScale = 0.5;
-    return renderGroups(reflectorScene(atScreen, lean), settings, std::vector<int>(64, 0), 10, bdd == 0 ? 8 : 300)
-        .front();
+    const unsigned passes =
+        (bdd == 0 ? 8 : 300) * (lean == Lean::mapAway && atScreen ? 8 : 1); // little light comes back then
+    return renderGroups(reflectorScene(atScreen, lean), settings, std::vector<int>(64, 0), 10, passes).front();
 }
 
 double deviation(const MeanAndError& a, const MeanAndError& b) {
