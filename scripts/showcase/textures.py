@@ -85,7 +85,7 @@ def painting(size=512, seed=3):
     for layer in range(5):
         ridge = 0.42 + 0.11 * layer - 0.16 * noise(1, size, (1, 4 + layer), random)[0] - 0.04 * noise(1, size, (1, 24), random)[0]
         image[y > ridge[None, :]] = np.array([0.5, 0.5, 0.55]) * 0.62**layer + np.array([0.02, 0.05, 0.04])
-    return image
+    return image[::-1]  # its first row is at v = 0, the lower side
 
 
 def studio(rows=512):
