@@ -60,7 +60,7 @@ def render_quasilux(scene, seconds, seed, folder):
     command = [PROGRAM, "render", scene, "--time", seconds, "--seed", seed, "--output", image, "--stats", statistics]
     subprocess.run([str(part) for part in command] + ["--quiet"], check=True)
     noise = json.loads(statistics.read_text())["error"]["total"]["noiseRms"]
-    return read_channels(image, ["R", "G", "B"]), noise**2
+    return read_channels(image, ["R", "G", "B"]), math.inf if noise is None else noise**2  # of a single pass it is not known
 
 
 def render_mitsuba(scene, seconds, seed):
