@@ -1,5 +1,6 @@
 // A render that goes on from its checkpoint is the render that was never interrupted, to the bit; a checkpoint that is not what was
 // written is refused; passes of several are the passes of one (docs/reference/reliability.md).
+#include "support/folder_files.h"
 #include "support/lit_plate.h"
 #include "support/meter_scenes.h"
 #include "support/program_runner.h"
@@ -34,12 +35,7 @@ Device& device() {
 class CheckpointTest : public testing::Test {
 protected:
     std::string path(const std::string& name) const { return (folder.path() / name).string(); }
-    std::vector<std::string> files() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder.path()))
-            names.push_back(entry.path().filename().string());
-        return names;
-    }
+    std::vector<std::string> files() const { return test::namesIn(folder.path()); }
     Scene litPlate(unsigned film, const std::string& reflectance = "0.5") const {
         std::ofstream(path("scene.xml")) << test::litPlate(film, reflectance);
         return loadScene(path("scene.xml"));

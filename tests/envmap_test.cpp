@@ -361,15 +361,7 @@ TEST(EnvmapPhotons, GoThroughOpeningsOnce) {
         setLearned(flat, learned);
         RenderSettings settings;
         settings.direct = DirectLight::photons;
-        PhotonTracing tracing;
-        tracing.paths = 50'000;
-        tracing.radius = 0.1f;
-        std::vector<double> flux;
-        for (const auto& pass : tracePhotons(flat, settings, tracing)) {
-            flux.push_back(0);
-            for (const StoredPhoton& photon : pass[LIGHT_DIRECT]) flux.back() += mean(photon.flux) / flat.emittedFlux;
-        }
-        return meanAndError(flux);
+        return directShareOfFlux(flat, settings);
     };
     const MeanAndError plain = fluxBy(-1), guided = fluxBy(1), twice = fluxBy(0);
     EXPECT_LT(std::abs(guided.mean - plain.mean), 4 * std::hypot(guided.standardError, plain.standardError));

@@ -148,15 +148,7 @@ double directFlux(PhotonRule rule, const std::function<Sources(const EmitterTabl
     RenderSettings settings;
     settings.direct = DirectLight::photons;
     settings.photonRule = rule;
-    PhotonTracing tracing;
-    tracing.paths = 50'000;
-    tracing.radius = 0.1f;
-    std::vector<double> flux;
-    for (const auto& pass : tracePhotons(flat, settings, tracing)) {
-        flux.push_back(0);
-        for (const StoredPhoton& photon : pass[LIGHT_DIRECT]) flux.back() += mean(photon.flux) / flat.emittedFlux;
-    }
-    const MeanAndError result = meanAndError(flux);
+    const MeanAndError result = directShareOfFlux(flat, settings);
     return (result.mean - 1) / result.standardError;
 }
 

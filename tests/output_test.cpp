@@ -7,6 +7,7 @@
 #include "util/error.h"
 
 #include "support/film_images.h"
+#include "support/folder_files.h"
 #include "support/program_runner.h"
 
 #include <OpenImageIO/imageio.h>
@@ -30,12 +31,7 @@ using testing::HasSubstr;
 class OutputTest : public testing::Test {
 protected:
     std::string path(const std::string& name) const { return (folder.path() / name).string(); }
-    std::vector<std::string> files() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder.path()))
-            names.push_back(entry.path().filename().string());
-        return names;
-    }
+    std::vector<std::string> files() const { return test::namesIn(folder.path()); }
 
     TemporaryFolder folder;
 };

@@ -204,7 +204,7 @@ unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double
     double least = INFINITY;
     for (unsigned paths = 1; paths <= mostCameraPaths; paths *= 2) {
         const PilotMeasure changed = withCameraPaths(pilot, double(paths) / cameraPaths);
-        const double passes = passesAfter(changed, seconds) - pilot.passes; // those of the pilot are thrown away
+        const double passes = passesAfter(changed, seconds) - pilot.passes; // those of the pilot are discarded
         if (paths > 1 && passes < fewestPassesOfImage) break;
         const double error = predictAfterPasses(changed, std::max(passes, 1.0)).relativeMse();
         if (error < least) {

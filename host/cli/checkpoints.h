@@ -12,8 +12,8 @@ namespace quasilux {
 /// What a render of these options is, before anything is known of its passes.
 Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const StopRule& stop);
 
-/// Writes the checkpoint of a render when it is due. A disk that is full does not end the render: what went wrong is told then, and
-/// the next time it is tried anew.
+/// Writes the checkpoint of a render when it is due. A disk that is full does not end the render: a warning says
+/// so, and writing is tried again when the next one is due.
 class CheckpointKeeper {
 public:
     /// `base`: checkpointOf(). Nothing is written where options name no file.

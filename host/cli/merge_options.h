@@ -1,4 +1,4 @@
-// What `quasilux merge` can be told.
+// Options of `quasilux merge`.
 #pragma once
 
 #include <CLI/CLI.hpp>

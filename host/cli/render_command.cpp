@@ -197,10 +197,6 @@ RenderRecord makeRecord(const RenderOptions& options, const StopRule& stop, Devi
     return record;
 }
 
-} // namespace
-
-namespace {
-
 int renderSensor(const RenderOptions& options) {
     exitOnInterrupt();
     checkOutputs(options);

@@ -16,8 +16,6 @@ using namespace filmLayout;
 // the radii are even, and in all passes before: half the cost, and no change of its mean.
 constexpr unsigned singlePasses = 16, batchPasses = 4;
 
-double sumOf(const float* sum, size_t channel) { return double(sum[channel]) + sum[channel + 3]; }
-
 // How often the film was added to.
 struct Counts {
     double passes, batches;
@@ -54,16 +52,16 @@ void developPixel(const float* pixel, size_t first, const Counts& n, FilmImage& 
         const size_t at = first + channel;
         double total = 0;
         for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
-            const double sum = sumOf(pixel + k * sumFloats, channel);
+            const double sum = valueOf(pixel + k * sumFloats, channel);
             image.components[k][at] = static_cast<float>(sum / n.passes);
             total += sum;
             if (k >= LIGHT_CLASSES) continue;
-            const double squares = sumOf(pixel + classSquares + k * sumFloats, channel);
+            const double squares = valueOf(pixel + classSquares + k * sumFloats, channel);
             image.componentError[k][at] = standardError(sum, squares, pixel[classBatch + 3 * k + channel], n);
         }
         image.radiance[at] = static_cast<float>(total / n.passes);
         image.standardError[at] =
-            standardError(total, sumOf(pixel + totalSquares, channel), pixel[totalBatch + channel], n);
+            standardError(total, valueOf(pixel + totalSquares, channel), pixel[totalBatch + channel], n);
     }
 }
 
@@ -142,7 +140,7 @@ void developSums(const std::vector<float>& sums, bool estimatesBias, const FilmC
         for (auto& error : image.componentBiasError) error.resize(values);
     }
     const FilmCounts closed = counts.closed();
-    const Counts means{double(std::max(1u, passes)), closed.batches, counts.openPasses > 0 ? 1 / counts.openPasses : 0};
+    const Counts means{double(std::max(1u, passes)), closed.batches, counts.openWeight()};
     const BiasCounts biasCounts{std::max(1.0, counts.biasPasses), closed.biasSquares};
     const size_t pixelFloats = floatsPerPixel(estimatesBias);
     for (size_t pixel = 0; pixel < values / 3; ++pixel) {

@@ -15,6 +15,8 @@ struct FilmCounts {
     double openBiasPasses = 0;          ///< in the batch that is open
     double biasSquares = 0;             ///< sum over complete batches of the squares of theirs
 
+    /// 1 / passes of the batch that is open, 0 where none is.
+    double openWeight() const { return openPasses > 0 ? 1 / openPasses : 0; }
     /// As if the batch that is open were complete.
     FilmCounts closed() const {
         return {batches + (openPasses > 0 ? 1 : 0), 0, biasPasses, 0, biasSquares + openBiasPasses * openBiasPasses};

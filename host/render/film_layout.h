@@ -18,6 +18,9 @@ inline constexpr size_t biasSums = classBatch + LIGHT_CLASSES * 3;
 inline constexpr size_t biasClassFloats = 9; ///< sums, squares, open batch
 inline constexpr size_t biasFloats = LIGHT_CLASSES * biasClassFloats + 6;
 
+/// The value of a compensated sum.
+inline double valueOf(const float* sum, size_t channel) { return double(sum[channel]) + sum[channel + 3]; }
+
 constexpr size_t floatsPerPixel(bool estimatesBias) { return biasSums + (estimatesBias ? biasFloats : 0); }
 
 } // namespace quasilux::filmLayout

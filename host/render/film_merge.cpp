@@ -8,8 +8,6 @@ namespace {
 
 using namespace filmLayout;
 
-double valueOf(const float* sum, size_t channel) { return double(sum[channel]) + sum[channel + 3]; }
-
 void setValue(float* sum, size_t channel, double value) {
     sum[channel] = static_cast<float>(value);
     sum[channel + 3] = static_cast<float>(value - sum[channel]);
@@ -65,8 +63,6 @@ void mergeBias(float* pixel, const Part& a, const Part& b) {
     mergeSquares(total, total + 3);
 }
 
-double openWeight(const FilmCounts& counts) { return counts.openPasses > 0 ? 1 / counts.openPasses : 0; }
-
 } // namespace
 
 void mergeFilmSums(float* sums, const FilmCounts& counts, const float* others, const FilmCounts& otherCounts,
@@ -74,7 +70,7 @@ void mergeFilmSums(float* sums, const FilmCounts& counts, const float* others, c
     const size_t floats = floatsPerPixel(estimatesBias);
     for (size_t k = 0; k < pixels; ++k) {
         float* pixel = sums + k * floats;
-        const Part a{pixel, openWeight(counts)}, b{others + k * floats, openWeight(otherCounts)};
+        const Part a{pixel, counts.openWeight()}, b{others + k * floats, otherCounts.openWeight()};
         mergeImage(pixel, a, b);
         if (estimatesBias) mergeBias(pixel, a, b);
     }

@@ -56,9 +56,7 @@ Rgb parseSpectrumParameter(const Element& element, ColorUse use, LoadContext& co
         throw InputError(element.where, fmt::format("{}: give either value or filename of a <spectrum>.", what));
     if (text && text->find(':') == std::string::npos)
         return uniformSpectrum(toFiniteFloat(parseNumber(*text, element.where, what), element.where, what), use);
-    const Spectrum spectrum = text ? parseSpectrum(*text, element.where, what)
-                                   : readSpectrumFile(context.files.resolve(*file, element.where), element.where);
-    return colorOfSpectrum([&](double wavelength) { return spectrum.at(wavelength); }, use, element.where, context);
+    return colorOfSpectrum(spectrumOf(element, what, context), use, element.where, context);
 }
 
 } // namespace

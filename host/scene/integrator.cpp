@@ -1,6 +1,7 @@
 // <integrator>: what light it leaves out. Which method computes the rest is quasilux' own affair.
 #include "scene/integrator.h"
 
+#include "scene/plugin_lookup.h"
 #include "scene/properties.h"
 
 #include <algorithm>
@@ -26,18 +27,18 @@ int readDepthParameter(Properties& properties) {
     return static_cast<int>(depth);
 }
 
-int readPath(Properties& properties) {
+IntegratorChoice readPath(Properties& properties) {
     properties.accept(sampling);
-    properties.accept({"rr_depth", "hide_emitters"});
+    properties.accept({"rr_depth"});
     if (properties.plugin() == "volpathmis") properties.accept({"use_spectral_mis"});
-    return readDepthParameter(properties);
+    return {readDepthParameter(properties), properties.boolean("hide_emitters", false)};
 }
 
 /// Light of one scattering, and of emitters seen directly.
-int readDirect(Properties& properties) {
+IntegratorChoice readDirect(Properties& properties) {
     properties.accept(sampling);
-    properties.accept({"shading_samples", "emitter_samples", "bsdf_samples", "hide_emitters"});
-    return 2;
+    properties.accept({"shading_samples", "emitter_samples", "bsdf_samples"});
+    return {2, properties.boolean("hide_emitters", false)};
 }
 
 constexpr std::string_view quantityNames[] = {"albedo", "depth", "position", "uv",     "geo_normal", "sh_normal",
@@ -81,9 +82,8 @@ std::vector<AovLayer> readLayers(Properties& properties) {
 }
 
 /// The integrator whose image they have beside layers of their own.
-int readNested(Properties& properties) {
+IntegratorChoice readNested(Properties& properties) {
     properties.accept(sampling);
-    properties.accept({"hide_emitters"});
     const std::string& plugin = properties.plugin();
     if (plugin == "moment")
         properties.context().warn(
@@ -92,19 +92,21 @@ int readNested(Properties& properties) {
             "and stderr.B; layers of second moments are not written.");
     if (plugin == "aov") properties.context().scene.aovs = readLayers(properties);
     const Element* nested = properties.object("integrator");
-    return nested ? readMaxDepth(*nested, properties.context()) : -1;
+    IntegratorChoice choice = nested ? readIntegrator(*nested, properties.context()) : IntegratorChoice{};
+    choice.hidesEmitters = properties.boolean("hide_emitters", choice.hidesEmitters);
+    return choice;
 }
 
 /// Of Mitsuba 0.x, for all light.
-int readFormer(Properties& properties) {
-    const int depth = readDepthParameter(properties);
+IntegratorChoice readFormer(Properties& properties) {
+    const IntegratorChoice choice{readDepthParameter(properties), properties.boolean("hide_emitters", false)};
     properties.acceptAll();
-    return depth;
+    return choice;
 }
 
 struct IntegratorPlugin {
     std::string_view name;
-    int (*read)(Properties&);
+    IntegratorChoice (*read)(Properties&);
 };
 constexpr IntegratorPlugin integratorPlugins[] = {
     {"path", readPath},   {"volpath", readPath},  {"volpathmis", readPath},     {"direct", readDirect},
@@ -113,53 +115,14 @@ constexpr IntegratorPlugin integratorPlugins[] = {
     {"erpt", readFormer},
 };
 
-struct RefusedIntegrator {
-    std::string_view name, why;
-};
-constexpr std::string_view derivatives = "it is there for derivatives; use 'path', or 'volpath' where there are media";
-constexpr RefusedIntegrator refusedIntegrators[] = {
-    {"ptracer", "use 'path', or 'volpath' where there are media: photons are traced for either"},
-    {"depth", "it draws distances, not light; use 'path'"},
-    {"emission", "use 'path' with max_depth 1"},
-    {"stokes", "light has no polarisation here; use the integrator within it"},
-    {"prb", derivatives},
-    {"prb_basic", derivatives},
-    {"prb_projective", derivatives},
-    {"prbvolpath", derivatives},
-    {"direct_projective", "it is there for derivatives; use 'direct'"},
-    {"volprim_rf_basic", "radiance fields are not supported; use shapes"},
-};
-
-const IntegratorPlugin& findIntegrator(const Element& element) {
-    const std::string& name = element.get("type");
-    for (const RefusedIntegrator& refused : refusedIntegrators)
-        if (refused.name == name)
-            throw InputError(element.where, fmt::format("integrator '{}' is not supported: {}.", name, refused.why));
-    Names known;
-    for (const IntegratorPlugin& plugin : integratorPlugins) {
-        if (plugin.name == name) return plugin;
-        known.push_back(plugin.name);
-    }
-    throw InputError(element.where, fmt::format("unknown integrator plugin '{}'.{}", name, knownNames(name, known)));
-}
-
 } // namespace
 
-int readMaxDepth(const Element& element, LoadContext& context) {
-    const IntegratorPlugin& plugin = findIntegrator(element);
+IntegratorChoice readIntegrator(const Element& element, LoadContext& context) {
+    const IntegratorPlugin& plugin = findPlugin(integratorPlugins, element);
     Properties properties(element, context);
-    const int depth = plugin.read(properties);
+    const IntegratorChoice choice = plugin.read(properties);
     properties.finish();
-    return depth;
-}
-
-bool readHideEmitters(const Element& element, LoadContext& context) {
-    Properties properties(element, context);
-    bool inherited = false;
-    const Element* nested = properties.object("integrator");
-    for (const Element& child : element.children)
-        if (&child == nested) inherited = readHideEmitters(child, context);
-    return properties.boolean("hide_emitters", inherited);
+    return choice;
 }
 
 } // namespace quasilux

@@ -5,9 +5,12 @@
 
 namespace quasilux {
 
-/// Most segments of a path from light to camera, -1 for no limit.
-int readMaxDepth(const Element& element, LoadContext& context);
-/// `hide_emitters` of it, or else of the one nested in it.
-bool readHideEmitters(const Element& element, LoadContext& context);
+struct IntegratorChoice {
+    int maxDepth = -1;          ///< most segments of a path from light to camera, -1 for no limit
+    bool hidesEmitters = false; ///< from the camera; where an integrator does not say so, the one nested in it does
+};
+
+/// Throws InputError for unknown plugins and parameters, and for plugins that mean another image.
+IntegratorChoice readIntegrator(const Element& element, LoadContext& context);
 
 } // namespace quasilux

@@ -241,8 +241,9 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
     checkUnusedVolumes(root, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
     if (!integrators.empty()) {
-        scene.maxDepth = readMaxDepth(*integrators[0], context);
-        scene.hideEmitters = readHideEmitters(*integrators[0], context);
+        const IntegratorChoice integrator = readIntegrator(*integrators[0], context);
+        scene.maxDepth = integrator.maxDepth;
+        scene.hideEmitters = integrator.hidesEmitters;
     }
     checkEmitters(scene);
     listForgiven(context);

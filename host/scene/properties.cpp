@@ -67,6 +67,14 @@ double Properties::numberAbove(const std::string& name, double missing, double l
     return value;
 }
 
+double Properties::share(const std::string& name, double missing) {
+    const double value = number(name, missing);
+    if (value < 0 || value > 1)
+        throw InputError(where(name), fmt::format("parameter '{}' of {} is {}; it must lie within [0, 1].", name,
+                                                  describe(), value));
+    return value;
+}
+
 int64_t Properties::integer(const std::string& name, int64_t missing) {
     const Element* parameter = find(name, {"integer"});
     if (!parameter) return missing;

@@ -29,6 +29,8 @@ public:
     double number(const std::string& name, double missing);
     /// A number of at least `lowest` (greater than it where `open`).
     double numberAbove(const std::string& name, double missing, double lowest, bool open);
+    /// A number within [0, 1].
+    double share(const std::string& name, double missing);
     int64_t integer(const std::string& name, int64_t missing);
     bool boolean(const std::string& name, bool missing);
     std::string string(const std::string& name, const std::string& missing);

@@ -10,7 +10,10 @@ struct Unsupported {
 
 constexpr std::string_view noPolarisation = "light has no polarisation here; remove it";
 constexpr std::string_view asMesh = "export the shape as a mesh, such as 'ply'";
-constexpr std::string_view ofSky = "use 'envmap' with an image of the sky, or 'constant', and 'directional' for the sun";
+constexpr std::string_view ofSky =
+    "use 'envmap' with an image of the sky, or 'constant', and 'directional' for the sun";
+
+constexpr std::string_view derivatives = "it is there for derivatives; use 'path', or 'volpath' where there are media";
 
 constexpr Unsupported unsupported[] = {
     {"shape", "bsplinecurve", asMesh},
@@ -33,6 +36,19 @@ constexpr Unsupported unsupported[] = {
     {"emitter", "directionalarea", "use 'directional'"},
     {"emitter", "sunsky", ofSky},
     {"emitter", "timed_sunsky", ofSky},
+    {"sensor", "batch", "put its sensors into the <scene> themselves and render them with --sensor all"},
+    {"sensor", "distant",
+     "use sensor 'orthographic', whose rays are parallel too, or 'radiancemeter' for a single ray"},
+    {"integrator", "ptracer", "use 'path', or 'volpath' where there are media: photons are traced for either"},
+    {"integrator", "depth", "it draws distances, not light; use 'path'"},
+    {"integrator", "emission", "use 'path' with max_depth 1"},
+    {"integrator", "stokes", "light has no polarisation here; use the integrator within it"},
+    {"integrator", "prb", derivatives},
+    {"integrator", "prb_basic", derivatives},
+    {"integrator", "prb_projective", derivatives},
+    {"integrator", "prbvolpath", derivatives},
+    {"integrator", "direct_projective", "it is there for derivatives; use 'direct'"},
+    {"integrator", "volprim_rf_basic", "radiance fields are not supported; use shapes"},
     {"phase", "sggx", "use 'hg', or 'tabphase' with its mean over the fibres' directions"},
 };
 

@@ -5,6 +5,7 @@
 #include "render/flux_unit.h"
 #include "render/method.h"
 #include "render/photon_stage.h"
+#include "scene/color.h"
 #include "support/test_kernels.h"
 
 #include <bit>
@@ -48,6 +49,18 @@ StoredPasses tracePhotons(const DeviceScene& flat, const RenderSettings& setting
                 stored[pass][slot].push_back(read(sorted, stage.table().map(), photon++, slot));
     }
     return stored;
+}
+
+MeanAndError directShareOfFlux(const DeviceScene& flat, const RenderSettings& settings) {
+    PhotonTracing tracing;
+    tracing.paths = 50'000;
+    tracing.radius = 0.1f;
+    std::vector<double> flux;
+    for (const auto& pass : tracePhotons(flat, settings, tracing)) {
+        flux.push_back(0);
+        for (const StoredPhoton& photon : pass[LIGHT_DIRECT]) flux.back() += mean(photon.flux) / flat.emittedFlux;
+    }
+    return meanAndError(flux);
 }
 
 } // namespace quasilux

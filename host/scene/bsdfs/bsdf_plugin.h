@@ -78,6 +78,17 @@ DielectricBorder readDielectricBorder(Properties& properties, unsigned lobeType,
 /// Unpolarised reflectance of a smooth border, as kernels/fresnel.clh has it; eta: index beyond over the near one.
 double dielectricReflectance(double cosine, double eta);
 
+/// What lies under the coat of <bsdf type="plastic|roughplastic">.
+struct CoatedBase {
+    Reflectance reflectance;
+    bool nonlinear = false; ///< light that comes back from the coat is coloured again each time
+
+    /// Its lobe, by what is seen of it through a coat of relative index `eta` that sends the share `sentBack` of diffuse light back from inside.
+    LobeDescription lobe(unsigned type, double eta, double sentBack) const;
+};
+/// `diffuse_reflectance` and `nonlinear`.
+CoatedBase readCoatedBase(Properties& properties);
+
 /// Microfacets of <bsdf type="roughconductor|roughdielectric|roughplastic">.
 struct Roughness {
     bool ggx = false; ///< else Beckmann

@@ -28,22 +28,9 @@ BsdfLobes readPlastic(Properties& properties) {
     specular.device.eta = {float(eta), float(eta), float(eta)}; // without absorption: a dielectric's reflectance
     specular.device.k = {0, 0, 0};
 
-    const Reflectance base = readReflectance(properties, "diffuse_reflectance", 0.5f);
-    const bool nonlinear = properties.boolean("nonlinear", false);
-    if (nonlinear && base.texture != 0)
-        throw InputError(
-            properties.where("nonlinear"),
-            "plastic: the colour shift of nonlinear needs one colour, and diffuse_reflectance is a texture; "
-            "give it as <rgb>, or leave nonlinear out.");
-    LobeDescription diffuse = makeLobe(LOBE_COATEDLAMBERT, "diffuse", base, lambertHalfWidth);
+    const CoatedBase base = readCoatedBase(properties);
     const double letIn = 1 - diffuseFresnel(eta);
-    const double within =
-        1 - letIn / (eta * eta); // sent back by the coat from inside: what is let out is let in / eta^2
-    const auto seen = [&](float reflectance) {
-        return static_cast<float>(reflectance / (eta * eta * (1 - (nonlinear ? reflectance : 1) * within)));
-    };
-    Rgb& scale = diffuse.device.reflectance;
-    scale = {seen(scale.r), seen(scale.g), seen(scale.b)};
+    LobeDescription diffuse = base.lobe(LOBE_COATEDLAMBERT, eta, 1 - letIn / (eta * eta)); // let out is let in / eta^2
     diffuse.device.eta = {float(eta), float(eta), float(eta)};
     diffuse.device.exponent = static_cast<float>(letIn);
     BsdfLobes lobes;

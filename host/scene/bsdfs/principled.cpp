@@ -21,9 +21,8 @@ struct Principled {
     double aspect() const { return std::sqrt(1 - 0.9 * anisotropic); }
     /// The base colour at luminance 1; white where it is black.
     Rgb tint() const {
-        const Rgb color = base.scale;
-        const float luminance = 0.212671f * color.r + 0.715160f * color.g + 0.072169f * color.b;
-        return luminance > 0 ? color * (1 / luminance) : Rgb{1, 1, 1};
+        const auto brightness = static_cast<float>(luminance(base.scale));
+        return brightness > 0 ? base.scale * (1 / brightness) : Rgb{1, 1, 1};
     }
 };
 
@@ -39,19 +38,11 @@ Rgb mix(Rgb a, Rgb b, double share) {
 
 Rgb sum(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 
-double readUnit(Properties& properties, const std::string& name, double missing) {
-    const double value = properties.number(name, missing);
-    if (value < 0 || value > 1)
-        throw InputError(properties.where(name), fmt::format("parameter '{}' of {} is {}; it must lie within [0, 1].",
-                                                             name, properties.describe(), value));
-    return value;
-}
-
 /// `eta`, or `specular`, which stands for reflectances up to 8 % at normal incidence.
 double readEta(Properties& properties) {
     if (properties.has("eta") && properties.has("specular"))
         throw InputError(properties.where("specular"), "principled has both eta and specular; keep one.");
-    if (!properties.has("eta")) return 2 / (1 - std::sqrt(0.08 * readUnit(properties, "specular", 0.5))) - 1;
+    if (!properties.has("eta")) return 2 / (1 - std::sqrt(0.08 * properties.share("specular", 0.5))) - 1;
     const double eta = properties.number("eta", 1.5);
     if (eta < 1)
         throw InputError(properties.where("eta"), fmt::format("parameter 'eta' is {}; it must be at least 1.", eta));
@@ -61,16 +52,16 @@ double readEta(Properties& properties) {
 Principled readParameters(Properties& properties) {
     Principled p;
     p.base = readReflectance(properties, "base_color", 0.5f);
-    p.roughness = readUnit(properties, "roughness", 0.5);
-    p.anisotropic = readUnit(properties, "anisotropic", 0);
-    p.metallic = readUnit(properties, "metallic", 0);
-    p.specTrans = readUnit(properties, "spec_trans", 0);
-    p.specTint = readUnit(properties, "spec_tint", 0);
-    p.sheen = readUnit(properties, "sheen", 0);
-    p.sheenTint = readUnit(properties, "sheen_tint", 0);
-    p.flatness = readUnit(properties, "flatness", 0);
-    p.clearcoat = readUnit(properties, "clearcoat", 0);
-    p.clearcoatGloss = readUnit(properties, "clearcoat_gloss", 0);
+    p.roughness = properties.share("roughness", 0.5);
+    p.anisotropic = properties.share("anisotropic", 0);
+    p.metallic = properties.share("metallic", 0);
+    p.specTrans = properties.share("spec_trans", 0);
+    p.specTint = properties.share("spec_tint", 0);
+    p.sheen = properties.share("sheen", 0);
+    p.sheenTint = properties.share("sheen_tint", 0);
+    p.flatness = properties.share("flatness", 0);
+    p.clearcoat = properties.share("clearcoat", 0);
+    p.clearcoatGloss = properties.share("clearcoat_gloss", 0);
     p.eta = readEta(properties);
     properties.accept({"diffuse_reflectance_sampling_rate", "main_specular_sampling_rate", "clearcoat_sampling_rate"});
     return p;

@@ -18,15 +18,8 @@ LobeDescription coatLobe(Properties& properties, const Roughness& roughness, dou
     return lobe;
 }
 
-/// `base` with reflectances as seen through the coat.
-LobeDescription baseLobe(const Reflectance& base, const RoughCoat& coat, bool nonlinear) {
-    LobeDescription lobe = makeLobe(LOBE_ROUGHCOATEDLAMBERT, "diffuse", base, lambertHalfWidth);
-    const double within = coat.internalReflectance();
-    const auto seen = [&](float reflectance) {
-        return static_cast<float>(reflectance / (coat.eta * coat.eta * (1 - (nonlinear ? reflectance : 1) * within)));
-    };
-    Rgb& scale = lobe.device.reflectance;
-    scale = {seen(scale.r), seen(scale.g), seen(scale.b)};
+LobeDescription baseLobe(const CoatedBase& base, const RoughCoat& coat) {
+    LobeDescription lobe = base.lobe(LOBE_ROUGHCOATEDLAMBERT, coat.eta, coat.internalReflectance());
     const CoatFit fit = fitTransmission(coat);
     for (size_t k = 0; k < fit.factors.size(); ++k) lobe.device.coat[k] = static_cast<float>(fit.factors[k]);
     lobe.device.alphaU = static_cast<float>(fit.knee);
@@ -47,15 +40,10 @@ BsdfLobes readRoughPlastic(Properties& properties) {
     if (roughness.alphaU != roughness.alphaV)
         throw InputError(properties.where("alpha_u"),
                          "roughplastic: alpha_u and alpha_v differ; its coat is isotropic, so give alpha.");
-    const Reflectance base = readReflectance(properties, "diffuse_reflectance", 0.5f);
-    const bool nonlinear = properties.boolean("nonlinear", false);
-    if (nonlinear && base.texture != 0)
-        throw InputError(properties.where("nonlinear"),
-                         "roughplastic: the colour shift of nonlinear needs one colour, and diffuse_reflectance is a "
-                         "texture; give it as <rgb>, or leave nonlinear out.");
+    const CoatedBase base = readCoatedBase(properties);
     const RoughCoat coat{roughness.ggx, roughness.alphaU, inside / outside};
     BsdfLobes lobes;
-    lobes.front = {baseLobe(base, coat, nonlinear), coatLobe(properties, roughness, coat.eta)};
+    lobes.front = {baseLobe(base, coat), coatLobe(properties, roughness, coat.eta)};
     return lobes;
 }
 

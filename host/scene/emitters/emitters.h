@@ -17,6 +17,9 @@ void readSceneEmitter(const Element& element, LoadContext& context);
 /// The scene's surroundings, still without radiance. Throws InputError where it has some already.
 Surroundings& addSurroundings(Properties& properties);
 
+/// A point that shines with `intensity`, in the medium that is stated.
+PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties);
+
 AreaEmitter readArea(Properties& properties);
 void readConstant(Properties& properties);
 void readEnvmap(Properties& properties);

@@ -1,6 +1,7 @@
 // <emitter type="envmap">: radiance from outside of the scene by an image of latitude and longitude.
 #include "scene/emitters/emitters.h"
 #include "scene/textures/texture_plugin.h"
+#include "scene/transform.h"
 
 #include <fmt/format.h>
 
@@ -16,14 +17,10 @@ constexpr double looseness = 1e-3;
 // The nearest axes at right angles, or InputError where they are not nearly.
 glm::dmat3 readAxes(Properties& properties) {
     const glm::dmat3 given(properties.transform("to_world"));
-    const glm::dmat3 product = glm::transpose(given) * given;
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            if (std::abs(product[column][row] - (column == row ? 1 : 0)) > looseness)
-                throw InputError(
-                    properties.where("to_world"),
-                    "the to_world of an emitter 'envmap' may turn and mirror it, not scale or shear it: the "
-                    "surroundings are infinitely far away. Remove <scale> from it.");
+    if (!keepsAngles(given, 1, looseness))
+        throw InputError(properties.where("to_world"),
+                         "the to_world of an emitter 'envmap' may turn and mirror it, not scale or shear it: the "
+                         "surroundings are infinitely far away. Remove <scale> from it.");
     const glm::dvec3 x = glm::normalize(given[0]), y = glm::normalize(given[1] - glm::dot(given[1], x) * x);
     const glm::dvec3 z = glm::cross(x, y);
     return {x, y, glm::dot(z, given[2]) < 0 ? -z : z};

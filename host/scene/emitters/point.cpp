@@ -5,18 +5,22 @@
 
 namespace quasilux {
 
-void readPoint(Properties& properties) {
-    if (properties.has("position") && properties.has("to_world"))
-        throw InputError(properties.where("to_world"), "emitter 'point' has both position and to_world; keep one.");
-    const glm::dvec3 position =
-        transformPoint(properties.transform("to_world"), properties.vector("position", glm::dvec3(0)));
+PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties) {
     PointEmitter emitter;
     emitter.id = idOf(properties.element());
     emitter.where = properties.element().where;
     emitter.position = toSingle(position, emitter.where);
     emitter.intensity = properties.emission("intensity", {1, 1, 1});
     if (const Element* medium = properties.object("medium")) emitter.medium = useMedium(*medium, properties.context());
-    properties.context().scene.pointEmitters.push_back(emitter);
+    return emitter;
+}
+
+void readPoint(Properties& properties) {
+    if (properties.has("position") && properties.has("to_world"))
+        throw InputError(properties.where("to_world"), "emitter 'point' has both position and to_world; keep one.");
+    const glm::dvec3 position =
+        transformPoint(properties.transform("to_world"), properties.vector("position", glm::dvec3(0)));
+    properties.context().scene.pointEmitters.push_back(pointEmitterAt(position, properties));
 }
 
 } // namespace quasilux

@@ -1,6 +1,5 @@
 // <emitter type="spot">: a point that shines into a cone.
 #include "scene/emitters/emitters.h"
-#include "scene/media/medium_plugin.h"
 #include "scene/transform.h"
 
 #include <cmath>
@@ -12,19 +11,14 @@ namespace quasilux {
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
-// Narrower, the edge of a cone without a transition could not be told from rounding.
+// Narrower, the edge of a cone without a transition would be lost in rounding.
 constexpr double leastTransition = 1e-6;
 
 // Without a shear or different scales a cone stays a cone.
 void checkRound(const glm::dmat3& toWorld, const SourceLocation& where) {
-    const glm::dmat3 product = glm::transpose(toWorld) * toWorld;
-    const double scale = product[0][0];
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            if (std::abs(product[column][row] - (column == row ? scale : 0)) > 1e-3 * scale)
-                throw InputError(where,
-                                 "the to_world of an emitter 'spot' shears it, or scales directions differently; use a "
-                                 "rotation and a translation, or lookat.");
+    if (!keepsAngles(toWorld, glm::dot(toWorld[0], toWorld[0]), 1e-3))
+        throw InputError(where, "the to_world of an emitter 'spot' shears it, or scales directions differently; use a "
+                                "rotation and a translation, or lookat.");
 }
 
 } // namespace
@@ -38,18 +32,13 @@ void readSpot(Properties& properties) {
         throw InputError(
             properties.where("cutoff_angle"),
             fmt::format("parameter 'cutoff_angle' is {}; expected degrees from the axis, at most 180.", cutoff));
-    PointEmitter emitter;
-    emitter.id = idOf(properties.element());
-    emitter.where = properties.element().where;
-    emitter.position = toSingle(transformPoint(toWorld, glm::dvec3(0)), emitter.where);
-    emitter.intensity = properties.emission("intensity", {1, 1, 1});
+    PointEmitter emitter = pointEmitterAt(transformPoint(toWorld, glm::dvec3(0)), properties);
     emitter.spot = {glm::vec3(glm::normalize(transformVector(toWorld, {0, 0, 1}))),
                     std::min(beam * radians, cutoff * radians * (1 - leastTransition)), cutoff * radians};
     if (properties.texture("texture"))
         throw InputError(
             properties.where("texture"),
             "the texture of an emitter 'spot' is not supported; remove it, or use an emitter 'area' behind a shape.");
-    if (const Element* medium = properties.object("medium")) emitter.medium = useMedium(*medium, properties.context());
     properties.context().scene.pointEmitters.push_back(emitter);
 }
 

@@ -47,14 +47,9 @@ double readFieldOfView(Properties& properties, double aspect) {
 /// A camera is moved and turned (or mirrored), not scaled.
 glm::dmat4 readPlacement(Properties& properties) {
     const glm::dmat4 toWorld = properties.transform("to_world");
-    const glm::dmat3 axes(toWorld);
-    const glm::dmat3 product = glm::transpose(axes) * axes;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) > 1e-3)
-                throw InputError(properties.where("to_world"),
-                                 "to_world of the sensor scales or shears; use only translate, "
-                                 "rotate and lookat.");
+    if (!keepsAngles(glm::dmat3(toWorld), 1, 1e-3))
+        throw InputError(properties.where("to_world"), "to_world of the sensor scales or shears; use only translate, "
+                                                       "rotate and lookat.");
     return toWorld;
 }
 

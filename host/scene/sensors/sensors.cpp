@@ -2,6 +2,7 @@
 #include "scene/sensors/sensors.h"
 
 #include "scene/media/medium_plugin.h"
+#include "scene/plugin_lookup.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -22,27 +23,6 @@ constexpr SensorPlugin sensorPlugins[] = {
     {"irradiancemeter", readIrradiancemeter, false, true},
 };
 
-struct RefusedSensor {
-    std::string_view name, why;
-};
-constexpr RefusedSensor refusedSensors[] = {
-    {"batch", "put its sensors into the <scene> themselves and render them with --sensor all"},
-    {"distant", "use sensor 'orthographic', whose rays are parallel too, or 'radiancemeter' for a single ray"},
-};
-
-const SensorPlugin& findPlugin(const Element& element) {
-    const std::string& plugin = element.get("type");
-    for (const RefusedSensor& refused : refusedSensors)
-        if (refused.name == plugin)
-            throw InputError(element.where, fmt::format("sensor '{}' is not supported; {}.", plugin, refused.why));
-    Names known;
-    for (const SensorPlugin& entry : sensorPlugins) {
-        if (entry.name == plugin) return entry;
-        known.push_back(entry.name);
-    }
-    throw InputError(element.where, fmt::format("unknown sensor plugin '{}'.{}", plugin, knownNames(plugin, known)));
-}
-
 void checkPlace(const SensorPlugin& plugin, const Element& element, bool inShape) {
     if (plugin.isOnShape && !inShape)
         throw InputError(element.where,
@@ -55,7 +35,7 @@ void checkPlace(const SensorPlugin& plugin, const Element& element, bool inShape
 } // namespace
 
 Sensor readSensor(const Element& element, LoadContext& context, std::optional<unsigned> shape) {
-    const SensorPlugin& plugin = findPlugin(element);
+    const SensorPlugin& plugin = findPlugin(sensorPlugins, element);
     checkPlace(plugin, element, shape.has_value());
     Properties properties(element, context);
     Sensor sensor;

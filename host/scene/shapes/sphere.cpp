@@ -12,12 +12,9 @@ namespace {
 double uniformScale(const glm::dmat4& toWorld, const SourceLocation& where) {
     const glm::dmat3 axes(toWorld);
     const double scale = std::cbrt(std::abs(glm::determinant(axes)));
-    const glm::dmat3 product = glm::transpose(axes / scale) * (axes / scale);
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) > 1e-4)
-                throw InputError(
-                    where, "to_world of a sphere scales directions differently; scale it uniformly, or use a mesh.");
+    if (!keepsAngles(axes / scale, 1, 1e-4))
+        throw InputError(where,
+                         "to_world of a sphere scales directions differently; scale it uniformly, or use a mesh.");
     return scale;
 }
 

@@ -105,6 +105,16 @@ Spectrum readSpectrumFile(const std::string& path, const SourceLocation& where) 
     return spectrum;
 }
 
+Spectrum spectrumOf(const Element& element, const std::string& what, LoadContext& context) {
+    if (const std::string* file = element.find("filename"))
+        return readSpectrumFile(context.files.resolve(*file, element.where), element.where);
+    return parseSpectrum(element.get("value"), element.where, what);
+}
+
+Rgb colorOfSpectrum(const Spectrum& spectrum, ColorUse use, const SourceLocation& where, LoadContext& context) {
+    return colorOfSpectrum([&](double wavelength) { return spectrum.at(wavelength); }, use, where, context);
+}
+
 Rgb colorOfSpectrum(const std::function<double(double)>& values, ColorUse use, const SourceLocation& where,
                     LoadContext& context) {
     const Integrals sum = integrate(values, use);

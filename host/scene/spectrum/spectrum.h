@@ -24,6 +24,9 @@ Spectrum parseSpectrum(const std::string& text, const SourceLocation& where, con
 /// Text file of lines "wavelength value"; # begins a comment line. Throws InputError at its line, or at `where` if it cannot be read.
 Spectrum readSpectrumFile(const std::string& path, const SourceLocation& where);
 
+/// That of an element by its attribute `value` or, where it has one, `filename`; `what` is for messages.
+Spectrum spectrumOf(const Element& element, const std::string& what, LoadContext& context);
+
 /// Throws InputError at `where` unless there are two wavelengths or more, increasing, and as many values.
 void checkSpectrum(const Spectrum& spectrum, const SourceLocation& where, const std::string& what);
 
@@ -31,5 +34,6 @@ void checkSpectrum(const Spectrum& spectrum, const SourceLocation& where, const 
 /// modes, negative channels become 0, and of bounded ones those above 1 become 1, with a warning.
 Rgb colorOfSpectrum(const std::function<double(double)>& values, ColorUse use, const SourceLocation& where,
                     LoadContext& context);
+Rgb colorOfSpectrum(const Spectrum& spectrum, ColorUse use, const SourceLocation& where, LoadContext& context);
 
 } // namespace quasilux

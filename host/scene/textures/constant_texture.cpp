@@ -38,8 +38,7 @@ Rgb readD65(Properties& properties, ColorUse) {
 }
 
 Rgb colorOf(const Spectrum& spectrum, ColorUse use, Properties& properties) {
-    return colorOfSpectrum([&](double wavelength) { return spectrum.at(wavelength); }, use, properties.element().where,
-                           properties.context());
+    return colorOfSpectrum(spectrum, use, properties.element().where, properties.context());
 }
 
 /// A list within a <string>.
@@ -52,9 +51,7 @@ std::vector<double> readList(Properties& properties, const std::string& name) {
 std::optional<Spectrum> readNestedSpectrum(Properties& properties) {
     const Element* value = properties.find("value");
     if (!value || value->tag != "spectrum") return std::nullopt;
-    if (const std::string* file = value->find("filename"))
-        return readSpectrumFile(properties.context().files.resolve(*file, value->where), value->where);
-    return parseSpectrum(value->get("value"), value->where, "parameter 'value'");
+    return spectrumOf(*value, "parameter 'value'", properties.context());
 }
 
 Rgb readRegular(Properties& properties, ColorUse use) {

@@ -110,11 +110,7 @@ unsigned useScalarTexture(const Element& element, LoadContext& context) {
 
 Scalar readShare(Properties& properties, const std::string& name, float missing) {
     if (const Element* texture = properties.texture(name)) return {0, useScalarTexture(*texture, properties.context())};
-    const double value = properties.number(name, missing);
-    if (value < 0 || value > 1)
-        throw InputError(properties.where(name), fmt::format("parameter '{}' of {} is {}; it must lie within [0, 1].",
-                                                             name, properties.describe(), value));
-    return {static_cast<float>(value), std::nullopt};
+    return {static_cast<float>(properties.share(name, missing)), std::nullopt};
 }
 
 } // namespace quasilux
