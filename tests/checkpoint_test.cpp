@@ -227,18 +227,22 @@ TEST_F(SmallCheckpoint, OtherVersionsAreRefused) {
     }
 }
 
-// As far as a limit on files is like a disk that is full: at 50 lengths.
+// As far as a limit on files is like a disk that is full: at 50 lengths, all below that of the next checkpoint. (Seconds are
+// written in as many digits as they have, so two checkpoints differ in length by some bytes; the next one is held fixed.)
 TEST_F(SmallCheckpoint, FullDiskKeepsTheLastGoodOne) {
     const std::string good = readText(path("a.ckpt"));
     const Scene scene = litPlate(2);
     Renderer renderer(device(), scene, settings);
     renderFrom(renderer, 0, 5);
     const Checkpoint next = stateOf(settings, renderer, 0);
+    writeCheckpoint(path("next.ckpt"), next, renderer);
+    const rlim_t length = fs::file_size(path("next.ckpt"));
+    fs::remove(path("next.ckpt"));
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, SIG_IGN);
     for (unsigned k = 0; k < 50; ++k) {
-        const rlimit full{k * (good.size() - 1) / 49, before.rlim_max};
+        const rlimit full{k * (length - 1) / 49, before.rlim_max};
         setrlimit(RLIMIT_FSIZE, &full);
         int why = 0;
         try {
