@@ -78,16 +78,16 @@ constexpr double scatterOfSum = 0.16; // of 64 tiles
 // Biases that noise hides say nothing for either, nor that one radius is better. Controls: biases that are resolved.
 TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
     PilotMeasure a = evenPilot(4, 1, 0.2, 1), b = evenPilot(4, 1, 0.3, 1);
-    const auto told = predictedErrors({&a, &b}, 0);
+    const auto told = predictedErrors({a, b}, 0);
     EXPECT_NEAR(told[1] - told[0], 0.1, 1e-9);
     for (auto* pilot : {&a, &b}) addScatter(*pilot);
-    const auto hidden = predictedErrors({&a, &b}, 0);
+    const auto hidden = predictedErrors({a, b}, 0);
     EXPECT_NEAR(hidden[0], hidden[1], 1e-9);
     b.radius = std::sqrt(2.0);
     // So many times the bias is expected of it, so it estimates a's with that much less noise.
     const double more = std::pow(2.0, 1.4);
     const double ofA = (0.2 + more * 0.3) / (1 + more * more);
-    const auto apart = predictedErrors({&a, &b}, 0);
+    const auto apart = predictedErrors({a, b}, 0);
     EXPECT_NEAR(apart[0], 0.25 + ofA, 1e-3);
     EXPECT_NEAR(apart[1], 0.25 + more * ofA, 1e-3);
 }
@@ -99,7 +99,7 @@ TEST(Prediction, BiasesCountApartAsFarAsNoiseDoesNotExplainIt) {
         PilotMeasure a = evenPilot(4, 1, 0.3, 1), b = evenPilot(4, 1, 0.3 + difference, 1);
         if (!isSure)
             for (auto* pilot : {&a, &b}) addScatter(*pilot);
-        const auto errors = predictedErrors({&a, &b}, 0);
+        const auto errors = predictedErrors({a, b}, 0);
         return (errors[1] - errors[0]) / difference;
     };
     // Standard errors are those of a sample of 64, n / (n - 1) in their square.

@@ -120,12 +120,12 @@ double shareOfPhotons(const ErrorEstimate& error) {
 }
 
 // Biases of radius 1.
-std::vector<Estimate> biasesOf(const std::vector<const PilotMeasure*>& pilots) {
+std::vector<Estimate> biasesOf(const std::vector<PilotMeasure>& pilots) {
     std::vector<Estimate> biases;
     bool allKnown = true;
-    for (const auto* pilot : pilots) {
-        const double ofRadius = std::pow(pilot->radius, 2 * biasByRadius);
-        const Estimate told = biasOf(*pilot);
+    for (const auto& pilot : pilots) {
+        const double ofRadius = std::pow(pilot.radius, 2 * biasByRadius);
+        const Estimate told = biasOf(pilot);
         biases.push_back({told.value / ofRadius, told.standardError / ofRadius});
         allKnown &= told.standardError > 0;
     }
@@ -177,11 +177,11 @@ Prediction predictAfter(const PilotMeasure& pilot, double seconds) {
     return predictAfterPasses(pilot, passesAfter(pilot, seconds));
 }
 
-std::vector<double> predictedErrors(const std::vector<const PilotMeasure*>& pilots, double seconds) {
+std::vector<double> predictedErrors(const std::vector<PilotMeasure>& pilots, double seconds) {
     const auto biases = biasesOf(pilots);
     std::vector<double> errors;
     for (size_t k = 0; k < pilots.size(); ++k) {
-        const PilotMeasure& pilot = *pilots[k];
+        const PilotMeasure& pilot = pilots[k];
         const Growth growth = growthTo(pilot, passesAfter(pilot, seconds));
         const double ofRadius = std::pow(pilot.radius, 2 * biasByRadius);
         errors.push_back(growth.noise * sum(pilot.noise) + growth.bias * ofRadius * biases[k].counted());

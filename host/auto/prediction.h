@@ -51,7 +51,7 @@ private:
 
 /// relMSE of each after `seconds` more on the clock. Biases that differ by less than what can be resolved, but for what their radii
 /// explain, count as one.
-std::vector<double> predictedErrors(const std::vector<const PilotMeasure*>& pilots, double seconds);
+std::vector<double> predictedErrors(const std::vector<PilotMeasure>& pilots, double seconds);
 
 /// As it would be with so many times the camera paths of a pixel in a pass.
 PilotMeasure withCameraPaths(PilotMeasure pilot, double factor);

@@ -78,12 +78,21 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     return {chosen, report_, nullptr};
 }
 
-// Known from the best one's noise and times alone. Two of its passes may not know the noise well; with those of a race of numbers it is
-// chosen anew.
+// Known from a pilot's noise and times alone, without rendering.
+unsigned Search::cameraPathsOf(const Contender& contender) const {
+    return freedom_.cameraPaths ? bestCameraPaths(contender.measure, contender.settings.cameraPaths, secondsLeft())
+                                : contender.settings.cameraPaths;
+}
+
+PilotMeasure Search::atItsBest(const Contender& contender) const {
+    return withCameraPaths(contender.measure, double(cameraPathsOf(contender)) / contender.settings.cameraPaths);
+}
+
+// Two of its passes may not know the noise well; with those of a race of numbers it is chosen anew.
 void Search::chooseCameraPaths() {
-    if (!best_.pilot || !freedom_.cameraPaths) return;
-    const unsigned paths = bestCameraPaths(best_.measure, best_.settings.cameraPaths, secondsLeft());
-    best_.measure = withCameraPaths(best_.measure, double(paths) / best_.settings.cameraPaths);
+    if (!best_.pilot) return;
+    const unsigned paths = cameraPathsOf(best_);
+    best_.measure = atItsBest(best_);
     best_.settings.cameraPaths = report_.rows[best_.row].settings.cameraPaths = paths;
 }
 
@@ -237,8 +246,8 @@ void Search::dropFailed(Field& field) {
 void Search::giveUpWorst(Field& field, size_t kept) {
     measureTogether(field);
     if (field.empty()) return;
-    std::vector<const PilotMeasure*> measures;
-    for (const auto& contender : field) measures.push_back(&contender.measure);
+    std::vector<PilotMeasure> measures;
+    for (const auto& contender : field) measures.push_back(atItsBest(contender));
     const auto errors = predictedErrors(measures, secondsLeft());
     std::vector<size_t> order(field.size());
     std::iota(order.begin(), order.end(), size_t{0});
@@ -261,7 +270,7 @@ void Search::note(const Contender& contender, const std::string& outcome) {
     row.openingSeconds = contender.pilot->openingSeconds();
     row.secondsPerPass = contender.measure.secondsPerPass;
     if (contender.measure.passes >= fewestPasses)
-        row.predictedError = predictAfter(contender.measure, secondsLeft()).relativeError();
+        row.predictedError = predictAfter(atItsBest(contender), secondsLeft()).relativeError();
 }
 
 void Search::noteFailure(const Contender& contender) {

@@ -55,6 +55,11 @@ private:
     /// Successive halving (Karnin et al. 2013) among these, for so many seconds. All begin anew, as estimates differ after fewer
     /// passes: like must be held against like. All but the first one must have a relMSE that is `leastGain` times less to win.
     void race(const std::vector<RenderSettings>& candidates, unsigned fewestPasses, double leastGain, double seconds);
+    /// Camera paths of a pixel in a pass with which these settings have the least error.
+    unsigned cameraPathsOf(const Contender& contender) const;
+    /// What the contender would measure with so many. All are compared by it: one whose photons cost much and carry little is not to
+    /// be given up for what it is with one path.
+    PilotMeasure atItsBest(const Contender& contender) const;
     void chooseCameraPaths();
     /// Among the best ones so far and those beside it; whether one of these has won.
     bool raceOfNumbers(double seconds);
