@@ -25,6 +25,7 @@ struct Truth {
     unsigned honestFrom = 0;
     unsigned failsAt = 0; // pass that throws, counted from 1; 0: none
     bool lacksMemory = false;
+    double noiseOfPhotons = 0, shareOfPhotonSeconds = 0; // as PilotMeasure
 };
 using World = std::function<Truth(const RenderSettings&)>;
 
@@ -43,7 +44,11 @@ public:
     std::vector<float> radiance() const override { return {}; }
     PilotMeasure measure(const std::vector<float>&) const override {
         const bool lies = passes_ < truth_.honestFrom;
-        return evenPilot(passes_, lies ? truth_.firstNoise : truth_.noisePerPass, truth_.bias, truth_.secondsPerPass);
+        PilotMeasure pilot =
+            evenPilot(passes_, lies ? truth_.firstNoise : truth_.noisePerPass, truth_.bias, truth_.secondsPerPass);
+        pilot.noiseOfPhotons = truth_.noiseOfPhotons;
+        pilot.secondsOfPhotons = truth_.shareOfPhotonSeconds * truth_.secondsPerPass;
+        return pilot;
     }
     unsigned photonsPerPass() const override { return photons_; }
     double openingSeconds() const override { return 0.05; }
@@ -119,28 +124,33 @@ TEST(Search, MethodsAreDistinct) {
     for (const auto& method : methods({}, scene, {true, true, true, false, false})) names.push_back(text(method, 1));
     const auto is = [](const char* method) { return std::string(method) + ", 1 photons/pass, radius 1"; };
     EXPECT_THAT(names, testing::ElementsAre(is("BDD 0, main, split auto"), is("BDD 0, alternative, split auto"),
-                                            is("BDD 0, main, split none"), is("BDD 1, main, split auto"),
-                                            is("BDD 1, alternative, split auto"), is("BDD 1, main, split none"),
-                                            is("BDD 1, main, split all"), is("BDD 0, alternative, split all"),
+                                            is("BDD 1, main, split auto"), is("BDD 1, alternative, split auto"),
+                                            is("BDD 1, main, split all"), is("BDD 0, main, split none"),
+                                            is("BDD 1, main, split none"), is("BDD 0, alternative, split all"),
                                             is("BDD 1, alternative, split all")));
 }
 
-// Kernels are made for the classes of photons that any method stores, but for those that need none at all.
+std::string optionsOf(const Scene& scene, const RenderSettings& method) {
+    DeviceScene flat = flattenFor(scene, method);
+    flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, method);
+    return kernelOptions(flat, method);
+}
+
+// Kernels are made for the classes of photons that any method stores, but for those that need none at all; the sky's direct light, which
+// only genuine diffuse lobes take from photons, is in those of splits without such lobes too.
 TEST(Search, MethodsShareKernels) {
-    const Scene scene = projectScene("cornell_phong.xml");
-    const RenderSettings start = searchStart({}, scene, everything, {});
-    std::set<std::string> all, withPhotons;
-    for (const auto& method : methods(start, scene, everything)) {
-        const std::string options = kernelOptions(flattenFor(scene, method), method);
-        all.insert(options);
-        if (shareKernels(method, start, scene)) withPhotons.insert(options);
+    for (const char* name : {"cornell_phong.xml", "../tests/scenes/compare/roughplastic.xml"}) {
+        SCOPED_TRACE(name);
+        const Scene scene = projectScene(name);
+        const RenderSettings start = searchStart({}, scene, everything, {});
+        std::set<std::string> withPhotons, apart;
+        for (const auto& method : methods(start, scene, everything))
+            if (shareKernels(method, start, scene)) withPhotons.insert(optionsOf(scene, method));
+        EXPECT_EQ(withPhotons.size(), 1u);
+        for (const auto& method : methods({}, scene, everything)) // control: each is compiled for what it stores
+            apart.insert(optionsOf(scene, method));
+        EXPECT_GT(apart.size(), 2u);
     }
-    EXPECT_EQ(withPhotons.size(), 1u);
-    EXPECT_EQ(all.size(), 2u);
-    std::set<std::string> apart; // control: without a search each is compiled for what it stores
-    for (const auto& method : methods({}, scene, everything))
-        apart.insert(kernelOptions(flattenFor(scene, method), method));
-    EXPECT_GT(apart.size(), 2u);
 }
 
 // Negative control of FindsWhatIsBetter: the same world the other way round keeps what it started with.
@@ -160,6 +170,24 @@ TEST(Search, ChangesOnlyWhatIsOpen) {
     EXPECT_EQ(search(world, 200, {false, true, true, true, true}).settings.bdd, 0u);
     EXPECT_EQ(search(world, 200, {true, false, false, false, false}).settings.bdd, 1u);
     EXPECT_EQ(search(world, 200, {}).report.rows.size(), 1u);
+}
+
+// One path is little of what a pass with dear photons costs: the method that is worse so is better by several paths.
+TEST(Search, ComparesWithTheCameraPathsThatServeEachBest) {
+    const World world = [](const RenderSettings& s) {
+        Truth truth;
+        const bool followsAll = s.quasiSpecular == "all" && s.variant == Variant::alternative && s.bdd == 0;
+        truth.noisePerPass = followsAll ? 2 : s.quasiSpecular == "auto" && s.bdd == 0 ? 1 : 4;
+        truth.noiseOfPhotons = followsAll ? 0.01 : 1;
+        truth.shareOfPhotonSeconds = 0.8;
+        return truth;
+    };
+    const Found found = search(world, 200, {true, true, true, false, false, true});
+    EXPECT_EQ(found.settings.quasiSpecular, "all");
+    EXPECT_GT(found.settings.cameraPaths, 4u);
+    const Found withOne = search(world, 200, {true, true, true, false, false, false}); // control: one path is fixed
+    EXPECT_EQ(withOne.settings.quasiSpecular, "auto");
+    EXPECT_EQ(withOne.settings.cameraPaths, 1u);
 }
 
 TEST(Search, CostCountsAsMuchAsVariance) {

@@ -96,11 +96,18 @@ std::vector<std::string> singleLobes(const Scene& scene) {
     return names;
 }
 
-std::vector<std::string> splitsOf(const Scene& scene) {
-    std::vector<std::string> splits{"auto"};
+// In the order in which they are tried, as short renders have no time for all: those that follow as much as possible, then those that follow
+// little, which seldom win.
+std::vector<std::string> firstSplits(const Scene& scene, const RenderSettings& start) {
+    std::vector<std::string> splits{start.quasiSpecular, "auto"};
     if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.3", "level:0.03"});
-    splits.insert(splits.end(), {"none", "all"});
-    for (const auto& lobe : singleLobes(scene)) splits.push_back(lobe);
+    splits.push_back("all");
+    return splits;
+}
+
+std::vector<std::string> lastSplits(const Scene& scene) {
+    std::vector<std::string> splits = singleLobes(scene);
+    splits.push_back("none");
     return splits;
 }
 
@@ -126,6 +133,14 @@ private:
     std::vector<std::string> known_;
 };
 
+// By the main variant and BDD 0 a split that follows everything comes to the standard method, which is among those tried last.
+std::vector<Variant> variantsOf(const RenderSettings& start, unsigned bdd, const std::string& split,
+                                const Freedom& freedom) {
+    if (!freedom.variant) return {start.variant};
+    if (split == "all" && bdd == 0) return {Variant::alternative};
+    return {start.variant, start.variant == Variant::main ? Variant::alternative : Variant::main};
+}
+
 } // namespace
 
 RenderSettings searchStart(const RenderSettings& settings, const Scene& scene, const Freedom& freedom,
@@ -143,23 +158,23 @@ std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& sc
     std::vector<RenderSettings> found;
     MethodList list(scene, found);
     list.add(start);
-    for (const unsigned bdd : {0u, 1u}) {
-        if (!freedom.bdd && bdd != start.bdd) continue;
-        std::vector<RenderSettings> ofBdd{start};
-        if (freedom.split)
-            for (const auto& split : splitsOf(scene)) {
-                ofBdd.push_back(start);
-                ofBdd.back().quasiSpecular = split;
-                ofBdd.back().quasiSpecularFromCommandLine = true;
-            }
-        for (auto& method : ofBdd) {
-            method.bdd = freedom.bdd ? bdd : start.bdd;
-            list.add(method);
-            if (!freedom.variant) continue;
-            method.variant = start.variant == Variant::main ? Variant::alternative : Variant::main;
-            list.add(method);
-        }
-    }
+    const auto addSplits = [&](std::vector<std::string> splits) {
+        if (!freedom.split) splits = {start.quasiSpecular};
+        for (const unsigned bdd : freedom.bdd ? std::vector{0u, 1u} : std::vector{start.bdd})
+            for (const auto& split : splits)
+                for (const Variant variant : variantsOf(start, bdd, split, freedom)) {
+                    RenderSettings method = start;
+                    method.bdd = bdd;
+                    method.variant = variant;
+                    if (split != start.quasiSpecular) {
+                        method.quasiSpecular = split;
+                        method.quasiSpecularFromCommandLine = true;
+                    }
+                    list.add(method);
+                }
+    };
+    addSplits(firstSplits(scene, start));
+    addSplits(lastSplits(scene));
     const auto first = found.begin() + 1;
     std::stable_partition(first, found.end(),
                           [&](const RenderSettings& method) { return shareKernels(method, start, scene); });

@@ -111,22 +111,18 @@ bool Search::raceOfNumbers(double seconds) {
 }
 
 void Search::race(const std::vector<RenderSettings>& candidates, unsigned fewest, double leastGain, double seconds) {
-    const double end = world_.clock() + seconds;
-    double cost = 0;
-    for (const auto& candidate : candidates) cost += passCost(candidate);
-    const double passes = std::floor(seconds / 2 / cost);
-    Field field =
-        enter(candidates, static_cast<unsigned>(std::clamp<double>(passes, fewest, mostAtFirst)), leastGain, end);
+    const double end = world_.clock() + seconds, middle = world_.clock() + seconds / 2;
+    Field field = enter(candidates, fewest, leastGain, middle, end);
+    renderAll(field, fewest, mostAtFirst, middle);
     halve(field, end);
     if (field.empty()) return;
     best_ = std::move(field.front());
 }
 
-// As many of them as half of the time allows, in their order.
+// In their order, as many of them as the time until the `middle` allows; two wherever that until the `end` does.
 Search::Field Search::enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain,
-                            double end) {
+                            double middle, double end) {
     Field field;
-    const double middle = (world_.clock() + end) / 2;
     for (const auto& candidate : candidates) {
         if (interrupted()) break;
         const double needed = openingCost(candidate) + passes * passCost(candidate);
@@ -140,23 +136,25 @@ Search::Field Search::enter(const std::vector<RenderSettings>& candidates, unsig
     return field;
 }
 
+bool Search::renderAll(Field& field, unsigned passes, unsigned most, double end) {
+    double cost = 0;
+    for (const auto& contender : field) cost += contender.measure.secondsPerPass;
+    const double more = std::min<double>(most - passes, std::floor((end - world_.clock()) / cost));
+    if (!(more >= 1)) return false;
+    for (auto& contender : field) dare(contender, [&] { renderUpTo(contender, passes + static_cast<unsigned>(more)); });
+    dropFailed(field);
+    return true;
+}
+
 // Until one is left. All have the same time, so those that are left have twice as many passes each time.
 void Search::halve(Field& field, double end) {
     giveUpWorst(field, (field.size() + 1) / 2);
     while (field.size() > 1) {
-        double cost = 0;
         unsigned passes = mostPasses;
-        for (const auto& contender : field) {
-            cost += contender.measure.secondsPerPass;
-            passes = std::min(passes, contender.measure.passes);
-        }
-        const double rounds = std::ceil(std::log2(field.size()));
-        const double more = std::min<double>(passes, std::floor((end - world_.clock()) / rounds / cost));
-        if (more >= 1 && passes < mostPasses)
-            for (auto& contender : field)
-                dare(contender, [&] { renderUpTo(contender, passes + static_cast<unsigned>(more)); });
-        dropFailed(field);
-        giveUpWorst(field, more >= 1 && !interrupted() ? (field.size() + 1) / 2 : 1);
+        for (const auto& contender : field) passes = std::min(passes, contender.measure.passes);
+        const double rounds = std::ceil(std::log2(field.size())), now = world_.clock();
+        const bool goesOn = renderAll(field, passes, std::min(2 * passes, mostPasses), now + (end - now) / rounds);
+        giveUpWorst(field, goesOn && !interrupted() ? (field.size() + 1) / 2 : 1);
     }
 }
 

@@ -63,7 +63,10 @@ private:
     void chooseCameraPaths();
     /// Among the best ones so far and those beside it; whether one of these has won.
     bool raceOfNumbers(double seconds);
-    Field enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain, double end);
+    Field enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain, double middle,
+                double end);
+    /// Goes on from `passes` passes of each to as many as the time until `end` allows, `most` of them; false where that is none.
+    bool renderAll(Field& field, unsigned passes, unsigned most, double end);
     void halve(Field& field, double end);
     bool isWithinBounds(const RenderSettings& settings) const;
     std::vector<RenderSettings> untried(const std::vector<RenderSettings>& candidates) const;

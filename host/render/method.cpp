@@ -43,7 +43,8 @@ unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& sett
 
 unsigned compiledClasses(const Features& features, const RenderSettings& settings) {
     const unsigned taken = photonClasses(features, settings);
-    return taken == 0 ? 0 : taken | settings.furtherClasses;
+    if (taken == 0) return 0;
+    return taken | settings.furtherClasses | (features.directByPhotons ? bit(LIGHT_DIRECT) : 0u);
 }
 
 namespace {
@@ -95,7 +96,7 @@ bool learns(const Features& features, const RenderSettings& settings) {
 
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings) {
     return settings.direct == DirectLight::emitters && settings.map == MapOrder::photons && !isMeter(features) &&
-           !features.media && features.genuineDiffuse && !settings.genericKernels &&
+           !features.media && (features.genuineDiffuse || settings.furtherClasses != 0) && !settings.genericKernels &&
            settings.emission == Emission::guided &&
            (features.emitterTypes.contains(EMITTER_CONSTANT) || features.emitterTypes.contains(EMITTER_ENVMAP));
 }

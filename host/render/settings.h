@@ -55,7 +55,7 @@ struct RenderSettings {
     bool photometric = false;    ///< radiance is in cd/m^2, not W sr^-1 m^-2: only what readings in lux and cd/m^2 say
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
     unsigned furtherClasses =
-        0; ///< of photons, as bits of photonClasses(): kernels serve splits and variants that use them, too
+        0; ///< of photons, as bits of photonClasses(): kernels serve splits and variants that use them, too; not 0 in a search
     bool estimateBias = true;   ///< beside the image; see estimatesBias() in method.h
     bool energyBalance = false; ///< count what becomes of the photons' flux
     bool countGathered = false; ///< after the image: which photons of one more pass camera paths gather
