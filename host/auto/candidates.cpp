@@ -120,8 +120,11 @@ public:
         const Split split = splitOf(scene_, settings);
         const Scatterings has(split);
         const bool variantsAreOne = !has.anyQuasiSpecular() || (settings.bdd == 0 && isStandard(has, settings.variant));
-        const std::string key = fmt::format("{} {} {}", settings.bdd, variantsAreOne ? "" : name(settings.variant),
-                                            splitKey(split, settings.variant, settings.bdd));
+        // BDD counts genuine diffuse events, and those of the standard method.
+        const bool bddMatters = has.diffuseLobes || has.diffuseMedia || settings.variant == Variant::main;
+        const std::string key =
+            fmt::format("{} {} {}", bddMatters ? settings.bdd : 0, variantsAreOne ? "" : name(settings.variant),
+                        splitKey(split, settings.variant, settings.bdd));
         if (std::find(known_.begin(), known_.end(), key) != known_.end()) return;
         known_.push_back(key);
         methods_.push_back(settings);
@@ -175,17 +178,7 @@ std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& sc
     };
     addSplits(firstSplits(scene, start));
     addSplits(lastSplits(scene));
-    const auto first = found.begin() + 1;
-    std::stable_partition(first, found.end(),
-                          [&](const RenderSettings& method) { return shareKernels(method, start, scene); });
     return found;
-}
-
-bool shareKernels(const RenderSettings& a, const RenderSettings& b, const Scene& scene) {
-    const auto hasPhotons = [&](const RenderSettings& method) {
-        return classesOf(Scatterings(splitOf(scene, method)), method) != 0;
-    };
-    return hasPhotons(a) == hasPhotons(b);
 }
 
 std::vector<RenderSettings> numbersBeside(const RenderSettings& from, unsigned photons, const Freedom& freedom) {

@@ -19,11 +19,8 @@ RenderSettings searchStart(const RenderSettings& settings, const Scene& scene, c
 
 /// Splits, variants and BDDs in all combinations that `freedom` allows, `start` first. Those that come to the same as another
 /// one are left out: with nothing quasi-specular the variants are one, with nothing genuine diffuse the main variant is the
-/// standard method. Those that come last have the longest paths, or need kernels of their own, as no photons serve them.
+/// standard method. Those that follow little come last.
 std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& scene, const Freedom& freedom);
-
-/// Whether they share their kernels, being methods() of one searchStart().
-bool shareKernels(const RenderSettings& a, const RenderSettings& b, const Scene& scene);
 
 /// Twice and half the photons, a wider and a smaller radius. `photons`: those that a pass of `from` emits.
 std::vector<RenderSettings> numbersBeside(const RenderSettings& from, unsigned photons, const Freedom& freedom);

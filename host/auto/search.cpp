@@ -48,7 +48,6 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     if (begun && stop_.relativeError)
         report_.horizon = std::min(limit, world_.clock() + secondsToError(first.measure, *stop_.relativeError, limit));
     startPassSeconds_ = first.measure.secondsPerPass;
-    coldOpening_ = first.pilot->openingSeconds();
     note(first, "chosen");
 
     const auto all = methods(settings, scene_, freedom_);
@@ -125,7 +124,7 @@ Search::Field Search::enter(const std::vector<RenderSettings>& candidates, unsig
     Field field;
     for (const auto& candidate : candidates) {
         if (interrupted()) break;
-        const double needed = openingCost(candidate) + passes * passCost(candidate);
+        const double needed = openingSeconds_ + passes * passCost(candidate);
         if (!field.empty() && world_.clock() + needed > (field.size() < 2 ? end : middle)) {
             report_.outOfTime = true;
             break;
@@ -185,7 +184,7 @@ void Search::openContender(Field& field, const RenderSettings& settings, unsigne
             note(contender, "given up");
         }))
         return noteFailure(contender);
-    if (shareKernels(settings, start_, scene_)) warmOpening_ = contender.pilot->openingSeconds();
+    openingSeconds_ = contender.pilot->openingSeconds();
     if (isKnown) field.push_back(std::move(contender));
 }
 
@@ -276,10 +275,6 @@ void Search::noteFailure(const Contender& contender) {
     row.passes = contender.earlierPasses + contender.pilot->passes();
     row.outcome = failedOutcome + contender.failure;
     row.predictedError = 0;
-}
-
-double Search::openingCost(const RenderSettings& settings) const {
-    return shareKernels(settings, start_, scene_) ? warmOpening_ : coldOpening_;
 }
 
 double Search::passCost(const RenderSettings& settings) const {

@@ -80,7 +80,6 @@ private:
     void giveUpWorst(Field& field, size_t kept);
     void note(const Contender& contender, const std::string& outcome);
     void noteFailure(const Contender& contender);
-    double openingCost(const RenderSettings& settings) const;
     double passCost(const RenderSettings& settings) const;
     double secondsLeft() const;
     bool interrupted() const { return world_.interrupted && *world_.interrupted; }
@@ -92,9 +91,8 @@ private:
     RenderSettings start_;
     unsigned startPhotons_ = 0;
     double startPassSeconds_ = 0;
-    double coldOpening_ = 0,
-           warmOpening_ = 0; ///< seconds with kernels to be compiled, maybe, and with those of the start
-    Contender best_;         ///< without a pilot before the first race
+    double openingSeconds_ = 0; ///< of the last contender; its kernels are those of the start
+    Contender best_;            ///< without a pilot before the first race
     SearchReport report_;
 };
 

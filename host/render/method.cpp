@@ -42,9 +42,8 @@ unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& sett
 }
 
 unsigned compiledClasses(const Features& features, const RenderSettings& settings) {
-    const unsigned taken = photonClasses(features, settings);
-    if (taken == 0) return 0;
-    return taken | settings.furtherClasses | (features.directByPhotons ? bit(LIGHT_DIRECT) : 0u);
+    const unsigned some = photonClasses(features, settings) | settings.furtherClasses;
+    return some == 0 || !features.directByPhotons ? some : some | bit(LIGHT_DIRECT);
 }
 
 namespace {
@@ -87,11 +86,11 @@ bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings) {
 }
 
 bool adaptsRadius(const Features& features, const RenderSettings& settings) {
-    return mayAdaptRadius(isMeter(features), features.media, settings) && photonClasses(features, settings) != 0;
+    return mayAdaptRadius(isMeter(features), features.media, settings) && compiledClasses(features, settings) != 0;
 }
 
 bool learns(const Features& features, const RenderSettings& settings) {
-    return settings.emission == Emission::guided && photonClasses(features, settings) != 0;
+    return settings.emission == Emission::guided && compiledClasses(features, settings) != 0;
 }
 
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings) {

@@ -11,8 +11,8 @@ namespace quasilux {
 /// Bits 1 << LIGHT_* of the photons that some camera path can use; the others are not stored (kernels/law.clh).
 unsigned photonClasses(const Features& features, const RenderSettings& settings);
 
-/// The same and those of other splits and variants that share these kernels, RenderSettings::furtherClasses; still none where no photons
-/// are needed, as paths alone are much faster without.
+/// The same and those of other splits and variants that share these kernels, RenderSettings::furtherClasses. Where none are in use
+/// themselves, the kernels find an empty map.
 unsigned compiledClasses(const Features& features, const RenderSettings& settings);
 
 /// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
@@ -20,10 +20,10 @@ bool estimatesBias(const Features& features, const RenderSettings& settings);
 /// Whether the density radius may be chosen by pixel, so that borders must be known for the largest one: known before the
 /// scene is flattened.
 bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);
-/// Is it chosen by pixel? Only where mayAdaptRadius(), and some photons are stored.
+/// Is it chosen by pixel? Only where mayAdaptRadius(), and kernels know photons.
 bool adaptsRadius(const Features& features, const RenderSettings& settings);
 
-/// Is it learned before pass 0 where photons serve the image?
+/// Is it learned before pass 0 where photons serve the image? Only where kernels know photons.
 bool learns(const Features& features, const RenderSettings& settings);
 /// Whether direct light of some emitters may be taken from photons, that of others by sampling them.
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings);

@@ -265,16 +265,26 @@ struct Renderer::Stages {
     // Radii of this pass are chosen with the photons of earlier ones; where these were not rendered here, they are traced for that
     // alone.
     void catchUpRadii(unsigned pass) {
-        while (adaptive && adaptive->pilotPasses() < AdaptiveRadius::pilotPassesBefore(pass)) {
+        while (adaptive && photonClasses(flat.features, settings) != 0 &&
+               adaptive->pilotPasses() < AdaptiveRadius::pilotPassesBefore(pass)) {
             const unsigned earlier = adaptive->pilotPasses();
             photons->run(earlier, radii(earlier), volumeScale(earlier));
             chooseRadius(earlier);
         }
     }
 
+    // Kernels that other methods share know photons even where this one takes none: then their map is left empty, once for all.
+    PhotonPassCount tracePhotons(unsigned pass) {
+        if (mapIsEmpty) return {};
+        mapIsEmpty = photonClasses(flat.features, settings) == 0;
+        const auto count = photons->run(pass, radii(pass), volumeScale(pass));
+        counters.photonsEmitted += photons->photonsPerPass();
+        return count;
+    }
+
     void runPhotonMap(unsigned pass) {
         catchUpRadii(pass);
-        const auto count = photons->run(pass, radii(pass), volumeScale(pass));
+        const auto count = tracePhotons(pass);
         noteTraced(count);
         if (meter)
             meter->run(pass, *photons);
@@ -286,12 +296,11 @@ struct Renderer::Stages {
             stored += count.stored[slot];
         }
         noteMapSize(stored, stored * PhotonArrays::photonBytes(storesDepth()));
-        counters.photonsEmitted += photons->photonsPerPass();
     }
 
     void runCamera(unsigned pass) {
         camera->run(pass, *photons);
-        if (!camera->radiusIsDue(pass)) return;
+        if (mapIsEmpty || !camera->radiusIsDue(pass)) return;
         device.finish();
         chooseRadius(pass);
     }
@@ -342,6 +351,7 @@ struct Renderer::Stages {
     shared::RadiusField field{};
     Film film;
     std::optional<PhotonStage> photons;     // this and one of the next two, or
+    bool mapIsEmpty = false;                // and stays so
     std::optional<AdaptiveRadius> adaptive; // where the camera stage has it
     std::optional<CameraStage> camera;
     std::optional<MeterStage> meter;
