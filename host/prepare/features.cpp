@@ -42,6 +42,7 @@ constexpr std::array flags = {
     Flag{&Features::heterogeneousMedia, "HAS_HETEROGENEOUS_MEDIA", "media that vary in space"},
     Flag{&Features::sharingLambert, "HAS_SHARING_LAMBERT", "diffuse paths that look for emitters"},
     Flag{&Features::sharingMedia, "HAS_SHARING_MEDIA", "paths in media that look for emitters"},
+    Flag{&Features::emitterTextures, "HAS_EMITTER_TEXTURES", "emitters with textures"},
     Flag{&Features::lightTree, "HAS_LIGHT_TREE", "many emitters"},
     Flag{&Features::hiddenEmitters, "HAS_HIDDEN_EMITTERS", "emitters hidden from the camera"},
     Flag{&Features::directByPhotons, "HAS_DIRECT_BY_PHOTONS", "direct light of some emitters by photons"},

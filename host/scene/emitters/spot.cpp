@@ -1,5 +1,6 @@
 // <emitter type="spot">: a point that shines into a cone.
 #include "scene/emitters/emitters.h"
+#include "scene/textures/texture_plugin.h"
 #include "scene/transform.h"
 
 #include <cmath>
@@ -21,6 +22,14 @@ void checkRound(const glm::dmat3& toWorld, const SourceLocation& where) {
                                 "rotation and a translation, or lookat.");
 }
 
+/// From the axis to the rim of the texture, along local x or y, over its square: the cone reaches from edge to edge. Wider than a half
+/// space it does so behind the point, as in Mitsuba.
+glm::vec3 acrossCone(const glm::dmat4& toWorld, int axis, double cutoff) {
+    glm::dvec3 local(0);
+    local[axis] = 1;
+    return glm::vec3(glm::normalize(transformVector(toWorld, local)) * (0.5 / std::tan(cutoff * radians)));
+}
+
 } // namespace
 
 void readSpot(Properties& properties) {
@@ -35,10 +44,10 @@ void readSpot(Properties& properties) {
     PointEmitter emitter = pointEmitterAt(transformPoint(toWorld, glm::dvec3(0)), properties);
     emitter.spot = {glm::vec3(glm::normalize(transformVector(toWorld, {0, 0, 1}))),
                     std::min(beam * radians, cutoff * radians * (1 - leastTransition)), cutoff * radians};
-    if (properties.texture("texture"))
-        throw InputError(
-            properties.where("texture"),
-            "the texture of an emitter 'spot' is not supported; remove it, or use an emitter 'area' behind a shape.");
+    const EmissionColor picture = readEmission(properties, "texture", {1, 1, 1});
+    emitter.intensity = emitter.intensity * picture.scale;
+    if (picture.texture)
+        emitter.picture = {*picture.texture, acrossCone(toWorld, 0, cutoff), acrossCone(toWorld, 1, cutoff)};
     properties.context().scene.pointEmitters.push_back(emitter);
 }
 
