@@ -226,6 +226,9 @@ typedef struct {
 /* As EMITTER_POINT, but for the intensity, which falls off with the angle to `normal`. Its texture is looked up at 1/2 +
  * (d . edgeU, d . edgeV) / (d . normal) in the direction d. */
 #define EMITTER_SPOT 7u
+/* As EMITTER_POINT, but for the intensity: radiance over cos^3 of the angle to `normal`, times the texture, which is looked up as
+ * that of EMITTER_SPOT; none outside of its unit square. `area`: of the square, at depth 1. */
+#define EMITTER_PROJECTOR 8u
 
 typedef struct {
     unsigned int type;

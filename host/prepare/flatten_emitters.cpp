@@ -82,30 +82,53 @@ Rgb meanOfPicture(const TextureDescription& texture, const PointEmitter& point) 
     });
 }
 
-/// A point emitter with its power.
-shared::Emitter pointEmitter(const PointEmitter& point, const std::vector<TextureDescription>& textures,
-                             double* power) {
-    shared::Emitter emitter{};
-    emitter.type = EMITTER_POINT;
-    emitter.shape = QL_NONE;
-    emitter.radiance = point.intensity;
-    emitter.origin = pack(point.position);
-    double solidAngle = 4 * pi;
+void setPicture(const PointEmitter::Picture& picture, shared::Emitter& emitter) {
+    emitter.texture = picture.texture ? *picture.texture + 1 : 0;
+    emitter.edgeU = pack(picture.u);
+    emitter.edgeV = pack(picture.v);
+}
+
+/// Its flux over its intensity on the axis, without a texture; completes the record.
+double solidAngleOf(const PointEmitter& point, shared::Emitter& emitter) {
     if (point.spot) {
         emitter.type = EMITTER_SPOT;
         emitter.normal = pack(point.spot->axis);
         emitter.beamAngle = static_cast<float>(point.spot->beamAngle);
         emitter.cutoffAngle = static_cast<float>(point.spot->cutoffAngle);
-        solidAngle = solidAngleOf(*point.spot);
+        if (point.picture) setPicture(*point.picture, emitter);
+        return solidAngleOf(*point.spot);
     }
-    Rgb intensity = point.intensity;
-    if (point.picture) {
-        emitter.texture = point.picture->texture + 1;
-        emitter.edgeU = pack(point.picture->u);
-        emitter.edgeV = pack(point.picture->v);
-        intensity = intensity * meanOfPicture(textures[point.picture->texture], point);
+    if (point.projector) {
+        emitter.type = EMITTER_PROJECTOR;
+        emitter.normal = pack(point.projector->axis);
+        setPicture(point.projector->picture, emitter);
+        const double area =
+            1 / (double(glm::length(point.projector->picture.u)) * glm::length(point.projector->picture.v));
+        emitter.area = static_cast<float>(area);
+        return area;
     }
-    *power = solidAngle * mean(intensity);
+    emitter.type = EMITTER_POINT;
+    return 4 * pi;
+}
+
+/// Mean of its texture over what it would send without.
+Rgb meanOfPicture(const PointEmitter& point, const shared::Emitter& emitter,
+                  const std::vector<TextureDescription>& all) {
+    if (emitter.texture == 0) return {1, 1, 1};
+    const TextureDescription& texture = all[emitter.texture - 1];
+    if (point.spot) return meanOfPicture(texture, point);
+    return meanOfTexture(texture, [](double x, double y) { return TexturePlace{{x, y}, 1}; });
+}
+
+/// A point emitter with its power.
+shared::Emitter pointEmitter(const PointEmitter& point, const std::vector<TextureDescription>& textures,
+                             double* power) {
+    shared::Emitter emitter{};
+    emitter.shape = QL_NONE;
+    emitter.radiance = point.intensity;
+    emitter.origin = pack(point.position);
+    *power = solidAngleOf(point, emitter);
+    *power *= mean(point.intensity * meanOfPicture(point, emitter, textures));
     return emitter;
 }
 

@@ -159,12 +159,18 @@ struct PointEmitter {
         double beamAngle = 0,
                cutoffAngle = 0; ///< radians: full intensity up to the one, none beyond the other, linear between
     };
-    /// Across the axis: the texture is looked up at 1/2 + (d·u, d·v) / (d·axis) in the direction d.
+    /// Across an axis: looked up at 1/2 + (d·u, d·v) / (d·axis) in the direction d.
     struct Picture {
-        unsigned texture = 0; ///< index into Scene::textures, multiplies the intensity
         glm::vec3 u{}, v{};
+        std::optional<unsigned> texture; ///< index into Scene::textures; multiplies the intensity
     };
-    std::optional<Picture> picture;
+    /// Throws its picture: the intensity is that on the axis over cos^3 of the angle to it, none outside of the unit square.
+    struct Projector {
+        glm::vec3 axis{}; ///< unit
+        Picture picture;
+    };
+    std::optional<Picture> picture; ///< of a spot
+    std::optional<Projector> projector;
     std::optional<Spot> spot;
     std::optional<unsigned> medium; ///< in which it stands, as stated, index into Scene::media
 };

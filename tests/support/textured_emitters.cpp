@@ -13,7 +13,8 @@ namespace {
 using glm::dvec3;
 
 Program& program() {
-    static Program built = testProgram("textured_emitters.cl", "-DHAS_EMITTER_SPOT -DHAS_EMITTER_TEXTURES");
+    static Program built =
+        testProgram("textured_emitters.cl", "-DHAS_EMITTER_SPOT -DHAS_EMITTER_PROJECTOR -DHAS_EMITTER_TEXTURES");
     return built;
 }
 
@@ -47,6 +48,11 @@ TexturedEmitter lastEmitter(const Scene& scene) {
     emitter.texels = texture.texels;
     emitter.record.texture = 1;
     return emitter;
+}
+
+dvec3 askew(const dvec3& local) {
+    const dvec3 z = glm::normalize(dvec3(1, 2, 1)), x = glm::normalize(glm::cross(dvec3(0, 0, 1), z));
+    return glm::normalize(local.x * x + local.y * glm::cross(z, x) + local.z * z);
 }
 
 std::vector<dvec3> intensities(const TexturedEmitter& emitter, const std::vector<dvec3>& directions) {

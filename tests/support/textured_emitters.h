@@ -18,6 +18,9 @@ struct TexturedEmitter {
 };
 TexturedEmitter lastEmitter(const Scene& scene);
 
+/// A unit vector of the frame <lookat origin="1,-2,3" target="2,0,4" up="0,0,1"/>, in the world.
+glm::dvec3 askew(const glm::dvec3& local);
+
 /// Along unit directions away from a point emitter.
 std::vector<glm::dvec3> intensities(const TexturedEmitter& emitter, const std::vector<glm::dvec3>& directions);
 
