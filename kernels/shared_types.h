@@ -223,7 +223,12 @@ typedef struct {
 /* As EMITTER_CONSTANT, but for the radiance, which is that of an EnvironmentMap; radiance: its mean over the sphere; edgeU, edgeV,
  * normal: the map's own x, y, z in the world, unit. At most one of both. */
 #define EMITTER_ENVMAP 6u
-#define EMITTER_SPOT 7u /* as EMITTER_POINT, but for the intensity, which falls off with the angle to `normal` */
+/* As EMITTER_POINT, but for the intensity, which falls off with the angle to `normal`. Its texture is looked up at 1/2 +
+ * (d . edgeU, d . edgeV) / (d . normal) in the direction d. */
+#define EMITTER_SPOT 7u
+/* As EMITTER_POINT, but for the intensity: radiance over cos^3 of the angle to `normal`, times the texture, which is looked up as
+ * that of EMITTER_SPOT; none outside of its unit square. `area`: of the square, at depth 1. */
+#define EMITTER_PROJECTOR 8u
 
 typedef struct {
     unsigned int type;
@@ -241,6 +246,7 @@ typedef struct {
     unsigned int medium;                       /* into which it emits: index or MEDIUM_NONE */
     float beamAngle, cutoffAngle; /* spot: full intensity up to beamAngle, none beyond cutoffAngle, which is larger */
     unsigned int directByPhotons; /* 1: genuine diffuse lobes take its direct light from photons, not by sampling it */
+    unsigned int texture;         /* 1 + index of the Texture that multiplies `radiance`; 0: none */
 } Emitter;
 
 typedef struct {

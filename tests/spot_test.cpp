@@ -1,4 +1,4 @@
-// Spots: falloff (values of Mitsuba 3.9.1), photons, light through openings, and reading; and emitters that the camera does not see.
+// Spots: falloff and texture (values of Mitsuba 3.9.1), photons, light through openings, and reading; and emitters that the camera does not see.
 // False-alarm rate of the tests of samplers 1e-4 together; renders are held to 4 standard errors of 10 batches (Student t: 0.3 % each).
 // Seeds are fixed.
 #include "prepare/device_scene.h"
@@ -6,6 +6,7 @@
 #include "support/emitter_cases.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/textured_emitters.h"
 #include "support/wrong_learning.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using glm::dvec3;
 using std::numbers::pi;
 using testing::HasSubstr;
 
-constexpr int statisticalTests = 8;
+constexpr int statisticalTests = 10;
 constexpr size_t sampleCount = 100000;
 constexpr double degree = pi / 180;
 const dvec3 place(1, -2, 3), axis = glm::normalize(dvec3(0.3, -0.5, 0.8));
@@ -102,18 +103,89 @@ TEST(SpotEmitter, InversionGivesTheNumbersOfAPhoton) {
     }
 }
 
+// --- its texture ---
+
+/// The picture of writeSixPixels, repeated, in a spot that is placed askew.
+TexturedEmitter spotWithPicture(double cutoff) {
+    test::SceneFiles files;
+    writeSixPixels(files.path("six.exr"));
+    return lastEmitter(loadScene(files.write(
+        "scene.xml",
+        test::sceneWith(
+            R"(<shape type="rectangle"/><emitter type="spot"><float name="beam_width" value="10"/><float name="cutoff_angle" value=")" +
+            std::to_string(cutoff) +
+            R"("/><texture type="bitmap" name="texture"><string name="filename" value="six.exr"/>
+        <transform name="to_uv"><scale x="1.5" y="2"/></transform></texture><transform name="to_world"><lookat origin="1,-2,3"
+        target="2,0,4" up="0,0,1"/></transform></emitter>)"))));
+}
+
+TEST(SpotTexture, IsLookedUpAsInMitsuba) {
+    // sample_direction of mitsuba 3.9.1, scalar_rgb, times distance squared.
+    const std::vector<dvec3> local{{0, 0, 1}, {0.2, 0.1, 1}, {-0.3, 0.2, 1}, {0.1, -0.4, 1}, {-0.1, -0.2, 1}};
+    const std::pair<double, std::vector<dvec3>> expected[] = {{30,
+                                                               {{0.325, 1.625001, 1.025},
+                                                                {0.121937, 0.609684, 1.373754},
+                                                                {0.058969, 0.294845, 0.84039},
+                                                                {0.078348, 0.391740, 0.524269},
+                                                                {0.328936, 1.644679, 0.752754}}},
+                                                              {100,
+                                                               {{0.325, 1.625, 1.025},
+                                                                {0.318164, 1.590819, 0.987634},
+                                                                {0.318965, 1.594824, 0.824727},
+                                                                {0.240292, 1.201461, 1.003415},
+                                                                {0.298901, 1.494504, 1.045422}}}};
+    std::vector<dvec3> directions;
+    for (const dvec3& d : local) directions.push_back(askew(d));
+    for (const auto& [cutoff, values] : expected) {
+        const auto found = intensities(spotWithPicture(cutoff), directions);
+        for (size_t k = 0; k < values.size(); ++k) EXPECT_LT(glm::length(found[k] - values[k]), 2e-5) << cutoff << k;
+    }
+}
+
+TEST(SpotTexture, PhotonsCarryTheIntensityAndThePowerIsTheirMean) {
+    for (const double cutoff : {30.0, 100.0}) {
+        const TexturedEmitter emitter = spotWithPicture(cutoff);
+        const auto numbers = uniformNumbers(2 * sampleCount, 33);
+        const auto photons = directedPhotons(emitter, numbers);
+        std::vector<dvec3> directions;
+        for (const auto& p : photons) directions.push_back(p.direction);
+        const auto expected = intensities(emitter, directions);
+        const double solidAngle = 4 * pi * std::pow(std::sin(cutoff * degree / 2), 2);
+        double sum = 0, squares = 0;
+        for (size_t i = 0; i < photons.size(); ++i) {
+            // Across the axis the picture runs to infinity.
+            if (std::abs(glm::dot(photons[i].direction, askew({0, 0, 1}))) > 0.2) {
+                ASSERT_LT(glm::length(photons[i].flux / solidAngle - expected[i]), 2e-4) << cutoff;
+            }
+            ASSERT_NEAR(photons[i].found.x, numbers[2 * i], 1e-4);
+            const double flux = (photons[i].flux.x + photons[i].flux.y + photons[i].flux.z) / 3;
+            sum += flux;
+            squares += flux * flux;
+        }
+        const double mean = sum / sampleCount, error = std::sqrt((squares / sampleCount - mean * mean) / sampleCount);
+        // The sums of the power take middles of cells: 0.05 % of it.
+        const double both = std::hypot(error, 5e-4 * emitter.power);
+        EXPECT_GT(normalPValue((mean - emitter.power) / both), significanceLevel(statisticalTests));
+        EXPECT_LT(normalPValue((mean - 1.05 * emitter.power) / both), significanceLevel(statisticalTests))
+            << "negative control";
+    }
+}
+
 // --- renders ---
 
 /// A floor of albedo 0.5 under a spot at height 2 that looks down; the picture covers [-1, 1]^2 of it.
-Scene floorUnderSpot(const std::string& integrator = "", const std::string& more = "") {
+Scene floorUnderSpot(const std::string& integrator = "", const std::string& more = "",
+                     const std::string& texture = "") {
     test::SceneFiles files;
+    writeFloats(files.path("halves.exr"), 2, 1, {2, 2, 2, 0.25f, 0.25f, 0.25f});
     return loadScene(
         files.write("scene.xml", R"(<scene version="3.0.0"><integrator type="path">)" + integrator +
                                      R"(</integrator><sensor type="orthographic"><transform name="to_world">
         <rotate y="1" angle="180"/><translate z="5"/></transform><film type="hdrfilm"><rfilter type="box"/>
         <integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>
         <emitter type="spot"><float name="cutoff_angle" value="25"/><float name="beam_width" value="10"/>
-        <float name="intensity" value="8"/><transform name="to_world"><rotate x="1" angle="180"/><translate z="2"/></transform>
+        <float name="intensity" value="8"/><transform name="to_world"><rotate x="1" angle="180"/><translate z="2"/></transform>)" +
+                                     texture + R"(
         </emitter><shape type="rectangle"><transform name="to_world"><scale value="4"/></transform><bsdf type="diffuse"/></shape>)" +
                                      more + "</scene>"));
 }
@@ -131,16 +203,14 @@ double floorRadiance() {
     return 0.5 / pi * sum / (n * n);
 }
 
-TEST(SpotRender, FloorIsLitByTheLawWhateverWasLearned) {
-    const Scene scene = floorUnderSpot();
-    const double truth = floorRadiance();
-    for (const DirectLight direct : {DirectLight::emitters, DirectLight::photons})
-        for (const bool wrongly : {false, true}) {
-            const auto result = meanOfImage(scene, direct, wrongly);
-            const double allowed = 4 * result.standardError + 0.005 * truth;
-            EXPECT_NEAR(result.mean, truth, allowed) << "photons " << (direct == DirectLight::photons) << wrongly;
-            EXPECT_GT(std::abs(result.mean - 1.05 * truth), allowed) << "negative control";
-        }
+TEST(SpotRender, FloorIsLitByTheLawWhateverWasLearned) { expectMeanOfImage(floorUnderSpot(), floorRadiance()); }
+
+TEST(SpotRender, FloorUnderAPictureHasTheMeanOfItsHalves) {
+    expectMeanOfImage(
+        floorUnderSpot("", "",
+                       R"(<texture type="bitmap" name="texture"><string name="filename" value="halves.exr"/>
+        <string name="filter_type" value="nearest"/></texture>)"),
+        1.125 * floorRadiance());
 }
 
 TEST(HiddenEmitters, CameraLooksThroughThemAndSeesNoSky) {
@@ -193,6 +263,23 @@ TEST(SpotReader, ReadsWhatIsGivenAndDefaults) {
     EXPECT_LT(scene.pointEmitters[3].spot->beamAngle, scene.pointEmitters[3].spot->cutoffAngle);
 }
 
+TEST(SpotReader, TakesATextureOrAColourForIt) {
+    const Scene scene =
+        test::loadBody(spot("<texture type=\"checkerboard\" name=\"texture\"/><transform name=\"to_world\"><scale "
+                            "value=\"3\"/></transform>") +
+                       spot("<rgb name=\"intensity\" value=\"1,2,3\"/><rgb name=\"texture\" value=\"2,1,0.5\"/>"));
+    const auto& first = scene.pointEmitters.at(1);
+    ASSERT_TRUE(first.picture);
+    EXPECT_EQ(scene.textures.at(first.picture->texture.value()).device.type, TEXTURE_CHECKERBOARD);
+    const auto edge = float(0.5 / std::tan(20 * degree));
+    test::expectNear(first.picture->u, {edge, 0, 0});
+    test::expectNear(first.picture->v, {0, edge, 0});
+    const auto& second = scene.pointEmitters.at(2);
+    EXPECT_FALSE(second.picture);
+    EXPECT_EQ(second.intensity.r, 2);
+    EXPECT_EQ(second.intensity.b, 1.5f);
+}
+
 TEST(SpotReader, SaysWhatIsWrong) {
     test::SceneFiles files;
     const std::pair<std::string, std::vector<std::string>> cases[] = {
@@ -201,8 +288,11 @@ TEST(SpotReader, SaysWhatIsWrong) {
         {spot("<float name=\"beam_width\" value=\"-1\"/>"), {"scene.xml:5:1", "beam_width"}},
         {spot("<transform name=\"to_world\"><scale x=\"2\"/></transform>"),
          {"scene.xml:5:1", "scales directions differently"}},
-        {spot("<texture type=\"checkerboard\" name=\"texture\"/>"),
-         {"the texture of an emitter 'spot' is not supported"}},
+        {spot("<texture type=\"checkerboard\" name=\"texture\"><rgb name=\"color0\" value=\"0\"/><rgb name=\"color1\" "
+              "value=\"0\"/></texture>"),
+         {"scene.xml:5:1", "the texture 'texture' of emitter 'spot' is black"}},
+        {spot("<rgb name=\"texture\" value=\"0\"/>"), {"scene.xml:5:1", "parameter 'texture'", "positive channel"}},
+        {spot("<texture type=\"bitmap\" name=\"texture\"/>"), {"scene.xml:5:1", "needs <string name=\"filename\""}},
         {spot("<float name=\"cutof_angle\" value=\"1\"/>"), {"scene.xml:5:1", "Did you mean 'cutoff_angle'"}}};
     for (const auto& [body, messages] : cases) {
         const std::string error = test::errorOf(files.write("scene.xml", test::sceneWith(body)));

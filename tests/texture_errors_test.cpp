@@ -111,7 +111,7 @@ TEST(Textures, AnImageIsHeldOnceHoweverManyTexturesShowIt) {
     MaterialTables materials;
     materials.lobes.resize(3);
     for (unsigned k = 0; k < 3; ++k) materials.lobes[k].reflectanceTexture = k + 1;
-    const TextureTables tables = flattenTextures(scene, materials);
+    const TextureTables tables = flattenTextures(scene, materials, {});
     EXPECT_EQ(tables.texels.size(), 4u); // two images of two pixels
     EXPECT_EQ(tables.textures[0].firstTexel, tables.textures[2].firstTexel);
     EXPECT_EQ(tables.texels[tables.textures[1].firstTexel].r, 0.1f);

@@ -1,6 +1,7 @@
 // Textures: lookups against values of Mitsuba 3.9.1 and against a reference in double, texture coordinates of every
 // shape against Mitsuba's, and images with known ratios.
 #include "prepare/device_scene.h"
+#include "prepare/texture_mean.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
@@ -84,6 +85,33 @@ INSTANTIATE_TEST_SUITE_P(
 double linear(int byte) {
     const double e = byte / 255.0;
     return e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4);
+}
+
+TEST(Texture, TheHostLooksUpAsTheKernelsDo) {
+    SceneFiles files;
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> range(-2, 3), value(0, 1);
+    std::vector<float> pixels(3 * 5 * 4);
+    for (float& pixel : pixels) pixel = value(random);
+    writeImage(files.path("a.exr"), 5, 4, pixels, false);
+    std::vector<glm::dvec2> uvs;
+    for (int i = 0; i < 300; ++i) uvs.emplace_back(range(random), range(random));
+    const std::string toUv =
+        "<transform name=\"to_uv\"><scale x=\"0.7\" y=\"1.3\"/><rotate z=\"1\" angle=\"20\"/></transform>";
+    std::vector<TextureDescription> textures{loadTexture(files, "checkerboard", toUv)};
+    for (const std::string filter : {"nearest", "bilinear"})
+        for (const std::string wrap : {"repeat", "mirror", "clamp"})
+            textures.push_back(
+                loadTexture(files, "bitmap",
+                            "<string name=\"filename\" value=\"a.exr\"/><string name=\"filter_type\" value=\"" +
+                                filter + "\"/><string name=\"wrap_mode\" value=\"" + wrap + "\"/>" + toUv));
+    for (const TextureDescription& texture : textures) {
+        const auto values = lookUp(texture, uvs);
+        for (size_t k = 0; k < uvs.size(); ++k) {
+            const glm::dvec3 host = textureValue(texture, uvs[k]);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(host[c], values[3 * k + size_t(c)], 1e-5) << k;
+        }
+    }
 }
 
 // Bilinear and repeated, written down in double: sums over all pixels of a tent about each of its copies.

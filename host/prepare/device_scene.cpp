@@ -44,7 +44,10 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     }
     features.relief = !materials.reliefs.empty();
     features.textures |= features.relief;
-    for (const auto& emitter : emitters.emitters) features.emitterTypes.insert(emitter.type);
+    for (const auto& emitter : emitters.emitters) {
+        features.emitterTypes.insert(emitter.type);
+        features.emitterTextures |= emitter.texture > 0;
+    }
     features.lightTree = !emitters.lightTree.empty();
     findMediumFeatures(scene, media, emitters, features);
     for (const auto& shape : scene.shapes) {
@@ -194,7 +197,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.cornerNormals = tables.append(flattenCornerNormals(scene));
     out.offsets.materials = tables.append(materials.materials);
     out.offsets.lobes = tables.append(materials.lobes);
-    const auto textures = flattenTextures(scene, materials);
+    const auto textures = flattenTextures(scene, materials, out.emitters);
     out.offsets.textures = tables.append(textures.textures);
     out.offsets.texels = tables.append(textures.texels);
     out.offsets.uvs = tables.append(flattenUvs(scene));

@@ -91,8 +91,8 @@ struct TextureTables {
     std::vector<shared::Texture> textures;
     std::vector<Rgb> texels;
 };
-/// Only textures that `materials` use bring texels.
-TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials);
+/// Only textures that `materials` or `emitters` use bring texels.
+TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters);
 /// Words of a textured shape in the table of flattenUvs; 0 for others.
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape);
 std::vector<float> flattenUvs(const Scene& scene);

@@ -11,8 +11,8 @@ namespace {
 #define LOBE_NAME(ID, argument) #ID,
 constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
 #undef LOBE_NAME
-constexpr std::array<const char*, 8> emitterNames = {"RECTANGLE",   "TRIANGLES", "SPHERE", "POINT",
-                                                     "DIRECTIONAL", "CONSTANT",  "ENVMAP", "SPOT"};
+constexpr std::array<const char*, 9> emitterNames = {"RECTANGLE", "TRIANGLES", "SPHERE", "POINT",    "DIRECTIONAL",
+                                                     "CONSTANT",  "ENVMAP",    "SPOT",   "PROJECTOR"};
 constexpr std::array<const char*, 4> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH", "MIXED"}; // in the order of PHASE_*
 
 std::string lower(std::string text) {
@@ -42,6 +42,7 @@ constexpr std::array flags = {
     Flag{&Features::heterogeneousMedia, "HAS_HETEROGENEOUS_MEDIA", "media that vary in space"},
     Flag{&Features::sharingLambert, "HAS_SHARING_LAMBERT", "diffuse paths that look for emitters"},
     Flag{&Features::sharingMedia, "HAS_SHARING_MEDIA", "paths in media that look for emitters"},
+    Flag{&Features::emitterTextures, "HAS_EMITTER_TEXTURES", "emitters with textures"},
     Flag{&Features::lightTree, "HAS_LIGHT_TREE", "many emitters"},
     Flag{&Features::hiddenEmitters, "HAS_HIDDEN_EMITTERS", "emitters hidden from the camera"},
     Flag{&Features::directByPhotons, "HAS_DIRECT_BY_PHOTONS", "direct light of some emitters by photons"},

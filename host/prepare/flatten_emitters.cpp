@@ -4,8 +4,10 @@
 #include "prepare/environment.h"
 #include "prepare/light_tree.h"
 #include "prepare/pack.h"
+#include "prepare/texture_mean.h"
 #include "scene/color.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -63,6 +65,71 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
 double solidAngleOf(const PointEmitter::Spot& spot) {
     const double b = spot.beamAngle, c = spot.cutoffAngle;
     return 2 * pi * (1 - (std::sin(c) - std::sin(b)) / (c - b));
+}
+
+/// Mean of the picture's texture over the spot's intensity without it.
+Rgb meanOfPicture(const TextureDescription& texture, const PointEmitter& point) {
+    const PointEmitter::Spot& spot = *point.spot;
+    const glm::dvec3 axis(spot.axis), u(point.picture->u), v(point.picture->v);
+    const glm::dvec3 s = glm::normalize(u), t = glm::normalize(v);
+    return meanOfTexture(texture, [&](double x, double y) {
+        const double cosine = 1 - x * 2 * std::pow(std::sin(spot.cutoffAngle / 2), 2), azimuth = 2 * pi * y;
+        const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
+        const glm::dvec3 d = cosine * axis + sine * (std::cos(azimuth) * s + std::sin(azimuth) * t);
+        const double share = (spot.cutoffAngle - std::acos(cosine)) / (spot.cutoffAngle - spot.beamAngle);
+        return TexturePlace{0.5 + glm::dvec2(glm::dot(d, u), glm::dot(d, v)) / glm::dot(d, axis),
+                            std::clamp(share, 0.0, 1.0)};
+    });
+}
+
+void setPicture(const PointEmitter::Picture& picture, shared::Emitter& emitter) {
+    emitter.texture = picture.texture ? *picture.texture + 1 : 0;
+    emitter.edgeU = pack(picture.u);
+    emitter.edgeV = pack(picture.v);
+}
+
+/// Its flux over its intensity on the axis, without a texture; completes the record.
+double solidAngleOf(const PointEmitter& point, shared::Emitter& emitter) {
+    if (point.spot) {
+        emitter.type = EMITTER_SPOT;
+        emitter.normal = pack(point.spot->axis);
+        emitter.beamAngle = static_cast<float>(point.spot->beamAngle);
+        emitter.cutoffAngle = static_cast<float>(point.spot->cutoffAngle);
+        if (point.picture) setPicture(*point.picture, emitter);
+        return solidAngleOf(*point.spot);
+    }
+    if (point.projector) {
+        emitter.type = EMITTER_PROJECTOR;
+        emitter.normal = pack(point.projector->axis);
+        setPicture(point.projector->picture, emitter);
+        const double area =
+            1 / (double(glm::length(point.projector->picture.u)) * glm::length(point.projector->picture.v));
+        emitter.area = static_cast<float>(area);
+        return area;
+    }
+    emitter.type = EMITTER_POINT;
+    return 4 * pi;
+}
+
+/// Mean of its texture over what it would send without.
+Rgb meanOfPicture(const PointEmitter& point, const shared::Emitter& emitter,
+                  const std::vector<TextureDescription>& all) {
+    if (emitter.texture == 0) return {1, 1, 1};
+    const TextureDescription& texture = all[emitter.texture - 1];
+    if (point.spot) return meanOfPicture(texture, point);
+    return meanOfTexture(texture, [](double x, double y) { return TexturePlace{{x, y}, 1}; });
+}
+
+/// A point emitter with its power.
+shared::Emitter pointEmitter(const PointEmitter& point, const std::vector<TextureDescription>& textures,
+                             double* power) {
+    shared::Emitter emitter{};
+    emitter.shape = QL_NONE;
+    emitter.radiance = point.intensity;
+    emitter.origin = pack(point.position);
+    *power = solidAngleOf(point, emitter);
+    *power *= mean(point.intensity * meanOfPicture(point, emitter, textures));
+    return emitter;
 }
 
 /// One that shines into the scene from outside of its bounds.
@@ -159,22 +226,10 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
     }
     for (size_t k = 0; k < scene.pointEmitters.size(); ++k) {
         const auto& point = scene.pointEmitters[k];
-        shared::Emitter emitter{};
-        emitter.medium = placement.pointEmitters[k];
-        emitter.type = EMITTER_POINT;
-        emitter.shape = QL_NONE;
-        emitter.radiance = point.intensity;
-        emitter.origin = pack(point.position);
-        double solidAngle = 4 * pi;
-        if (point.spot) {
-            emitter.type = EMITTER_SPOT;
-            emitter.normal = pack(point.spot->axis);
-            emitter.beamAngle = static_cast<float>(point.spot->beamAngle);
-            emitter.cutoffAngle = static_cast<float>(point.spot->cutoffAngle);
-            solidAngle = solidAngleOf(*point.spot);
-        }
-        tables.emitters.push_back(emitter);
-        tables.power.push_back(solidAngle * mean(point.intensity));
+        double power = 0;
+        tables.emitters.push_back(pointEmitter(point, scene.textures, &power));
+        tables.emitters.back().medium = placement.pointEmitters[k];
+        tables.power.push_back(power);
         tables.ids.push_back(point.id);
     }
     sortIntoTree(tables);

@@ -8,19 +8,20 @@ namespace quasilux {
 
 namespace {
 
-std::vector<bool> texturesInUse(const Scene& scene, const MaterialTables& materials) {
-    std::vector<bool> used(scene.textures.size() + 1); // [0]: of lobes that have none
+std::vector<bool> texturesInUse(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters) {
+    std::vector<bool> used(scene.textures.size() + 1); // [0]: of lobes and emitters that have none
     for (const auto& lobe : materials.lobes) used[lobe.reflectanceTexture] = used[lobe.transmittanceTexture] = true;
     for (const auto& weight : materials.weights) used[weight.texture + 1] = true;
     for (const auto& relief : materials.reliefs) used[relief.texture + 1] = true;
+    for (const auto& emitter : emitters.emitters) used[emitter.texture] = true;
     used.erase(used.begin());
     return used;
 }
 
 } // namespace
 
-TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials) {
-    const std::vector<bool> used = texturesInUse(scene, materials);
+TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters) {
+    const std::vector<bool> used = texturesInUse(scene, materials, emitters);
     TextureTables tables;
     std::map<const void*, unsigned> placed; // images that several textures share, by Texels::identity
     for (unsigned k = 0; k < scene.textures.size(); ++k) {

@@ -55,7 +55,10 @@ Light lightOf(const shared::Emitter& emitter, const std::vector<shared::EmitterT
         light.bounds.add(origin - double(emitter.radius));
         light.bounds.add(origin + double(emitter.radius));
         light.spread = std::numbers::pi;
-        if (emitter.type == EMITTER_SPOT) { // as a surface that looks along the axis
+        if (emitter.type == EMITTER_PROJECTOR) {
+            light.axis = unpack(emitter.normal);
+            light.spread = 0;
+        } else if (emitter.type == EMITTER_SPOT) { // as a surface that looks along the axis
             light.axis = unpack(emitter.normal);
             light.spread = std::max(0.0, emitter.cutoffAngle - std::numbers::pi / 2);
         }

@@ -21,6 +21,7 @@ Rgb parseColor(const Element& element, ColorUse use, LoadContext& context);
 float toFiniteFloat(double value, const SourceLocation& where, const std::string& what);
 
 inline Rgb operator*(Rgb color, float factor) { return {color.r * factor, color.g * factor, color.b * factor}; }
+inline Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
 inline bool isBlack(Rgb color) { return color.r == 0 && color.g == 0 && color.b == 0; }
 inline float smallest(Rgb color) { return std::min(color.r, std::min(color.g, color.b)); }
 inline float largest(Rgb color) { return std::max(color.r, std::max(color.g, color.b)); }

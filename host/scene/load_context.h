@@ -7,6 +7,7 @@
 
 #include <map>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 namespace quasilux {
@@ -39,18 +40,19 @@ public:
     const FileResolver& files;
     std::unordered_map<const Element*, int> bsdfIndex;    ///< of bsdfs that shapes use, into Scene::bsdfs
     std::unordered_map<const Element*, int> textureIndex; ///< of textures in use, into Scene::textures; -1: one colour
-    std::unordered_map<int, unsigned> scalarTextureIndex; ///< of the grey copy of a coloured texture
-    std::unordered_map<const Element*, unsigned> mediumIndex; ///< of media in use, into Scene::media
-    std::unordered_map<const Element*, unsigned> volumeIndex; ///< of volumes in use, into Scene::volumes
-    std::vector<const Element*> openPhases;                   ///< being read now, as openBsdfs
-    std::set<const Element*> usedPhases;                      ///< that a medium has
-    int defaultBsdf = -1, defaultEmitterBsdf = -1;            ///< of shapes without one; -1 until the first needs it
-    std::vector<const Element*> openBsdfs;                    ///< being read now, outermost first: a cycle shows here
-    std::vector<const Element*> openTextures;                 ///< likewise
-    std::map<std::pair<std::string, bool>, Image> images;     ///< read already, by path and `raw`
-    std::set<const Element*> usedEmitters;                    ///< that a shape has
-    std::set<const Element*> usedGroups;                      ///< shapegroups that an instance places
-    std::optional<glm::dmat4> placement;                      ///< of the instance whose shapes are being read
+    std::unordered_map<const Element*, int> emissionTextureIndex; ///< of those that emitters use
+    std::unordered_map<int, unsigned> scalarTextureIndex;         ///< of the grey copy of a coloured texture
+    std::unordered_map<const Element*, unsigned> mediumIndex;     ///< of media in use, into Scene::media
+    std::unordered_map<const Element*, unsigned> volumeIndex;     ///< of volumes in use, into Scene::volumes
+    std::vector<const Element*> openPhases;                       ///< being read now, as openBsdfs
+    std::set<const Element*> usedPhases;                          ///< that a medium has
+    int defaultBsdf = -1, defaultEmitterBsdf = -1; ///< of shapes without one; -1 until the first needs it
+    std::vector<const Element*> openBsdfs;         ///< being read now, outermost first: a cycle shows here
+    std::vector<const Element*> openTextures;      ///< likewise
+    std::map<std::tuple<std::string, bool, TextureUse>, Image> images; ///< read already, by path and `raw`
+    std::set<const Element*> usedEmitters;                             ///< that a shape has
+    std::set<const Element*> usedGroups;                               ///< shapegroups that an instance places
+    std::optional<glm::dmat4> placement;                               ///< of the instance whose shapes are being read
     /// Of the files that instances place more than once, by path and options.
     std::map<std::string, std::shared_ptr<const MeshSource>> instancedMeshes;
 

@@ -78,8 +78,12 @@ private:
     std::shared_ptr<const std::vector<Rgb>> pixels_ = std::make_shared<const std::vector<Rgb>>();
 };
 
-/// A factor of reflectance over a surface, in [0, 1].
+/// What a texture multiplies: what surfaces scatter, in [0, 1], or what emitters send, at least 0.
+enum class TextureUse { reflectance, emission };
+
+/// A factor over a surface, or over the directions of a point emitter.
 struct TextureDescription {
+    TextureUse use = TextureUse::reflectance;
     shared::Texture device{};
     Texels texels; ///< bitmap
     SourceLocation where;
@@ -155,6 +159,18 @@ struct PointEmitter {
         double beamAngle = 0,
                cutoffAngle = 0; ///< radians: full intensity up to the one, none beyond the other, linear between
     };
+    /// Across an axis: looked up at 1/2 + (d·u, d·v) / (d·axis) in the direction d.
+    struct Picture {
+        glm::vec3 u{}, v{};
+        std::optional<unsigned> texture; ///< index into Scene::textures; multiplies the intensity
+    };
+    /// Throws its picture: the intensity is that on the axis over cos^3 of the angle to it, none outside of the unit square.
+    struct Projector {
+        glm::vec3 axis{}; ///< unit
+        Picture picture;
+    };
+    std::optional<Picture> picture; ///< of a spot
+    std::optional<Projector> projector;
     std::optional<Spot> spot;
     std::optional<unsigned> medium; ///< in which it stands, as stated, index into Scene::media
 };

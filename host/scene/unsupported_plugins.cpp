@@ -32,7 +32,6 @@ constexpr Unsupported unsupported[] = {
     {"texture", "mesh_attribute", "use a 'bitmap' and texture coordinates"},
     {"texture", "volume", "use a 'bitmap' and texture coordinates"},
     {"texture", "rawconstant", "give the value itself, or use 'uniform'"},
-    {"emitter", "projector", "use 'spot', or an 'area' emitter of the picture's mean radiance"},
     {"emitter", "directionalarea", "use 'directional'"},
     {"emitter", "sunsky", ofSky},
     {"emitter", "timed_sunsky", ofSky},

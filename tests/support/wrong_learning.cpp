@@ -3,6 +3,7 @@
 #include "render/renderer.h"
 #include "support/test_kernels.h"
 
+#include <gtest/gtest.h>
 #include <random>
 
 namespace quasilux {
@@ -48,6 +49,16 @@ MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly) {
     settings.photonsPerPass = 16000;
     const std::vector<int> one(size_t{scene.sensor.width} * scene.sensor.height, 0);
     return renderGroups(scene, settings, one, 10, 8, wrongly ? wronglyLearned(scene, settings) : nullptr).front();
+}
+
+void expectMeanOfImage(const Scene& scene, double truth) {
+    for (const DirectLight direct : {DirectLight::emitters, DirectLight::photons})
+        for (const bool wrongly : {false, true}) {
+            const auto result = meanOfImage(scene, direct, wrongly);
+            const double allowed = 4 * result.standardError + 0.005 * truth;
+            EXPECT_NEAR(result.mean, truth, allowed) << "photons " << (direct == DirectLight::photons) << wrongly;
+            EXPECT_GT(std::abs(result.mean - 1.05 * truth), allowed) << "negative control";
+        }
 }
 
 } // namespace quasilux

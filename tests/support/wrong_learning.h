@@ -23,4 +23,7 @@ std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSet
 /// Mean luminance of the image, over 80 passes; `wrongly`: by wronglyLearned().
 MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly);
 
+/// It is `truth` by emitters and by photons, whatever was learned; and not 5 % more.
+void expectMeanOfImage(const Scene& scene, double truth);
+
 } // namespace quasilux

@@ -50,11 +50,11 @@ shared::Emitter makeEmitter(unsigned type) {
         emitter.area = 0.5f;
         emitter.triangleCount = 1;
     } else {
-        if (type == EMITTER_ENVMAP) {
+        if (type == EMITTER_ENVMAP || type == EMITTER_PROJECTOR) {
             emitter.edgeU = {1, 0, 0};
             emitter.edgeV = {0, 1, 0};
-            emitter.normal = {0, 0, 1};
         }
+        if (type == EMITTER_ENVMAP) emitter.normal = {0, 0, 1};
         emitter.origin = {0, 0, 4};
         emitter.area = type == EMITTER_SPHERE ? 4 * pi * radius * radius : pi * radius * radius;
     }
@@ -80,6 +80,7 @@ std::vector<SamplerSubject<shared::Emitter>> emitterSubjects() {
             {"emitter directional", "-DHAS_EMITTER_DIRECTIONAL", makeEmitter(EMITTER_DIRECTIONAL)},
             {"emitter constant", "-DHAS_EMITTER_CONSTANT", makeEmitter(EMITTER_CONSTANT)},
             {"emitter spot", "-DHAS_EMITTER_SPOT", makeEmitter(EMITTER_SPOT)},
+            {"emitter projector", "-DHAS_EMITTER_PROJECTOR", makeEmitter(EMITTER_PROJECTOR)},
             {"emitter envmap", "-DHAS_EMITTER_ENVMAP", makeEmitter(EMITTER_ENVMAP)}};
 }
 

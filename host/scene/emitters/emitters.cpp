@@ -24,7 +24,7 @@ struct SceneEmitterPlugin {
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"point", readPoint},       {"spot", readSpot},     {"directional", readDirectional},
-    {"constant", readConstant}, {"envmap", readEnvmap},
+    {"constant", readConstant}, {"envmap", readEnvmap}, {"projector", readProjector},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {

@@ -17,14 +17,18 @@ void readSceneEmitter(const Element& element, LoadContext& context);
 /// The scene's surroundings, still without radiance. Throws InputError where it has some already.
 Surroundings& addSurroundings(Properties& properties);
 
-/// A point that shines with `intensity`, in the medium that is stated.
+/// A point in the medium that is stated, without an intensity; and one that shines with `intensity`.
+PointEmitter darkPointAt(const glm::dvec3& position, Properties& properties);
 PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties);
+/// Without a shear or different scales a cone stays a cone. Throws InputError where `to_world` has them.
+glm::dmat4 roundPlacement(Properties& properties);
 
 AreaEmitter readArea(Properties& properties);
 void readConstant(Properties& properties);
 void readEnvmap(Properties& properties);
 void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
+void readProjector(Properties& properties);
 void readSpot(Properties& properties);
 
 } // namespace quasilux

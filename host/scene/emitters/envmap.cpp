@@ -41,7 +41,7 @@ void readEnvmap(Properties& properties) {
     image.axes = readAxes(properties);
 
     const std::string path = properties.context().files.resolve(name, where);
-    const Image read = readRadianceImage(path, where);
+    const Image read = readRadianceImage(path, false, where);
     if (read.height < 2 || std::max(read.width, read.height) > longestSide)
         throw InputError(where,
                          fmt::format("the image '{}' has {} x {} pixels; an environment map has at least two rows, "

@@ -5,13 +5,18 @@
 
 namespace quasilux {
 
-PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties) {
+PointEmitter darkPointAt(const glm::dvec3& position, Properties& properties) {
     PointEmitter emitter;
     emitter.id = idOf(properties.element());
     emitter.where = properties.element().where;
     emitter.position = toSingle(position, emitter.where);
-    emitter.intensity = properties.emission("intensity", {1, 1, 1});
     if (const Element* medium = properties.object("medium")) emitter.medium = useMedium(*medium, properties.context());
+    return emitter;
+}
+
+PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties) {
+    PointEmitter emitter = darkPointAt(position, properties);
+    emitter.intensity = properties.emission("intensity", {1, 1, 1});
     return emitter;
 }
 

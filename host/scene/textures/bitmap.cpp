@@ -5,6 +5,28 @@
 
 namespace quasilux {
 
+namespace {
+
+/// Read once; warns of values that are out of range.
+const Image& imageOf(const std::string& path, const std::string& name, bool raw, TextureUse use,
+                     const SourceLocation& where, LoadContext& context) {
+    const auto key = std::tuple(path, raw, use);
+    const auto known = context.images.find(key);
+    if (known != context.images.end()) return known->second;
+    const bool emits = use == TextureUse::emission;
+    const Image& image =
+        context.images.emplace(key, emits ? readRadianceImage(path, raw, where) : readImage(path, raw, where))
+            .first->second;
+    const char* const what = emits ? "negative and are taken as 0"
+                                   : "above 1 and are taken as 1: a surface cannot reflect more light than it gets";
+    if (image.clamped > 0)
+        context.warn(
+            where, fmt::format("{} of the {} pixels of '{}' are {}.", image.clamped, image.pixels.size(), name, what));
+    return image;
+}
+
+} // namespace
+
 void readBitmap(Properties& properties, TextureDescription& texture) {
     const std::string name = properties.string("filename", "");
     const SourceLocation where = properties.where("filename");
@@ -23,14 +45,7 @@ void readBitmap(Properties& properties, TextureDescription& texture) {
     properties.accept({"format", "accel"});
 
     const std::string path = properties.context().files.resolve(name, where);
-    auto known = properties.context().images.find({path, raw});
-    const bool isNew = known == properties.context().images.end();
-    if (isNew) known = properties.context().images.emplace(std::pair(path, raw), readImage(path, raw, where)).first;
-    const Image& image = known->second;
-    if (isNew && image.clamped > 0)
-        properties.context().warn(where, fmt::format("{} of the {} pixels of '{}' are above 1 and are taken as 1: a "
-                                                     "surface cannot reflect more light than it gets.",
-                                                     image.clamped, image.pixels.size(), name));
+    const Image& image = imageOf(path, name, raw, texture.use, where, properties.context());
     texture.device.width = image.width;
     texture.device.height = image.height;
     texture.texels = image.pixels;

@@ -83,8 +83,8 @@ Image readImage(const std::string& path, bool raw, const SourceLocation& where) 
     return readWithin(reflectances, path, raw, where);
 }
 
-Image readRadianceImage(const std::string& path, const SourceLocation& where) {
-    return readWithin(radiances, path, false, where);
+Image readRadianceImage(const std::string& path, bool raw, const SourceLocation& where) {
+    return readWithin(radiances, path, raw, where);
 }
 
 } // namespace quasilux

@@ -7,7 +7,7 @@
 namespace quasilux {
 
 /// Reads a <texture>. Throws InputError for unknown plugins and parameters, and for images that cannot be read.
-TextureDescription readTexture(const Element& element, LoadContext& context);
+TextureDescription readTexture(const Element& element, LoadContext& context, TextureUse use = TextureUse::reflectance);
 
 /// Whether the plugin is unknown, and forgiven: a grey of 0.5 then.
 bool replacesTexture(const Element& element, LoadContext& context);
@@ -27,6 +27,15 @@ struct Reflectance {
 
 /// The parameter `name`, a colour or a texture within [0, 1]; `missing` where it is not given.
 Reflectance readReflectance(Properties& properties, const std::string& name, float missing);
+
+/// What an emitter's parameter gives: a colour, or 1 times a texture that may exceed 1.
+struct EmissionColor {
+    Rgb scale{1, 1, 1};
+    std::optional<unsigned> texture; ///< index into Scene::textures
+};
+
+/// The parameter `name`, a colour or a texture; `missing` where it is not given. What is black all over is refused.
+EmissionColor readEmission(Properties& properties, const std::string& name, Rgb missing);
 
 /// A number as the scene gives it, or a texture of numbers.
 struct Scalar {
@@ -48,6 +57,6 @@ Scalar readShare(Properties& properties, const std::string& name, float missing)
 /// out. Throws InputError at `where` where the file cannot be read, or has negative or non-finite values.
 Image readImage(const std::string& path, bool raw, const SourceLocation& where);
 /// An image of radiance: as readImage, but values may be above 1, and negative ones become 0.
-Image readRadianceImage(const std::string& path, const SourceLocation& where);
+Image readRadianceImage(const std::string& path, bool raw, const SourceLocation& where);
 
 } // namespace quasilux

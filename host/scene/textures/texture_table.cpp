@@ -37,12 +37,13 @@ Rgb largestValue(const TextureDescription& texture) {
 }
 
 /// Index into Scene::textures; read once however often it is used.
-int useTexture(const Element& element, LoadContext& context) {
-    const auto known = context.textureIndex.find(&element);
-    if (known != context.textureIndex.end()) return known->second;
-    context.scene.textures.push_back(readTexture(element, context));
+int useTexture(const Element& element, LoadContext& context, TextureUse use = TextureUse::reflectance) {
+    auto& indices = use == TextureUse::emission ? context.emissionTextureIndex : context.textureIndex;
+    const auto known = indices.find(&element);
+    if (known != indices.end()) return known->second;
+    context.scene.textures.push_back(readTexture(element, context, use));
     const int index = static_cast<int>(context.scene.textures.size()) - 1;
-    context.textureIndex.emplace(&element, index);
+    indices.emplace(&element, index);
     return index;
 }
 
@@ -63,11 +64,12 @@ bool replacesTexture(const Element& element, LoadContext& context) {
     return !findPlugin(texturePlugins, element, context, "0.5 everywhere", constantTextureNames());
 }
 
-TextureDescription readTexture(const Element& element, LoadContext& context) {
+TextureDescription readTexture(const Element& element, LoadContext& context, TextureUse use) {
     const TexturePlugin& plugin = findPlugin(texturePlugins, element, constantTextureNames());
     Properties properties(element, context);
     TextureDescription texture;
     texture.where = element.where;
+    texture.use = use;
     readToUv(properties, texture.device);
     plugin.read(properties, texture);
     properties.finish();
@@ -81,6 +83,18 @@ Reflectance readReflectance(Properties& properties, const std::string& name, flo
     const int index = useTexture(*texture, properties.context());
     const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
     return {static_cast<unsigned>(index) + 1, largestValue(read)};
+}
+
+EmissionColor readEmission(Properties& properties, const std::string& name, Rgb missing) {
+    const Element* texture = properties.texture(name);
+    if (!texture) return {properties.emission(name, missing), std::nullopt};
+    if (replacesTexture(*texture, properties.context())) return {{0.5f, 0.5f, 0.5f}, std::nullopt};
+    const int index = useTexture(*texture, properties.context(), TextureUse::emission);
+    if (isBlack(largestValue(properties.context().scene.textures[static_cast<size_t>(index)])))
+        throw InputError(texture->where,
+                         fmt::format("the texture '{}' of {} is black, so it emits nothing; remove the emitter.", name,
+                                     properties.describe()));
+    return {{1, 1, 1}, static_cast<unsigned>(index)};
 }
 
 unsigned useColorTexture(const Element& element, LoadContext& context) {

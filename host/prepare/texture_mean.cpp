@@ -1,0 +1,84 @@
+#include "prepare/texture_mean.h"
+
+#include "scene/color.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quasilux {
+
+namespace {
+
+glm::dvec3 wide(const Rgb& color) { return {color.r, color.g, color.b}; }
+Rgb narrow(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+double fold(double x, unsigned wrap) {
+    if (wrap == WRAP_REPEAT) return x - std::floor(x);
+    if (wrap == WRAP_MIRROR) return x - 2 * std::floor(0.5 * x);
+    return std::clamp(x, -1.0, 2.0);
+}
+
+size_t wrapIndex(int i, int size, unsigned wrap) {
+    if (wrap == WRAP_REPEAT) i += i < 0 ? size : i >= size ? -size : 0;
+    if (wrap == WRAP_MIRROR) {
+        i = i < 0 ? -1 - i : i;
+        i = i >= size ? 2 * size - 1 - i : i;
+    }
+    return static_cast<size_t>(std::clamp(i, 0, size - 1));
+}
+
+glm::dvec3 texel(const TextureDescription& texture, int x, int y) {
+    const shared::Texture& t = texture.device;
+    return wide(texture.texels[wrapIndex(y, int(t.height), t.wrap) * t.width + wrapIndex(x, int(t.width), t.wrap)]);
+}
+
+glm::dvec3 bitmapValue(const TextureDescription& texture, glm::dvec2 uv) {
+    const shared::Texture& t = texture.device;
+    const double x = fold(uv.x, t.wrap) * t.width, y = fold(uv.y, t.wrap) * t.height;
+    if (t.filter == TEXTURE_NEAREST) return texel(texture, int(std::floor(x)), int(std::floor(y)));
+    const int i = int(std::floor(x - 0.5)), j = int(std::floor(y - 0.5));
+    const double fx = x - 0.5 - i, fy = y - 0.5 - j;
+    return (1 - fy) * ((1 - fx) * texel(texture, i, j) + fx * texel(texture, i + 1, j)) +
+           fy * ((1 - fx) * texel(texture, i, j + 1) + fx * texel(texture, i + 1, j + 1));
+}
+
+// Of one sum; a picture of more pixels is looked up at some of them only.
+constexpr unsigned leastSamples = 64, mostSamples = 1024;
+
+unsigned samplesAlong(unsigned pixels) { return std::clamp(2 * pixels, leastSamples, mostSamples); }
+
+/// Of all pixels, or both colours.
+glm::dvec3 meanOfAll(const TextureDescription& texture) {
+    if (texture.texels.empty()) return 0.5 * (wide(texture.device.color0) + wide(texture.device.color1));
+    glm::dvec3 sum(0);
+    for (const Rgb& value : texture.texels) sum += wide(value);
+    return sum / double(texture.texels.size());
+}
+
+} // namespace
+
+glm::dvec3 textureValue(const TextureDescription& texture, glm::dvec2 uv) {
+    const shared::Texture& t = texture.device;
+    const glm::dvec2 at(t.toU[0] * uv.x + t.toU[1] * uv.y + t.toU[2], t.toV[0] * uv.x + t.toV[1] * uv.y + t.toV[2]);
+    if (t.type == TEXTURE_BITMAP) return bitmapValue(texture, at);
+    const bool same = (at.x - std::floor(at.x) > 0.5) == (at.y - std::floor(at.y) > 0.5);
+    return wide(same ? t.color0 : t.color1);
+}
+
+Rgb meanOfTexture(const TextureDescription& texture, const std::function<TexturePlace(double x, double y)>& placeAt) {
+    const unsigned columns = samplesAlong(texture.device.width), rows = samplesAlong(texture.device.height);
+    glm::dvec3 sum(0);
+    double weights = 0;
+    for (unsigned j = 0; j < rows; ++j)
+        for (unsigned i = 0; i < columns; ++i) {
+            const TexturePlace place = placeAt((i + 0.5) / columns, (j + 0.5) / rows);
+            if (!(place.weight > 0) || !std::isfinite(place.uv.x) || !std::isfinite(place.uv.y)) continue;
+            sum += place.weight * textureValue(texture, place.uv);
+            weights += place.weight;
+        }
+    const glm::dvec3 mean = weights > 0 ? sum / weights : glm::dvec3(0);
+    // What all samples have missed may shine all the same: it is to be chosen now and then.
+    return narrow(glm::max(mean, 1e-3 * meanOfAll(texture)));
+}
+
+} // namespace quasilux
