@@ -48,6 +48,7 @@ public:
     std::vector<const Element*> openBsdfs;                    ///< being read now, outermost first: a cycle shows here
     std::vector<const Element*> openTextures;                 ///< likewise
     std::map<std::pair<std::string, bool>, Image> images;     ///< read already, by path and `raw`
+    std::set<std::string> brightAttributes;                   ///< of meshes, warned of
     std::set<const Element*> usedEmitters;                    ///< that a shape has
     std::set<const Element*> usedGroups;                      ///< shapegroups that an instance places
     std::optional<glm::dmat4> placement;                      ///< of the instance whose shapes are being read

@@ -29,7 +29,6 @@ constexpr Unsupported unsupported[] = {
     {"bsdf", "polarizer", noPolarisation},
     {"bsdf", "retarder", noPolarisation},
     {"bsdf", "circular", noPolarisation},
-    {"texture", "mesh_attribute", "use a 'bitmap' and texture coordinates"},
     {"texture", "volume", "use a 'bitmap' and texture coordinates"},
     {"texture", "rawconstant", "give the value itself, or use 'uniform'"},
     {"emitter", "projector", "use 'spot', or an 'area' emitter of the picture's mean radiance"},

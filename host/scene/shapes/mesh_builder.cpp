@@ -131,6 +131,7 @@ Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNorm
     const bool keepNormals = !faceNormals && !areFlat(normals, source, world);
 
     const bool hasUvs = everyCornerHasUv(source);
+    mesh.attributes = source.attributes;
 
     for (size_t t = 0; t < source.triangles.size(); ++t) {
         const auto& corner = source.triangles[t];

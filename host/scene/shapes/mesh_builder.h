@@ -23,6 +23,7 @@ struct MeshSource {
     std::vector<glm::dvec3> positions, normals;
     std::vector<glm::dvec2> uvs;
     std::vector<std::array<Corner, 3>> triangles;
+    std::vector<MeshAttribute> attributes; ///< by position or by triangle
 };
 
 /// Built-in shapes with flat faces: `triangles` are counter-clockwise seen from the side of the normal, and stay so

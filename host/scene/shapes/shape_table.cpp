@@ -6,6 +6,7 @@
 #include "scene/emitters/emitters.h"
 #include "scene/media/medium_plugin.h"
 #include "scene/shapes/shape_area.h"
+#include "scene/textures/texture_use.h"
 
 #include <fmt/format.h>
 
@@ -52,8 +53,9 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     if (interior) shape.interior = useMedium(*interior, context);
     if (exterior) shape.exterior = useMedium(*exterior, context);
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
+    keepShownAttributes(shape, context);
     if (!shape.sphere && shape.mesh.cornerUvs.empty() &&
-        context.scene.bsdfs[static_cast<size_t>(shape.bsdf)].isTextured())
+        needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
         throw InputError(shape.where,
                          fmt::format("shape '{}' has no texture coordinates, or not at every corner, but its bsdf has "
                                      "a texture; add them to the mesh file, or use a bsdf without textures.",

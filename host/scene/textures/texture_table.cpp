@@ -14,9 +14,11 @@ namespace {
 struct TexturePlugin {
     std::string_view name;
     void (*read)(Properties&, TextureDescription&);
+    bool hasCoordinates = true; ///< that to_uv transforms
 };
 
-constexpr TexturePlugin texturePlugins[] = {{"checkerboard", readCheckerboard}, {"bitmap", readBitmap}};
+constexpr TexturePlugin texturePlugins[] = {
+    {"checkerboard", readCheckerboard}, {"bitmap", readBitmap}, {"mesh_attribute", readMeshAttribute, false}};
 
 /// As in Mitsuba, what the transform does within the plane of x and y.
 void readToUv(Properties& properties, shared::Texture& texture) {
@@ -57,6 +59,33 @@ Rgb greyOf(float value) { return {value, value, value}; }
 Rgb meanOf(Rgb color) { return greyOf((color.r + color.g + color.b) / 3); }
 Rgb luminanceOf(Rgb color) { return greyOf(0.212671f * color.r + 0.715160f * color.g + 0.072169f * color.b); }
 
+/// Index of the texture of numbers that the one of colours at `index` is where numbers are wanted.
+unsigned scalarTexture(unsigned index, LoadContext& context) {
+    std::vector<TextureDescription>& textures = context.scene.textures;
+    const unsigned type = textures[index].device.type;
+    if (type == TEXTURE_BITMAP && isGreyBitmap(textures[index])) return index;
+    const auto known = context.scalarTextureIndex.find(static_cast<int>(index));
+    if (known != context.scalarTextureIndex.end()) return known->second;
+    TextureDescription grey = textures[index];
+    grey.isNumber = true;
+    if (type == TEXTURE_CHECKERBOARD) {
+        // Mitsuba 3.9 has the squares the other way round where it asks a checkerboard for numbers.
+        std::swap(grey.device.color0, grey.device.color1);
+        std::swap(grey.device.texture0, grey.device.texture1);
+        grey.device.color0 = meanOf(grey.device.color0);
+        grey.device.color1 = meanOf(grey.device.color1);
+        for (unsigned* number : {&grey.device.texture0, &grey.device.texture1})
+            if (*number > 0) *number = scalarTexture(*number - 1, context) + 1;
+    }
+    std::vector<Rgb> luminances(grey.texels.size());
+    std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
+    grey.texels = std::move(luminances);
+    textures.push_back(std::move(grey));
+    const auto copy = static_cast<unsigned>(textures.size() - 1);
+    context.scalarTextureIndex.emplace(static_cast<int>(index), copy);
+    return copy;
+}
+
 } // namespace
 
 bool replacesTexture(const Element& element, LoadContext& context) {
@@ -68,7 +97,7 @@ TextureDescription readTexture(const Element& element, LoadContext& context) {
     Properties properties(element, context);
     TextureDescription texture;
     texture.where = element.where;
-    readToUv(properties, texture.device);
+    if (plugin.hasCoordinates) readToUv(properties, texture.device);
     plugin.read(properties, texture);
     properties.finish();
     return texture;
@@ -88,24 +117,7 @@ unsigned useColorTexture(const Element& element, LoadContext& context) {
 }
 
 unsigned useScalarTexture(const Element& element, LoadContext& context) {
-    const int index = useTexture(element, context);
-    std::vector<TextureDescription>& textures = context.scene.textures;
-    const bool isBoard = textures[static_cast<size_t>(index)].device.type == TEXTURE_CHECKERBOARD;
-    if (!isBoard && isGreyBitmap(textures[static_cast<size_t>(index)])) return static_cast<unsigned>(index);
-    const auto known = context.scalarTextureIndex.find(index);
-    if (known != context.scalarTextureIndex.end()) return known->second;
-    TextureDescription grey = textures[static_cast<size_t>(index)];
-    // Mitsuba 3.9 has the squares the other way round where it asks a checkerboard for numbers.
-    std::swap(grey.device.color0, grey.device.color1);
-    grey.device.color0 = meanOf(grey.device.color0);
-    grey.device.color1 = meanOf(grey.device.color1);
-    std::vector<Rgb> luminances(grey.texels.size());
-    std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
-    grey.texels = std::move(luminances);
-    textures.push_back(std::move(grey));
-    const auto copy = static_cast<unsigned>(textures.size() - 1);
-    context.scalarTextureIndex.emplace(index, copy);
-    return copy;
+    return scalarTexture(static_cast<unsigned>(useTexture(element, context)), context);
 }
 
 Scalar readShare(Properties& properties, const std::string& name, float missing) {
