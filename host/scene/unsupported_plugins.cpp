@@ -16,8 +16,6 @@ constexpr std::string_view ofSky =
 constexpr std::string_view derivatives = "it is there for derivatives; use 'path', or 'volpath' where there are media";
 
 constexpr Unsupported unsupported[] = {
-    {"shape", "bsplinecurve", asMesh},
-    {"shape", "linearcurve", asMesh},
     {"shape", "sdfgrid", asMesh},
     {"shape", "ellipsoids", asMesh},
     {"shape", "ellipsoidsmesh", asMesh},

@@ -17,11 +17,20 @@ namespace {
 struct ShapePlugin {
     std::string_view name;
     void (*read)(Properties&, ShapeDescription&);
+    bool hasInside = true; ///< that a medium may fill
 };
 
 constexpr ShapePlugin shapePlugins[] = {
-    {"rectangle", readRectangle}, {"cube", readCube}, {"disk", readDisk}, {"cylinder", readCylinder},
-    {"sphere", readSphere},       {"obj", readObj},   {"ply", readPly},   {"serialized", readSerialized},
+    {"rectangle", readRectangle},
+    {"cube", readCube},
+    {"disk", readDisk},
+    {"cylinder", readCylinder},
+    {"sphere", readSphere},
+    {"obj", readObj},
+    {"ply", readPly},
+    {"serialized", readSerialized},
+    {"bsplinecurve", readBsplineCurve, false},
+    {"linearcurve", readLinearCurve, false},
 };
 
 /// Plugins that readShapes takes apart.
@@ -50,6 +59,9 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     const Element* interior = properties.medium("interior");
     const Element* exterior = properties.medium("exterior");
     properties.finish();
+    if (!plugin.hasInside && (interior || exterior))
+        throw InputError((interior ? interior : exterior)->where,
+                         fmt::format("{} bounds no medium; use another shape.", properties.describe()));
     if (interior) shape.interior = useMedium(*interior, context);
     if (exterior) shape.exterior = useMedium(*exterior, context);
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
