@@ -44,7 +44,8 @@ const BadBody badBodies[] = {
     {"ShapePlugin",
      "<shape type=\"cub\"/>",
      {"scene.xml:4:1: unknown shape plugin 'cub'", "Did you mean 'cube'?",
-      "Known: instance, shapegroup, merge, rectangle, cube, disk, cylinder, sphere, obj, ply, serialized, bsplinecurve, linearcurve"}},
+      "Known: instance, shapegroup, merge, rectangle, cube, disk, cylinder, sphere, obj, ply, serialized, "
+      "bsplinecurve, linearcurve"}},
     {"BsdfPlugin",
      "<bsdf type=\"difuse\"/>",
      {"scene.xml:4:1: unknown bsdf plugin 'difuse'", "Did you mean 'diffuse'?"}},

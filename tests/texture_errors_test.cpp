@@ -200,6 +200,38 @@ TEST(MeshAttributes, AsWeightsHaveOneChannel) {
     EXPECT_EQ(loadScene(mask("vertex_w")).shapes.at(0).mesh.attributes.at(0).values.at(0).g, .4f);
 }
 
+TEST(Textures, OneWithinItselfIsSaid) {
+    SceneFiles files;
+    const std::string board = "<texture type=\"checkerboard\" id=\"t\"><ref id=\"t\" name=\"color0\"/></texture>\n";
+    EXPECT_THAT(test::errorOf(files.write(
+                    "scene.xml", sceneWith(board + "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><ref id=\"t\" "
+                                                   "name=\"reflectance\"/></bsdf></shape>"))),
+                HasSubstr("scene.xml:4:1: texture 't' contains itself"));
+}
+
+TEST(Textures, ARawConstantIsANumberOrAVector) {
+    const auto inDiffuse = [](const std::string& value) {
+        return withTexture("diffuse", "<texture type=\"rawconstant\" name=\"reflectance\">\n" + value + "</texture>");
+    };
+    SceneFiles files;
+    const auto reflectance = [&](const std::string& value) {
+        return loadScene(files.write("scene.xml", inDiffuse(value))).bsdfs.at(0).front.at(0).device.reflectance;
+    };
+    EXPECT_EQ(reflectance("<float name=\"value\" value=\"0.3\"/>").b, 0.3f);
+    const Rgb vector = reflectance("<vector name=\"value\" value=\"0.1,0.2,0.9\"/>");
+    EXPECT_EQ(vector.r, 0.1f);
+    EXPECT_EQ(vector.g, 0.2f);
+    EXPECT_EQ(vector.b, 0.9f);
+    const auto error = [&](const std::string& scene) { return test::errorOf(files.write("scene.xml", scene)); };
+    EXPECT_THAT(error(inDiffuse("<rgb name=\"value\" value=\"0.1\"/>")), HasSubstr("scene.xml:6:1:"));
+    EXPECT_THAT(error(inDiffuse("<float name=\"value\" value=\"1.5\"/>")), HasSubstr("within [0, 1]"));
+    EXPECT_THAT(error(inDiffuse("")), HasSubstr("scene.xml:5:1: texture 'rawconstant' needs the parameter 'value'"));
+    EXPECT_THAT(
+        error(withTexture("roughconductor", "<texture type=\"rawconstant\" name=\"alpha\"><vector name=\"value\" "
+                                            "value=\"0.1,0.2,0.3\"/></texture>")),
+        HasSubstr("scene.xml:5:1: parameter 'alpha' of bsdf 'roughconductor' is a number"));
+}
+
 TEST(Textures, BrightPixelsAreClampedWithAWarning) {
     SceneFiles files;
     writeFloats(files.path("bright.exr"), 2, {0.5f, 2, 0.25f, 0.5f, 0.5f, 0.5f});

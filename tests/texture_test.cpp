@@ -293,5 +293,41 @@ TEST(MeshAttribute, IsInterpolatedAsInMitsuba) {
     }
 }
 
+/// Two checkerboards within one.
+std::string nestedBoards(const std::string& name) {
+    return "<texture type=\"checkerboard\" name=\"" + name + R"("><texture type="checkerboard" name="color0">
+<rgb name="color0" value=".1,.2,.6"/><rgb name="color1" value=".3,.5,.7"/>
+<transform name="to_uv"><scale x="4" y="4"/></transform></texture>
+<texture type="checkerboard" name="color1"><rgb name="color0" value=".8"/><transform name="to_uv"><translate x=".25"/></transform></texture></texture>)";
+}
+
+// Values of Mitsuba 3.9.1, which has the colours the other way round where it asks for a number.
+TEST(NestedTextures, AreMitsubas) {
+    const struct {
+        glm::vec3 from, color;
+        float number;
+    } cases[] = {
+        {{-.8f, -.8f, 2}, {.1f, .2f, .6f}, .2f}, {{-.55f, -.8f, 2}, {.3f, .5f, .7f}, .2f},
+        {{.3f, -.8f, 2}, glm::vec3(.2f), .3f},   {{.8f, -.8f, 2}, glm::vec3(.8f), .3f},
+        {{.9f, .9f, 2}, {.1f, .2f, .6f}, .8f},   {{-.3f, .4f, 2}, glm::vec3(.8f), .3f},
+        {{-.8f, .4f, 2}, glm::vec3(.2f), .3f},
+    };
+    std::vector<RayFrom> rays;
+    for (const auto& c : cases) rays.push_back({c.from, down});
+    const auto colors = tintsAt(test::loadBody("<shape type=\"rectangle\"><bsdf type=\"diffuse\">" +
+                                               nestedBoards("reflectance") + "</bsdf></shape>"),
+                                rays);
+    const auto numbers =
+        tintsAt(test::loadBody("<shape type=\"rectangle\"><bsdf type=\"blendbsdf\">" + nestedBoards("weight") +
+                               "<bsdf type=\"null\"/><bsdf type=\"diffuse\"/></bsdf></shape>"),
+                rays);
+    for (size_t k = 0; k < rays.size(); ++k) {
+        SCOPED_TRACE(k);
+        test::expectNear(colors[k], cases[k].color, 1e-6f);
+        // The first lobe lets pass what the second one does not take.
+        EXPECT_NEAR(numbers[k].x, 1 - cases[k].number, 1e-6f);
+    }
+}
+
 } // namespace
 } // namespace quasilux

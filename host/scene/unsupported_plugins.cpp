@@ -28,7 +28,6 @@ constexpr Unsupported unsupported[] = {
     {"bsdf", "retarder", noPolarisation},
     {"bsdf", "circular", noPolarisation},
     {"texture", "volume", "use a 'bitmap' and texture coordinates"},
-    {"texture", "rawconstant", "give the value itself, or use 'uniform'"},
     {"emitter", "projector", "use 'spot', or an 'area' emitter of the picture's mean radiance"},
     {"emitter", "directionalarea", "use 'directional'"},
     {"emitter", "sunsky", ofSky},

@@ -94,12 +94,17 @@ bool replacesTexture(const Element& element, LoadContext& context) {
 
 TextureDescription readTexture(const Element& element, LoadContext& context) {
     const TexturePlugin& plugin = findPlugin(texturePlugins, element, constantTextureNames());
+    std::vector<const Element*>& open = context.openTextures;
+    if (std::find(open.begin(), open.end(), &element) != open.end())
+        throw InputError(element.where, fmt::format("texture '{}' contains itself; remove one <ref>.", idOf(element)));
+    open.push_back(&element);
     Properties properties(element, context);
     TextureDescription texture;
     texture.where = element.where;
     if (plugin.hasCoordinates) readToUv(properties, texture.device);
     plugin.read(properties, texture);
     properties.finish();
+    open.pop_back();
     return texture;
 }
 
