@@ -1,5 +1,6 @@
 // Textures, their texels, and texture coordinates of the shapes that have some.
 #include "prepare/device_scene.h"
+#include "scene/color.h"
 #include "scene/textures/texture_use.h"
 
 #include <algorithm>

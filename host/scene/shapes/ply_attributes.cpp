@@ -4,6 +4,7 @@
 #include "scene/xml/names.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 

@@ -1,5 +1,7 @@
 #include "scene/textures/texture_use.h"
 
+#include "scene/xml/names.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
