@@ -195,6 +195,8 @@ typedef struct {
 
 #define TEXTURE_CHECKERBOARD 0u
 #define TEXTURE_BITMAP 1u
+#define TEXTURE_VERTEX_ATTRIBUTE 2u /* of meshes: by vertex, linear between; and by face */
+#define TEXTURE_FACE_ATTRIBUTE 3u
 #define TEXTURE_NEAREST 0u /* filter */
 #define TEXTURE_BILINEAR 1u
 #define WRAP_REPEAT 0u
@@ -202,12 +204,16 @@ typedef struct {
 #define WRAP_CLAMP 2u
 
 typedef struct {
-    unsigned int type;          /* TEXTURE_* */
-    float toU[3], toV[3];       /* looked up at (toU . (u, v, 1), toV . (u, v, 1)) */
-    Rgb color0, color1;         /* checkerboard: of the square at the origin, of its neighbours */
+    unsigned int type;    /* TEXTURE_* */
+    float toU[3], toV[3]; /* looked up at (toU . (u, v, 1), toV . (u, v, 1)) */
+    Rgb color0, color1;   /* checkerboard: of the square at the origin, of its neighbours */
+    /* And 1 + index of a Texture that is there instead; 0: none. */
+    unsigned int texture0, texture1;
     unsigned int filter, wrap;  /* bitmap */
     unsigned int width, height; /* bitmap, pixels */
-    unsigned int firstTexel;    /* bitmap: rows from v = 0 on, each from u = 0 on */
+    /* Bitmap: rows from v = 0 on, each from u = 0 on. Attribute: word in the table of attributes, where by shape it is said
+     * in which word of that table its colours begin, one a face or one a corner. */
+    unsigned int firstTexel;
 } Texture;
 
 /* ---- emitters ------------------------------------------------------------------------------------------------- */

@@ -60,6 +60,10 @@ std::string sceneAround(const Plugin& plugin, const std::string& element) {
         return shape("<bsdf type=\"null\"/><medium name=\"interior\" " + medium + "</medium>");
     };
     if (plugin.kind == "bsdf") return shape(element);
+    if (plugin.name == "mesh_attribute")
+        return camera + light +
+               "<shape type=\"ply\"><string name=\"filename\" value=\"colors.ply\"/>\n<bsdf type=\"diffuse\">" +
+               element + "</bsdf></shape>";
     if (plugin.kind == "texture") return shape("<bsdf type=\"diffuse\">" + element + "</bsdf>");
     if (plugin.kind == "medium") return shape("<bsdf type=\"null\"/>" + element);
     if (plugin.kind == "phase") return inMedium("type=\"homogeneous\">" + element);
@@ -90,6 +94,7 @@ protected:
         const std::string data = QUASILUX_SOURCE_DIR "/tests/data/";
         for (const char* name : {"quads.obj", "tetrahedron.ply", "triangle.serialized"})
             files_.write(name, textOf(data + name));
+        files_.write("colors.ply", textOf(QUASILUX_SOURCE_DIR "/tests/scenes/compare/colors.ply"));
         files_.write("checker.ppm", std::string("P6\n2 2\n255\n") + std::string("\x10\x20\x30\x80\x80\x80\x80\x80\x80"
                                                                                 "\x10\x20\x30",
                                                                                 12));

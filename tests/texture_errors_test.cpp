@@ -4,6 +4,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
+#include <sstream>
 
 namespace quasilux {
 namespace {
@@ -68,6 +69,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Twice", "diffuse",
              "<float name=\"reflectance\" value=\"1\"/>\n<texture type=\"checkerboard\" name=\"reflectance\"/>", "6:1",
              "is given twice"},
+        Case{
+            "AttributeName", "diffuse",
+            "<texture type=\"mesh_attribute\" name=\"reflectance\">\n<string name=\"name\" value=\"color\"/></texture>",
+            "6:1", "value=\"vertex_…\"/>"},
         Case{"PhongSum", "phong",
              "<texture type=\"checkerboard\" name=\"diffuse_reflectance\"><float name=\"color0\" "
              "value=\"0.9\"/></texture>",
@@ -82,6 +87,149 @@ TEST(TextureErrors, MeshWithoutCoordinates) {
         sceneWith("\n<shape type=\"obj\" id=\"m\"><string name=\"filename\" value=\"m.obj\"/><bsdf "
                   "type=\"diffuse\"><texture type=\"checkerboard\" name=\"reflectance\"/></bsdf></shape>")));
     EXPECT_THAT(error, HasSubstr("scene.xml:5:1: shape 'm' has no texture coordinates"));
+}
+
+/// A triangle with these properties of its vertices, and of itself, beside their places.
+std::string plyWith(const std::string& properties, const std::string& values, const std::string& ofFace = "",
+                    const std::string& valuesOfFace = "") {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+           properties + "element face 1\nproperty list uchar int vertex_indices\n" + ofFace + "end_header\n0 0 0 " +
+           values + "\n1 0 0 " + values + "\n0 1 0 " + values + "\n3 0 1 2 " + valuesOfFace + "\n";
+}
+std::string three(const std::string& type, const std::string& names) {
+    std::string lines;
+    std::istringstream in(names);
+    for (std::string name; in >> name;) lines += "property " + type + " " + name + "\n";
+    return lines;
+}
+/// m.ply with this attribute shown; the shape stands in line 4.
+std::string showing(const std::string& attribute, const std::string& scale = "1") {
+    return sceneWith(
+        "<shape type=\"ply\" id=\"m\"><string name=\"filename\" value=\"m.ply\"/><bsdf type=\"diffuse\">\n<texture "
+        "type=\"mesh_attribute\" name=\"reflectance\"><string name=\"name\" value=\"" +
+        attribute + "\"/><float name=\"scale\" value=\"" + scale + "\"/></texture></bsdf></shape>");
+}
+
+struct AttributeCase {
+    const char *name, *type, *properties, *values, *attribute;
+    unsigned channels;
+    float expected[3];
+};
+class MeshAttributes : public testing::TestWithParam<AttributeCase> {};
+// Names and values of Mitsuba 3.9.1, of vertices and of faces.
+TEST_P(MeshAttributes, AreMitsubas) {
+    const auto& c = GetParam();
+    for (const std::string kind : {"vertex_", "face_"}) {
+        SceneFiles files;
+        const std::string lines = three(c.type, c.properties);
+        files.write("m.ply", kind == "face_" ? plyWith("", "", lines, c.values) : plyWith(lines, c.values));
+        const Scene scene = loadScene(files.write("scene.xml", showing(kind + c.attribute)));
+        const auto& attributes = scene.shapes.at(0).mesh.attributes;
+        ASSERT_EQ(attributes.size(), 1u);
+        EXPECT_EQ(attributes[0].name, kind + c.attribute);
+        EXPECT_EQ(attributes[0].channels, c.channels);
+        ASSERT_EQ(attributes[0].values.size(), kind == "face_" ? 1u : 3u);
+        const Rgb value = attributes[0].values.back();
+        EXPECT_NEAR(value.r, c.expected[0], 1e-6);
+        EXPECT_NEAR(value.g, c.expected[1], 1e-6);
+        EXPECT_NEAR(value.b, c.expected[2], 1e-6);
+    }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Ply, MeshAttributes,
+    testing::Values(
+        AttributeCase{"Rgb", "float", "r g b", ".1 .2 .3", "color", 3, {.1f, .2f, .3f}},
+        AttributeCase{"AnyOrder", "float", "b r g", ".1 .2 .3", "color", 3, {.2f, .3f, .1f}},
+        AttributeCase{"Alpha", "float", "red green blue alpha", ".1 .2 .3 .4", "color", 3, {.1f, .2f, .3f}},
+        AttributeCase{"Double", "double", "a_r a_g a_b", ".1 .2 .3", "a_color", 3, {.1f, .2f, .3f}},
+        AttributeCase{"LongName", "float", "my_own_x my_own_y my_own_z", ".1 .2 .3", "my_own", 3, {.1f, .2f, .3f}},
+        AttributeCase{"FromZero", "float", "q_0 q_1 q_2", ".1 .2 .3", "q", 3, {.1f, .2f, .3f}},
+        AttributeCase{"FromOne", "float", "q_1 q_2 q_3", ".1 .2 .3", "q", 3, {.1f, .2f, .3f}},
+        AttributeCase{"OneChannel", "float", "other w_x", ".9 .1", "w", 1, {.1f, .1f, .1f}},
+        AttributeCase{"OneRed", "float", "w_r", ".1", "w_color", 1, {.1f, .1f, .1f}},
+        AttributeCase{"Neighbours", "float", "a_x b_x b_y b_z", ".9 .1 .2 .3", "b", 3, {.1f, .2f, .3f}},
+        AttributeCase{"Bytes", "uchar", "red green blue", "255 128 0", "color", 3, {255, 128, 0}},
+        AttributeCase{"Signed", "char", "red green blue", "127 64 0", "color", 3, {1, .217703f, 0}},
+        AttributeCase{"Shorts", "ushort", "red green blue", "65535 32768 0", "color", 3, {1, .214048f, 0}},
+        AttributeCase{"Integers", "int", "red green blue", "2147483647 1073741824 0", "color", 3, {1, .214041f, 0}}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+TEST(MeshAttributes, OfAShapeThatLacksThemAreSaid) {
+    SceneFiles files;
+    files.write("m.ply", plyWith(three("float", "r g b q_x q_y"), ".1 .2 .3 .4 .5", three("float", "w_x"), ".5"));
+    EXPECT_THAT(
+        test::errorOf(files.write("scene.xml", showing("vertex_colour"))),
+        HasSubstr("scene.xml:4:1: shape 'm' has no attribute 'vertex_colour', which a texture of its bsdf shows. It "
+                  "has: vertex_color, face_w."));
+    const std::string error = test::errorOf(files.write(
+        "scene.xml",
+        withTexture("diffuse", "<texture type=\"mesh_attribute\" name=\"reflectance\"><string name=\"name\" "
+                               "value=\"face_w\"/></texture>")));
+    EXPECT_THAT(error, HasSubstr("scene.xml:4:1: shape 'rectangle@4' has no attribute 'face_w'"));
+    EXPECT_THAT(error, HasSubstr("It has none; those of the vertices and faces of PLY files are read"));
+}
+
+TEST(MeshAttributes, ThatAreNoReflectancesAreSaid) {
+    SceneFiles files;
+    files.write("m.ply", plyWith(three("float", "r g b"), ".1 .2 1.5"));
+    EXPECT_THAT(
+        test::errorOf(files.write("scene.xml", showing("vertex_color", "-2"))),
+        HasSubstr(
+            "scene.xml:4:1: attribute 'vertex_color' of shape 'm', times the texture's scale, is -0.2 at vertex 0"));
+    const Scene bright = loadScene(files.write("scene.xml", showing("vertex_color")));
+    ASSERT_EQ(bright.warnings.size(), 1u);
+    EXPECT_THAT(bright.warnings[0],
+                HasSubstr("scene.xml:4:1: 3 of the 3 values of attribute 'vertex_color' are above 1"));
+    EXPECT_TRUE(loadScene(files.write("scene.xml", showing("vertex_color", "0.5"))).warnings.empty());
+}
+
+TEST(MeshAttributes, AsWeightsHaveOneChannel) {
+    SceneFiles files;
+    files.write("m.ply", plyWith(three("float", "r g b w_x"), ".1 .2 .3 .4"));
+    const auto mask = [&](const std::string& attribute) {
+        return files.write(
+            "scene.xml",
+            sceneWith("<shape type=\"ply\" id=\"m\"><string name=\"filename\" value=\"m.ply\"/><bsdf "
+                      "type=\"mask\"><texture type=\"mesh_attribute\" name=\"opacity\"><string name=\"name\" "
+                      "value=\"" +
+                      attribute + "\"/></texture><bsdf type=\"diffuse\"/></bsdf></shape>"));
+    };
+    EXPECT_THAT(
+        test::errorOf(mask("vertex_color")),
+        HasSubstr("scene.xml:4:1: attribute 'vertex_color' of shape 'm' has 3 channels, but a number is wanted"));
+    EXPECT_EQ(loadScene(mask("vertex_w")).shapes.at(0).mesh.attributes.at(0).values.at(0).g, .4f);
+}
+
+TEST(Textures, OneWithinItselfIsSaid) {
+    SceneFiles files;
+    const std::string board = "<texture type=\"checkerboard\" id=\"t\"><ref id=\"t\" name=\"color0\"/></texture>\n";
+    EXPECT_THAT(test::errorOf(files.write(
+                    "scene.xml", sceneWith(board + "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><ref id=\"t\" "
+                                                   "name=\"reflectance\"/></bsdf></shape>"))),
+                HasSubstr("scene.xml:4:1: texture 't' contains itself"));
+}
+
+TEST(Textures, ARawConstantIsANumberOrAVector) {
+    const auto inDiffuse = [](const std::string& value) {
+        return withTexture("diffuse", "<texture type=\"rawconstant\" name=\"reflectance\">\n" + value + "</texture>");
+    };
+    SceneFiles files;
+    const auto reflectance = [&](const std::string& value) {
+        return loadScene(files.write("scene.xml", inDiffuse(value))).bsdfs.at(0).front.at(0).device.reflectance;
+    };
+    EXPECT_EQ(reflectance("<float name=\"value\" value=\"0.3\"/>").b, 0.3f);
+    const Rgb vector = reflectance("<vector name=\"value\" value=\"0.1,0.2,0.9\"/>");
+    EXPECT_EQ(vector.r, 0.1f);
+    EXPECT_EQ(vector.g, 0.2f);
+    EXPECT_EQ(vector.b, 0.9f);
+    const auto error = [&](const std::string& scene) { return test::errorOf(files.write("scene.xml", scene)); };
+    EXPECT_THAT(error(inDiffuse("<rgb name=\"value\" value=\"0.1\"/>")), HasSubstr("scene.xml:6:1:"));
+    EXPECT_THAT(error(inDiffuse("<float name=\"value\" value=\"1.5\"/>")), HasSubstr("within [0, 1]"));
+    EXPECT_THAT(error(inDiffuse("")), HasSubstr("scene.xml:5:1: texture 'rawconstant' needs the parameter 'value'"));
+    EXPECT_THAT(
+        error(withTexture("roughconductor", "<texture type=\"rawconstant\" name=\"alpha\"><vector name=\"value\" "
+                                            "value=\"0.1,0.2,0.3\"/></texture>")),
+        HasSubstr("scene.xml:5:1: parameter 'alpha' of bsdf 'roughconductor' is a number"));
 }
 
 TEST(Textures, BrightPixelsAreClampedWithAWarning) {

@@ -201,6 +201,9 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.textures = tables.append(textures.textures);
     out.offsets.texels = tables.append(textures.texels);
     out.offsets.uvs = tables.append(flattenUvs(scene));
+    out.offsets.attributes = tables.append(textures.attributes);
+    out.features.nestedTextures = textures.areNested;
+    out.features.meshAttributes = !textures.attributes.empty();
     out.offsets.media = appendMedia(media, tables);
     out.offsets.reliefs = tables.append(materials.reliefs);
     out.offsets.lobeWeights = tables.append(materials.weights);

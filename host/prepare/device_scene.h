@@ -90,8 +90,10 @@ MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecisi
 struct TextureTables {
     std::vector<shared::Texture> textures;
     std::vector<Rgb> texels;
+    std::vector<uint32_t> attributes; ///< as shared::Texture has them
+    bool areNested = false;           ///< some are within others
 };
-/// Only textures that `materials` or `emitters` use bring texels.
+/// Only textures that `materials` or `emitters` use bring texels and attributes.
 TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters);
 /// Words of a textured shape in the table of flattenUvs; 0 for others.
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape);

@@ -35,6 +35,8 @@ constexpr std::array flags = {
     Flag{&Features::thinLens, "HAS_THIN_LENS", "thin lens"},
     Flag{&Features::filterTable, "HAS_FILTER_TABLE", "tabulated reconstruction filter"},
     Flag{&Features::textures, "HAS_TEXTURES", "textures"},
+    Flag{&Features::nestedTextures, "HAS_NESTED_TEXTURES", "textures within textures"},
+    Flag{&Features::meshAttributes, "HAS_MESH_ATTRIBUTES", "attributes of meshes"},
     Flag{&Features::lobeWeights, "HAS_LOBE_WEIGHTS", "blends by texture"},
     Flag{&Features::relief, "HAS_RELIEF", "normal and bump maps"},
     Flag{&Features::media, "HAS_MEDIA", "media"},

@@ -1,44 +1,88 @@
 // Textures, their texels, and texture coordinates of the shapes that have some.
 #include "prepare/device_scene.h"
+#include "scene/color.h"
+#include "scene/textures/texture_use.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 
 namespace quasilux {
 
 namespace {
 
-std::vector<bool> texturesInUse(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters) {
-    std::vector<bool> used(scene.textures.size() + 1); // [0]: of lobes and emitters that have none
-    for (const auto& lobe : materials.lobes) used[lobe.reflectanceTexture] = used[lobe.transmittanceTexture] = true;
-    for (const auto& weight : materials.weights) used[weight.texture + 1] = true;
-    for (const auto& relief : materials.reliefs) used[relief.texture + 1] = true;
-    for (const auto& emitter : emitters.emitters) used[emitter.texture] = true;
-    used.erase(used.begin());
-    return used;
+std::vector<unsigned> texturesInUse(const Scene& scene, const MaterialTables& materials,
+                                    const EmitterTables& emitters) {
+    std::vector<unsigned> used;
+    for (const auto& lobe : materials.lobes)
+        for (const unsigned number : {lobe.reflectanceTexture, lobe.transmittanceTexture})
+            if (number > 0) used.push_back(number - 1);
+    for (const auto& weight : materials.weights) used.push_back(weight.texture);
+    for (const auto& relief : materials.reliefs) used.push_back(relief.texture);
+    for (const auto& emitter : emitters.emitters)
+        if (emitter.texture > 0) used.push_back(emitter.texture - 1);
+    return withNested(scene, used);
+}
+
+void appendColor(Rgb color, std::vector<uint32_t>& words) {
+    for (const float channel : {color.r, color.g, color.b}) words.push_back(std::bit_cast<uint32_t>(channel));
+}
+
+/// Of the mesh the attribute that the texture shows, as the kernels read it.
+void appendAttribute(const TextureDescription& texture, const Mesh& mesh, std::vector<uint32_t>& words) {
+    const auto shown =
+        std::find_if(mesh.attributes.begin(), mesh.attributes.end(),
+                     [&](const MeshAttribute& attribute) { return attribute.name == texture.attribute; });
+    const auto append = [&](size_t index) {
+        const Rgb value = shown->values.at(index) * texture.attributeScale;
+        appendColor({std::min(value.r, 1.0f), std::min(value.g, 1.0f), std::min(value.b, 1.0f)}, words);
+    };
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (shown->isOfFaces())
+            append(t);
+        else
+            for (glm::length_t corner = 0; corner < 3; ++corner) append(mesh.triangles[t][corner]);
+    }
+}
+
+/// Adds the attributes that the texture of this index shows. Returns where it is said in which word those of a shape begin.
+unsigned appendAttributes(unsigned index, const Scene& scene, std::vector<uint32_t>& words) {
+    const size_t directory = words.size();
+    words.resize(directory + scene.shapes.size(), QL_NONE);
+    for (size_t k = 0; k < scene.shapes.size(); ++k) {
+        const ShapeDescription& shape = scene.shapes[k];
+        if (shape.mesh.attributes.empty()) continue;
+        const auto shown = withNested(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)].textures());
+        if (std::find(shown.begin(), shown.end(), index) == shown.end()) continue;
+        words[directory + k] = static_cast<uint32_t>(words.size());
+        appendAttribute(scene.textures[index], shape.mesh, words);
+    }
+    return static_cast<unsigned>(directory);
 }
 
 } // namespace
 
 TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters) {
-    const std::vector<bool> used = texturesInUse(scene, materials, emitters);
     TextureTables tables;
+    for (const TextureDescription& texture : scene.textures) tables.textures.push_back(texture.device);
     std::map<const void*, unsigned> placed; // images that several textures share, by Texels::identity
-    for (unsigned k = 0; k < scene.textures.size(); ++k) {
-        shared::Texture record = scene.textures[k].device;
+    for (const unsigned k : texturesInUse(scene, materials, emitters)) {
+        shared::Texture& record = tables.textures[k];
         const Texels& texels = scene.textures[k].texels;
-        if (used[k]) {
-            const auto [image, isNew] = placed.emplace(texels.identity(), static_cast<unsigned>(tables.texels.size()));
-            record.firstTexel = image->second;
-            if (isNew) tables.texels.insert(tables.texels.end(), texels.begin(), texels.end());
+        tables.areNested |= record.texture0 > 0 || record.texture1 > 0;
+        if (!scene.textures[k].attribute.empty()) {
+            record.firstTexel = appendAttributes(k, scene, tables.attributes);
+            continue;
         }
-        tables.textures.push_back(record);
+        const auto [image, isNew] = placed.emplace(texels.identity(), static_cast<unsigned>(tables.texels.size()));
+        record.firstTexel = image->second;
+        if (isNew) tables.texels.insert(tables.texels.end(), texels.begin(), texels.end());
     }
     return tables;
 }
 
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape) {
-    if (shape.bsdf < 0 || !scene.bsdfs[static_cast<size_t>(shape.bsdf)].isTextured()) return 0;
+    if (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)])) return 0;
     return shape.sphere ? 9u : static_cast<unsigned>(2 * shape.mesh.cornerUvs.size());
 }
 

@@ -68,6 +68,10 @@ float toFiniteFloat(double value, const SourceLocation& where, const std::string
     return single;
 }
 
+float decodeSrgb(float encoded) {
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
 Rgb parseColor(const Element& element, ColorUse use, LoadContext& context) {
     if (element.tag == "rgb") return parseRgb(element);
     if (element.tag == "spectrum") return parseSpectrumParameter(element, use, context);

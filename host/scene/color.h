@@ -17,6 +17,9 @@ enum class ColorUse { reflectance, unbounded, emission };
 /// Linear sRGB of a parameter element. Throws InputError for anything but finite numbers and spectra.
 Rgb parseColor(const Element& element, ColorUse use, LoadContext& context);
 
+/// Linear value of a channel within [0, 1] that is sRGB encoded (IEC 61966-2-1).
+float decodeSrgb(float encoded);
+
 /// Single precision. Throws InputError where the number is too large for it.
 float toFiniteFloat(double value, const SourceLocation& where, const std::string& what);
 

@@ -53,6 +53,7 @@ public:
     std::set<const Element*> usedEmitters;                             ///< that a shape has
     std::set<const Element*> usedGroups;                               ///< shapegroups that an instance places
     std::optional<glm::dmat4> placement;                               ///< of the instance whose shapes are being read
+    std::set<std::string> brightAttributes;                            ///< of meshes, warned of
     /// Of the files that instances place more than once, by path and options.
     std::map<std::string, std::shared_ptr<const MeshSource>> instancedMeshes;
 

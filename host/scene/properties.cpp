@@ -52,8 +52,14 @@ const Element* Properties::find(const std::string& name, const Names& tags) {
 }
 
 double Properties::number(const std::string& name, double missing) {
-    if (const Element* constant = constantTexture(name))
-        return luminance(readConstantTexture(*constant, ColorUse::unbounded, context_));
+    if (const Element* constant = constantTexture(name)) {
+        const Rgb color = readConstantTexture(*constant, ColorUse::unbounded, context_);
+        if (constant->get("type") == "rawconstant" && smallest(color) != largest(color))
+            throw InputError(constant->where, fmt::format("parameter '{}' of {} is a number; expected <float "
+                                                          "name=\"value\"> in the rawconstant, not a vector.",
+                                                          name, describe()));
+        return luminance(color);
+    }
     const Element* parameter = find(name, {"float", "integer"});
     if (!parameter) return missing;
     return parseNumber(parameter->get("value"), parameter->where, fmt::format("parameter '{}'", name));

@@ -46,8 +46,10 @@ struct Bsdf {
     std::optional<shared::Relief> frontRelief, backRelief; ///< what bends the normals; textures count from 0
     bool isNull = false;
 
+    /// Of its lobes and what bends the normals, without those within them; each as often as it is used.
+    std::vector<unsigned> textures() const;
     /// Whether any lobe, or what bends the normals, has a texture.
-    bool isTextured() const;
+    bool isTextured() const { return !textures().empty(); }
     /// Whether light passes as if the surface were not there, at least in part.
     bool letsPass() const;
 };
@@ -85,15 +87,28 @@ enum class TextureUse { reflectance, emission };
 struct TextureDescription {
     TextureUse use = TextureUse::reflectance;
     shared::Texture device{};
-    Texels texels; ///< bitmap
+    Texels texels;            ///< bitmap
+    std::string attribute;    ///< of meshes: its name
+    float attributeScale = 1; ///< a factor on it
+    bool isNumber = false;    ///< a weight is wanted, so that an attribute may have one channel only
     SourceLocation where;
 };
 
+/// Values that a mesh file gives its vertices (names vertex_…) or faces (face_…).
+struct MeshAttribute {
+    std::string name;
+    unsigned channels = 3;   ///< 1 or 3
+    std::vector<Rgb> values; ///< by index into Mesh::positions, or by triangle; of one channel grey
+
+    bool isOfFaces() const { return name.rfind("face_", 0) == 0; }
+};
+
 struct Mesh {
-    std::vector<glm::vec3> positions;     ///< world space
-    std::vector<glm::uvec3> triangles;    ///< indices into positions; counter-clockwise seen from the normal's side
-    std::vector<glm::vec3> cornerNormals; ///< 3 per triangle, unit; empty = flat. flip_normals is already applied
-    std::vector<glm::vec2> cornerUvs;     ///< 3 per triangle; empty = the mesh has none
+    std::vector<glm::vec3> positions;      ///< world space
+    std::vector<glm::uvec3> triangles;     ///< indices into positions; counter-clockwise seen from the normal's side
+    std::vector<glm::vec3> cornerNormals;  ///< 3 per triangle, unit; empty = flat. flip_normals is already applied
+    std::vector<glm::vec2> cornerUvs;      ///< 3 per triangle; empty = the mesh has none
+    std::vector<MeshAttribute> attributes; ///< of the file, those that the bsdf shows
 };
 
 struct Sphere {

@@ -16,8 +16,6 @@ constexpr std::string_view ofSky =
 constexpr std::string_view derivatives = "it is there for derivatives; use 'path', or 'volpath' where there are media";
 
 constexpr Unsupported unsupported[] = {
-    {"shape", "bsplinecurve", asMesh},
-    {"shape", "linearcurve", asMesh},
     {"shape", "sdfgrid", asMesh},
     {"shape", "ellipsoids", asMesh},
     {"shape", "ellipsoidsmesh", asMesh},
@@ -29,9 +27,7 @@ constexpr Unsupported unsupported[] = {
     {"bsdf", "polarizer", noPolarisation},
     {"bsdf", "retarder", noPolarisation},
     {"bsdf", "circular", noPolarisation},
-    {"texture", "mesh_attribute", "use a 'bitmap' and texture coordinates"},
     {"texture", "volume", "use a 'bitmap' and texture coordinates"},
-    {"texture", "rawconstant", "give the value itself, or use 'uniform'"},
     {"emitter", "directionalarea", "use 'directional'"},
     {"emitter", "sunsky", ofSky},
     {"emitter", "timed_sunsky", ofSky},

@@ -20,12 +20,17 @@ LobeDescription makeLobe(unsigned type, const std::string& name, const Reflectan
     return lobe;
 }
 
-bool Bsdf::isTextured() const {
-    const auto textured = [](const LobeDescription& lobe) {
-        return lobe.device.reflectanceTexture != 0 || lobe.device.transmittanceTexture != 0 || !lobe.weights.empty();
-    };
-    return frontRelief || backRelief || std::any_of(front.begin(), front.end(), textured) ||
-           std::any_of(back.begin(), back.end(), textured);
+std::vector<unsigned> Bsdf::textures() const {
+    std::vector<unsigned> all;
+    for (const auto* side : {&front, &back})
+        for (const LobeDescription& lobe : *side) {
+            for (const unsigned number : {lobe.device.reflectanceTexture, lobe.device.transmittanceTexture})
+                if (number > 0) all.push_back(number - 1);
+            for (const shared::LobeWeight& weight : lobe.weights) all.push_back(weight.texture);
+        }
+    for (const auto* relief : {&frontRelief, &backRelief})
+        if (*relief) all.push_back((*relief)->texture);
+    return all;
 }
 
 bool Bsdf::letsPass() const {

@@ -7,16 +7,6 @@
 
 namespace quasilux {
 
-namespace {
-
-// Axes across the unit `n` (Duff et al. 2017, "Building an orthonormal basis, revisited"), which Mitsuba counts the angle from.
-std::pair<glm::dvec3, glm::dvec3> axesAcross(const glm::dvec3& n) {
-    const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
-}
-
-} // namespace
-
 void readCylinder(Properties& properties, ShapeDescription& shape) {
     constexpr unsigned sectors = roundSectors;
     const glm::dvec3 from = properties.vector("p0", {0, 0, 0}), to = properties.vector("p1", {0, 0, 1});

@@ -104,6 +104,11 @@ double roundRadius(unsigned sectors) {
     return std::sqrt(angle / std::sin(angle));
 }
 
+std::pair<glm::dvec3, glm::dvec3> axesAcross(const glm::dvec3& n) {
+    const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+}
+
 Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
               const std::vector<glm::vec2>& uvs, const glm::dmat4& toWorld, bool flipNormals,
               const SourceLocation& where) {
@@ -131,6 +136,7 @@ Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNorm
     const bool keepNormals = !faceNormals && !areFlat(normals, source, world);
 
     const bool hasUvs = everyCornerHasUv(source);
+    mesh.attributes = source.attributes;
 
     for (size_t t = 0; t < source.triangles.size(); ++t) {
         const auto& corner = source.triangles[t];

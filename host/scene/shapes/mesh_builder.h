@@ -12,6 +12,9 @@ namespace quasilux {
 inline constexpr unsigned roundSectors = 256;
 double roundRadius(unsigned sectors);
 
+/// Axes across the unit `n` (Duff et al. 2017, "Building an orthonormal basis, revisited"), which Mitsuba counts the angle from.
+std::pair<glm::dvec3, glm::dvec3> axesAcross(const glm::dvec3& n);
+
 /// A mesh in its own space.
 struct MeshSource {
     struct Corner {
@@ -23,6 +26,7 @@ struct MeshSource {
     std::vector<glm::dvec3> positions, normals;
     std::vector<glm::dvec2> uvs;
     std::vector<std::array<Corner, 3>> triangles;
+    std::vector<MeshAttribute> attributes; ///< by position or by triangle
 };
 
 /// Built-in shapes with flat faces: `triangles` are counter-clockwise seen from the side of the normal, and stay so

@@ -1,5 +1,6 @@
 // <shape type="ply">: Stanford PLY, ascii or binary of either byte order. Polygons are fanned.
 #include "scene/shapes/mesh_builder.h"
+#include "scene/shapes/ply_attributes.h"
 #include "scene/shapes/ply_reader.h"
 #include "scene/shapes/shape_plugin.h"
 #include "scene/xml/xml_document.h"
@@ -47,27 +48,38 @@ private:
         const int u = findProperty(element, {"u", "s"}), v = findProperty(element, {"v", "t"});
         if (x < 0 || y < 0 || z < 0) reader_.failFile("the vertices have no x, y, z.");
         const bool hasNormals = nx >= 0 && ny >= 0 && nz >= 0;
+        PlyAttributes attributes(element, "vertex_");
         for (uint64_t i = 0; i < element.count; ++i) {
             readRow(element, i);
             const auto vector = [&](int a, int b, int c) { return glm::dvec3(scalar(a), scalar(b), scalar(c)); };
             mesh_.positions.push_back(vector(x, y, z));
             if (hasNormals) mesh_.normals.push_back(vector(nx, ny, nz));
             if (u >= 0 && v >= 0) mesh_.uvs.emplace_back(scalar(u), flipTexCoords_ ? 1 - scalar(v) : scalar(v));
+            attributes.addRow(row_);
         }
+        take(attributes);
     }
 
     void readFaces(const PlyElement& element) {
         const int indices = findProperty(element, {"vertex_indices", "vertex_index"});
         if (indices < 0 || !element.properties[static_cast<size_t>(indices)].isList)
             reader_.failFile("the faces have no list vertex_indices.");
+        PlyAttributes attributes(element, "face_");
         for (uint64_t i = 0; i < element.count; ++i) {
             readRow(element, i);
             const std::vector<double>& corners = row_[static_cast<size_t>(indices)];
             if (corners.size() < 3)
                 reader_.failRow(fmt::format("a face with {} corners; expected at least three.", corners.size()));
-            for (size_t c = 2; c < corners.size(); ++c)
+            for (size_t c = 2; c < corners.size(); ++c) {
                 mesh_.triangles.push_back({makeCorner(corners[0]), makeCorner(corners[c - 1]), makeCorner(corners[c])});
+                attributes.addRow(row_);
+            }
         }
+        take(attributes);
+    }
+
+    void take(PlyAttributes& attributes) {
+        for (MeshAttribute& attribute : attributes.attributes()) mesh_.attributes.push_back(std::move(attribute));
     }
 
     void skip(const PlyElement& element) {

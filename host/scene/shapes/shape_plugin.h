@@ -45,6 +45,8 @@ void readRectangle(Properties& properties, ShapeDescription& shape);
 void readCube(Properties& properties, ShapeDescription& shape);
 void readDisk(Properties& properties, ShapeDescription& shape);
 void readCylinder(Properties& properties, ShapeDescription& shape);
+void readBsplineCurve(Properties& properties, ShapeDescription& shape);
+void readLinearCurve(Properties& properties, ShapeDescription& shape);
 void readSphere(Properties& properties, ShapeDescription& shape);
 void readObj(Properties& properties, ShapeDescription& shape);
 void readPly(Properties& properties, ShapeDescription& shape);

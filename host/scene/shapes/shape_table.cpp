@@ -6,6 +6,7 @@
 #include "scene/emitters/emitters.h"
 #include "scene/media/medium_plugin.h"
 #include "scene/shapes/shape_area.h"
+#include "scene/textures/texture_use.h"
 
 #include <fmt/format.h>
 
@@ -16,11 +17,20 @@ namespace {
 struct ShapePlugin {
     std::string_view name;
     void (*read)(Properties&, ShapeDescription&);
+    bool hasInside = true; ///< that a medium may fill
 };
 
 constexpr ShapePlugin shapePlugins[] = {
-    {"rectangle", readRectangle}, {"cube", readCube}, {"disk", readDisk}, {"cylinder", readCylinder},
-    {"sphere", readSphere},       {"obj", readObj},   {"ply", readPly},   {"serialized", readSerialized},
+    {"rectangle", readRectangle},
+    {"cube", readCube},
+    {"disk", readDisk},
+    {"cylinder", readCylinder},
+    {"sphere", readSphere},
+    {"obj", readObj},
+    {"ply", readPly},
+    {"serialized", readSerialized},
+    {"bsplinecurve", readBsplineCurve, false},
+    {"linearcurve", readLinearCurve, false},
 };
 
 /// Plugins that readShapes takes apart.
@@ -49,11 +59,15 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     const Element* interior = properties.medium("interior");
     const Element* exterior = properties.medium("exterior");
     properties.finish();
+    if (!plugin.hasInside && (interior || exterior))
+        throw InputError((interior ? interior : exterior)->where,
+                         fmt::format("{} bounds no medium; use another shape.", properties.describe()));
     if (interior) shape.interior = useMedium(*interior, context);
     if (exterior) shape.exterior = useMedium(*exterior, context);
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
+    keepShownAttributes(shape, context);
     if (!shape.sphere && shape.mesh.cornerUvs.empty() &&
-        context.scene.bsdfs[static_cast<size_t>(shape.bsdf)].isTextured())
+        needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
         throw InputError(shape.where,
                          fmt::format("shape '{}' has no texture coordinates, or not at every corner, but its bsdf has "
                                      "a texture; add them to the mesh file, or use a bsdf without textures.",

@@ -5,8 +5,13 @@ namespace quasilux {
 
 void readCheckerboard(Properties& properties, TextureDescription& texture) {
     texture.device.type = TEXTURE_CHECKERBOARD;
-    texture.device.color0 = properties.reflectance("color0", 0.4f);
-    texture.device.color1 = properties.reflectance("color1", 0.2f);
+    const Reflectance first = readReflectance(properties, "color0", 0.4f);
+    const Reflectance second = readReflectance(properties, "color1", 0.2f);
+    // Of a texture the largest value, which its own never exceed.
+    texture.device.color0 = first.largest;
+    texture.device.color1 = second.largest;
+    texture.device.texture0 = first.texture;
+    texture.device.texture1 = second.texture;
 }
 
 } // namespace quasilux

@@ -26,6 +26,20 @@ Rgb readUniform(Properties& properties, ColorUse) {
     return {value, value, value};
 }
 
+/// A number, or a vector of three channels.
+Rgb readRawConstant(Properties& properties, ColorUse) {
+    require(properties, "value", "<float name=\"value\" value=\"0.5\"/>");
+    const SourceLocation where = properties.where("value");
+    const Element* given = properties.find("value");
+    if (!given || given->tag != "vector") {
+        const float value = toFiniteFloat(properties.number("value", 0), where, "parameter 'value'");
+        return {value, value, value};
+    }
+    const glm::dvec3 value = properties.vector("value", {});
+    const auto channel = [&](double number) { return toFiniteFloat(number, where, "parameter 'value'"); };
+    return {channel(value.x), channel(value.y), channel(value.z)};
+}
+
 Rgb readSrgb(Properties& properties, ColorUse) {
     require(properties, "color", "<rgb name=\"color\" value=\"0.2,0.4,0.6\"/>");
     return properties.boolean("unbounded", false) ? properties.positiveColor("color", {})
@@ -98,8 +112,9 @@ struct ConstantTexturePlugin {
 };
 
 constexpr ConstantTexturePlugin constantTextures[] = {
-    {"uniform", readUniform}, {"srgb", readSrgb},           {"d65", readD65},
-    {"regular", readRegular}, {"irregular", readIrregular}, {"blackbody", readBlackbody},
+    {"uniform", readUniform},         {"srgb", readSrgb},           {"d65", readD65},
+    {"regular", readRegular},         {"irregular", readIrregular}, {"blackbody", readBlackbody},
+    {"rawconstant", readRawConstant},
 };
 
 const ConstantTexturePlugin* findConstant(const Element& element) {

@@ -1,4 +1,5 @@
 // Image files for textures, by OpenImageIO.
+#include "scene/color.h"
 #include "scene/textures/texture_plugin.h"
 #include "scene/xml/xml_document.h"
 
@@ -13,11 +14,6 @@ namespace quasilux {
 namespace {
 
 constexpr int64_t maximumPixels = 1 << 26; // 800 MB of texels
-
-/// IEC 61966-2-1.
-float decodeSrgb(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
 
 [[noreturn]] void failImage(const std::string& path, const std::string& why, const SourceLocation& where) {
     throw InputError(where, fmt::format("cannot read the image '{}': {}", path, why));

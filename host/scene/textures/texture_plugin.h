@@ -14,6 +14,7 @@ bool replacesTexture(const Element& element, LoadContext& context);
 
 void readCheckerboard(Properties& properties, TextureDescription& texture);
 void readBitmap(Properties& properties, TextureDescription& texture);
+void readMeshAttribute(Properties& properties, TextureDescription& texture);
 
 /// A reflectance as the scene gives it: a colour, or 1 times a texture.
 struct Reflectance {

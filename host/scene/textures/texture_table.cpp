@@ -14,9 +14,11 @@ namespace {
 struct TexturePlugin {
     std::string_view name;
     void (*read)(Properties&, TextureDescription&);
+    bool hasCoordinates = true; ///< that to_uv transforms
 };
 
-constexpr TexturePlugin texturePlugins[] = {{"checkerboard", readCheckerboard}, {"bitmap", readBitmap}};
+constexpr TexturePlugin texturePlugins[] = {
+    {"checkerboard", readCheckerboard}, {"bitmap", readBitmap}, {"mesh_attribute", readMeshAttribute, false}};
 
 /// As in Mitsuba, what the transform does within the plane of x and y.
 void readToUv(Properties& properties, shared::Texture& texture) {
@@ -58,6 +60,33 @@ Rgb greyOf(float value) { return {value, value, value}; }
 Rgb meanOf(Rgb color) { return greyOf((color.r + color.g + color.b) / 3); }
 Rgb luminanceOf(Rgb color) { return greyOf(0.212671f * color.r + 0.715160f * color.g + 0.072169f * color.b); }
 
+/// Index of the texture of numbers that the one of colours at `index` is where numbers are wanted.
+unsigned scalarTexture(unsigned index, LoadContext& context) {
+    std::vector<TextureDescription>& textures = context.scene.textures;
+    const unsigned type = textures[index].device.type;
+    if (type == TEXTURE_BITMAP && isGreyBitmap(textures[index])) return index;
+    const auto known = context.scalarTextureIndex.find(static_cast<int>(index));
+    if (known != context.scalarTextureIndex.end()) return known->second;
+    TextureDescription grey = textures[index];
+    grey.isNumber = true;
+    if (type == TEXTURE_CHECKERBOARD) {
+        // Mitsuba 3.9 has the squares the other way round where it asks a checkerboard for numbers.
+        std::swap(grey.device.color0, grey.device.color1);
+        std::swap(grey.device.texture0, grey.device.texture1);
+        grey.device.color0 = meanOf(grey.device.color0);
+        grey.device.color1 = meanOf(grey.device.color1);
+        for (unsigned* number : {&grey.device.texture0, &grey.device.texture1})
+            if (*number > 0) *number = scalarTexture(*number - 1, context) + 1;
+    }
+    std::vector<Rgb> luminances(grey.texels.size());
+    std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
+    grey.texels = std::move(luminances);
+    textures.push_back(std::move(grey));
+    const auto copy = static_cast<unsigned>(textures.size() - 1);
+    context.scalarTextureIndex.emplace(static_cast<int>(index), copy);
+    return copy;
+}
+
 } // namespace
 
 bool replacesTexture(const Element& element, LoadContext& context) {
@@ -66,13 +95,18 @@ bool replacesTexture(const Element& element, LoadContext& context) {
 
 TextureDescription readTexture(const Element& element, LoadContext& context, TextureUse use) {
     const TexturePlugin& plugin = findPlugin(texturePlugins, element, constantTextureNames());
+    std::vector<const Element*>& open = context.openTextures;
+    if (std::find(open.begin(), open.end(), &element) != open.end())
+        throw InputError(element.where, fmt::format("texture '{}' contains itself; remove one <ref>.", idOf(element)));
+    open.push_back(&element);
     Properties properties(element, context);
     TextureDescription texture;
     texture.where = element.where;
     texture.use = use;
-    readToUv(properties, texture.device);
+    if (plugin.hasCoordinates) readToUv(properties, texture.device);
     plugin.read(properties, texture);
     properties.finish();
+    open.pop_back();
     return texture;
 }
 
@@ -90,7 +124,13 @@ EmissionColor readEmission(Properties& properties, const std::string& name, Rgb 
     if (!texture) return {properties.emission(name, missing), std::nullopt};
     if (replacesTexture(*texture, properties.context())) return {{0.5f, 0.5f, 0.5f}, std::nullopt};
     const int index = useTexture(*texture, properties.context(), TextureUse::emission);
-    if (isBlack(largestValue(properties.context().scene.textures[static_cast<size_t>(index)])))
+    const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
+    if (!read.attribute.empty() || read.device.texture0 > 0 || read.device.texture1 > 0)
+        throw InputError(texture->where,
+                         fmt::format("the texture '{}' of {} is looked up by direction, so it must be a 'bitmap' or a "
+                                     "'checkerboard' of two colours; bake it into an image.",
+                                     name, properties.describe()));
+    if (isBlack(largestValue(read)))
         throw InputError(texture->where,
                          fmt::format("the texture '{}' of {} is black, so it emits nothing; remove the emitter.", name,
                                      properties.describe()));
@@ -102,24 +142,7 @@ unsigned useColorTexture(const Element& element, LoadContext& context) {
 }
 
 unsigned useScalarTexture(const Element& element, LoadContext& context) {
-    const int index = useTexture(element, context);
-    std::vector<TextureDescription>& textures = context.scene.textures;
-    const bool isBoard = textures[static_cast<size_t>(index)].device.type == TEXTURE_CHECKERBOARD;
-    if (!isBoard && isGreyBitmap(textures[static_cast<size_t>(index)])) return static_cast<unsigned>(index);
-    const auto known = context.scalarTextureIndex.find(index);
-    if (known != context.scalarTextureIndex.end()) return known->second;
-    TextureDescription grey = textures[static_cast<size_t>(index)];
-    // Mitsuba 3.9 has the squares the other way round where it asks a checkerboard for numbers.
-    std::swap(grey.device.color0, grey.device.color1);
-    grey.device.color0 = meanOf(grey.device.color0);
-    grey.device.color1 = meanOf(grey.device.color1);
-    std::vector<Rgb> luminances(grey.texels.size());
-    std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
-    grey.texels = std::move(luminances);
-    textures.push_back(std::move(grey));
-    const auto copy = static_cast<unsigned>(textures.size() - 1);
-    context.scalarTextureIndex.emplace(index, copy);
-    return copy;
+    return scalarTexture(static_cast<unsigned>(useTexture(element, context)), context);
 }
 
 Scalar readShare(Properties& properties, const std::string& name, float missing) {

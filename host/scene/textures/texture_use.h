@@ -1,0 +1,17 @@
+// What the textures of a bsdf need of the shapes that it is on.
+#pragma once
+
+#include "scene/load_context.h"
+
+namespace quasilux {
+
+/// These textures and those that are within them, each once; by index into Scene::textures.
+std::vector<unsigned> withNested(const Scene& scene, const std::vector<unsigned>& textures);
+
+/// Whether texture coordinates are asked for: attributes of meshes need none.
+bool needsTexCoords(const Scene& scene, const Bsdf& bsdf);
+
+/// Of a shape's attributes leaves those that its bsdf shows. Throws InputError at the shape where it lacks one, or where one does not fit.
+void keepShownAttributes(ShapeDescription& shape, LoadContext& context);
+
+} // namespace quasilux
