@@ -49,10 +49,11 @@ Growth growthTo(const PilotMeasure& pilot, double passes) {
 // Passes grow cheaper as radii shrink.
 double passesAfter(const PilotMeasure& pilot, double seconds) {
     double passes = pilot.passes, left = std::max(0.0, seconds);
-    const double toldBy = radiusShrink(pilot.passes * 3 / 4), even = pilot.secondsPerPass - pilot.secondsWithRadius;
+    const double measuredShrink = radiusShrink(pilot.passes * 3 / 4),
+                 even = pilot.secondsPerPass - pilot.secondsWithRadius;
     while (true) {
         const double step = passesAtOnce(passes);
-        const double shrink = radiusShrink(middleOf(passes, step)) / toldBy;
+        const double shrink = radiusShrink(middleOf(passes, step)) / measuredShrink;
         const double cost = std::max(even + shrink * shrink * pilot.secondsWithRadius, 1e-9);
         if (left <= step * cost) return passes + left / cost;
         passes += step;
@@ -125,9 +126,9 @@ std::vector<Estimate> biasesOf(const std::vector<PilotMeasure>& pilots) {
     bool allKnown = true;
     for (const auto& pilot : pilots) {
         const double ofRadius = std::pow(pilot.radius, 2 * biasByRadius);
-        const Estimate told = biasOf(pilot);
-        biases.push_back({told.value / ofRadius, told.standardError / ofRadius});
-        allKnown &= told.standardError > 0;
+        const Estimate bias = biasOf(pilot);
+        biases.push_back({bias.value / ofRadius, bias.standardError / ofRadius});
+        allKnown &= bias.standardError > 0;
     }
     if (!allKnown) return biases;
     const Common common(biases);

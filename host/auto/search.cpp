@@ -83,15 +83,19 @@ unsigned Search::cameraPathsOf(const Contender& contender) const {
                                 : contender.settings.cameraPaths;
 }
 
+PilotMeasure Search::withPaths(const Contender& contender, unsigned cameraPaths) {
+    return withCameraPaths(contender.measure, double(cameraPaths) / contender.settings.cameraPaths);
+}
+
 PilotMeasure Search::atItsBest(const Contender& contender) const {
-    return withCameraPaths(contender.measure, double(cameraPathsOf(contender)) / contender.settings.cameraPaths);
+    return withPaths(contender, cameraPathsOf(contender));
 }
 
 // Two of its passes may not know the noise well; with those of a race of numbers it is chosen anew.
 void Search::chooseCameraPaths() {
     if (!best_.pilot) return;
     const unsigned paths = cameraPathsOf(best_);
-    best_.measure = atItsBest(best_);
+    best_.measure = withPaths(best_, paths); // not by a second choice: the clock runs on
     best_.settings.cameraPaths = report_.rows[best_.row].settings.cameraPaths = paths;
 }
 

@@ -57,7 +57,8 @@ private:
     void race(const std::vector<RenderSettings>& candidates, unsigned fewestPasses, double leastGain, double seconds);
     /// Camera paths of a pixel in a pass with which these settings have the least error.
     unsigned cameraPathsOf(const Contender& contender) const;
-    /// What the contender would measure with so many. All are compared by it: one whose photons cost much and carry little is not to
+    static PilotMeasure withPaths(const Contender& contender, unsigned cameraPaths);
+    /// What the contender would measure with as many as serve it best. All are compared by it: one whose photons cost much and carry little is not to
     /// be given up for what it is with one path.
     PilotMeasure atItsBest(const Contender& contender) const;
     void chooseCameraPaths();

@@ -164,12 +164,16 @@ Allocation Device::allocate(size_t bytes, const std::string& label) {
     }
 }
 
+double secondsOf(const cl::Event& event) {
+    return 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                                      event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+}
+
 void Device::run(const std::function<void()>& command) {
     try {
         command();
     } catch (const cl::Error& error) {
-        throw DeviceError(
-            fmt::format("device {}: running kernels failed with OpenCL error {}", info_.name, error.err()));
+        throw DeviceError(fmt::format("device {}: running kernels failed (OpenCL error {})", info_.name, error.err()));
     }
 }
 
@@ -195,8 +199,7 @@ const std::map<std::string, KernelTiming>& Device::timings() {
         for (const auto& [kernel, event] : ended) {
             auto& timing = timings_[kernel];
             ++timing.launches;
-            timing.seconds += 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                                                         event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
+            timing.seconds += secondsOf(event);
         }
     });
     return timings_;

@@ -38,6 +38,9 @@ struct Allocation {
     std::shared_ptr<const void> use;
 };
 
+/// That a command took on the device. Throws cl::Error.
+double secondsOf(const cl::Event& event);
+
 class Device {
 public:
     /// `index` as in listDevices(); -1 takes the first GPU, else the first device. Throws InputError if there is none.

@@ -81,8 +81,7 @@ void Kernel::set(cl_uint index, const std::function<void()>& argument) {
 
 void Kernel::notePace() {
     if (lastCount_ == 0 || last_.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() != CL_COMPLETE) return;
-    pace_.note(lastCount_, 1e-9 * static_cast<double>(last_.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                                                      last_.getProfilingInfo<CL_PROFILING_COMMAND_START>()));
+    pace_.note(lastCount_, secondsOf(last_));
 }
 
 cl::Event Kernel::enqueuePart(size_t first, size_t count, size_t group) {

@@ -265,18 +265,19 @@ struct Renderer::Stages {
     // Radii of this pass are chosen with the photons of earlier ones; where these were not rendered here, they are traced for that
     // alone.
     void catchUpRadii(unsigned pass) {
-        while (adaptive && photonClasses(flat.features, settings) != 0 &&
-               adaptive->pilotPasses() < AdaptiveRadius::pilotPassesBefore(pass)) {
+        while (adaptive && takesPhotons() && adaptive->pilotPasses() < AdaptiveRadius::pilotPassesBefore(pass)) {
             const unsigned earlier = adaptive->pilotPasses();
             photons->run(earlier, radii(earlier), volumeScale(earlier));
             chooseRadius(earlier);
         }
     }
 
+    bool takesPhotons() const { return photonClasses(flat.features, settings) != 0; }
+
     // Kernels that other methods share know photons even where this one takes none: then their map is left empty, once for all.
     PhotonPassCount tracePhotons(unsigned pass) {
         if (mapIsEmpty) return {};
-        mapIsEmpty = photonClasses(flat.features, settings) == 0;
+        mapIsEmpty = !takesPhotons();
         const auto count = photons->run(pass, radii(pass), volumeScale(pass));
         counters.photonsEmitted += photons->photonsPerPass();
         return count;
@@ -300,7 +301,7 @@ struct Renderer::Stages {
 
     void runCamera(unsigned pass) {
         camera->run(pass, *photons);
-        if (mapIsEmpty || !camera->radiusIsDue(pass)) return;
+        if (!takesPhotons() || !camera->radiusIsDue(pass)) return;
         device.finish();
         chooseRadius(pass);
     }
