@@ -106,6 +106,7 @@ typedef struct {
         direct; /* one of all that the path found, in proportion to their weights, with their sum */
     PilotVertex vertices[PILOT_VERTICES]; /* the first one is where photons are gathered */
     float radiance;                       /* of the whole path, mean of R, G, B */
+    float gatheredShare;                  /* of the direct light, what photons might bring instead of samples */
     unsigned int pixel;
 } PilotPath;
 

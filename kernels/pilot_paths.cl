@@ -36,12 +36,12 @@ typedef struct {
 
 inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
 
-/* Keeps one of the records that a path finds, in proportion to their weights, with the sum of all. */
-inline void keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float inverseDensity,
-                       float3 position, float3 direction, Rng* rng) {
-    if (!(weight > 0) || !isfinite(weight)) return;
+/* Keeps one of the records that a path finds, in proportion to their weights, with the sum of all; 0 where it keeps the one before. */
+inline int keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float inverseDensity,
+                      float3 position, float3 direction, Rng* rng) {
+    if (!(weight > 0) || !isfinite(weight)) return 0;
     kept->weight += weight;
-    if (rngNext(rng) * kept->weight >= weight) return;
+    if (rngNext(rng) * kept->weight >= weight) return 0;
     kept->inverseDensity = inverseDensity;
     kept->emitter = emitter;
     kept->element = element;
@@ -51,16 +51,19 @@ inline void keepRecord(EmissionRecord* kept, float weight, uint emitter, uint el
     kept->direction.x = direction.x;
     kept->direction.y = direction.y;
     kept->direction.z = direction.z;
+    return 1;
 }
 
 /* Light from an emitter, chosen with this probability, at the end of a segment along `direction`, where `weight` of it comes to the
- * image. */
-inline void foundEmission(PilotPath* path, const PilotState* state, int isDirect, float weight, float probability,
-                          uint emitter, uint element, float3 position, float3 direction, Rng* rng) {
+ * image; direct light: of this, photons might bring `gatheredShare`. */
+inline void foundEmission(PilotPath* path, const PilotState* state, int isDirect, float weight, float gatheredShare,
+                          float probability, uint emitter, uint element, float3 position, float3 direction, Rng* rng) {
     path->radiance += weight;
     if (!state->gathers && !isDirect) return;
-    keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element, isDirect ? 1 / probability : 0,
-               position, -direction, rng);
+    if (keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element, isDirect ? 1 / probability : 0,
+                   position, -direction, rng) &&
+        isDirect)
+        path->gatheredShare = gatheredShare;
 }
 
 inline void storeVertex(PilotPath* path, PilotState* state, float3 position, uint face) {
@@ -122,9 +125,9 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
     const float3 visible = visibility(shadow, state->medium, world->nodes, world->blocks, world->tables, scene);
     if (!any(visible > 0)) return;
     const float3 end = isinf(light.distance) ? s->position : s->position + light.distance * light.direction;
-    path->radiance += meanOf(state->throughput * other * visible);
-    foundEmission(path, state, !state->gathers, meanOf(state->throughput * wanted * visible), probability, index,
-                  element, end, light.direction, &state->rng);
+    const float found = meanOf(state->throughput * (wanted + other) * visible);
+    foundEmission(path, state, !state->gathers, found, meanOf(state->throughput * wanted * visible) / found,
+                  probability, index, element, end, light.direction, &state->rng);
 }
 
 /* Emission that the path runs into. */
@@ -141,8 +144,8 @@ inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, 
                                                            state->passed + distance, normal));
     const int isDirect = state->gathers && state->events == 0;
     const float3 radiance = emitterRadiance(emitter, &data, state->ray.direction);
-    foundEmission(path, state, isDirect, share * meanOf(state->throughput * radiance), probability, index, element, end,
-                  state->ray.direction, &state->rng);
+    foundEmission(path, state, isDirect, share * meanOf(state->throughput * radiance), 1, probability, index, element,
+                  end, state->ray.direction, &state->rng);
 }
 
 inline void noteScattering(PilotState* state, uint scattering, uint bdd) {
@@ -305,7 +308,7 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     path.indirect.emitter = path.direct.emitter = QL_NONE;
     path.indirect.weight = path.direct.weight = 0;
     path.indirect.inverseDensity = path.direct.inverseDensity = 0;
-    path.radiance = 0;
+    path.radiance = path.gatheredShare = 0;
     path.pixel = path.indirect.pixel = path.direct.pixel = pixel;
     for (uint k = 0; k < PILOT_VERTICES; ++k) path.vertices[k].weight = 0;
     PilotState state;

@@ -243,6 +243,34 @@ TEST(ManyEmitters, ListsOfDistantEmittersEnd) {
     EXPECT_EQ(choice.lights[1].first, 99u) << "the strongest first";
 }
 
+// A spot in front of a sky whose power is that of the whole, wide floor: where it shines, pilots must have met it, with genuine diffuse
+// lobes and with others. By power alone it would be chosen 300 times less often than the sky.
+TEST(ManyEmitters, AWeakSpotIsLearnedWhereItShines) {
+    for (const char* bsdf : {"diffuse", "roughconductor"}) {
+        test::SceneFiles files;
+        const Scene scene = loadScene(files.write(
+            "scene.xml",
+            R"(<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><float name="fov" value="10"/>
+            <transform name="to_world"><lookat origin="0,-3,3" target="0,0,0" up="0,0,1"/></transform><film type="hdrfilm">
+            <integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>
+            <emitter type="constant"><rgb name="radiance" value="1"/></emitter><emitter type="spot"><transform name="to_world">
+            <lookat origin="0,3,3" target="0,0,0" up="0,0,1"/></transform><rgb name="intensity" value="20"/></emitter>
+            <shape type="rectangle"><transform name="to_world"><scale value="20"/></transform><bsdf type=")" +
+                std::string(bsdf) + R"("/></shape></scene>)"));
+        RenderSettings settings;
+        settings.emission = Emission::guided;
+        const auto learned = Renderer(testDevice(), scene, settings).learned();
+        const auto& lights = learned->tables.lights;
+        ASSERT_FALSE(lights.empty());
+        for (size_t block = 0; block < lights.size(); block += LIGHT_CHOICES) {
+            double ofSpot = 0; // emitter 0; the sky is last
+            for (size_t k = 1; k <= lights[block].first; ++k)
+                if (lights[block + k].first == 0) ofSpot += lights[block + k].probability;
+            EXPECT_GT(ofSpot, 0.05) << bsdf << ", block " << block / LIGHT_CHOICES;
+        }
+    }
+}
+
 TEST(ManyEmitters, GroupsOfEmittersAreLearnedByBlock) {
     const auto learned = Renderer(testDevice(), furnaceOfSquares(), furnaceSettings()).learned();
     const auto& choices = learned->tables.lights;

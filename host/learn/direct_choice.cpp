@@ -23,8 +23,9 @@ unsigned blockSize(const shared::Camera& camera, size_t paths) {
 // What a block found of an emitter.
 struct Seen {
     unsigned emitter = 0;
-    double sum = 0, squares = 0;
-    double alone = 0; // squares as if no other emitter could have been chosen
+    double sum = 0, squares = 0; // of what photons might bring
+    // Squares as if no other emitter could have been chosen: of all, and of what photons cannot bring.
+    double alone = 0, ofRest = 0;
     double finds = 0;
 };
 using Block = std::vector<Seen>; // by emitter
@@ -44,6 +45,7 @@ Block merged(Block all) {
         sums.back().sum += seen.sum;
         sums.back().squares += seen.squares;
         sums.back().alone += seen.alone;
+        sums.back().ofRest += seen.ofRest;
         sums.back().finds += seen.finds;
     }
     return sums;
@@ -61,8 +63,9 @@ Blocks sortedByBlock(const std::vector<DirectFind>& finds, const shared::Camera&
             find.pixel / camera.width / blocks.size * blocks.columns + find.pixel % camera.width / blocks.size;
         blocks.paths[at] += 1;
         if (find.emitter == QL_NONE || !(find.value > 0)) continue;
-        const double square = find.value * find.value;
-        blocks.seen[at].push_back({find.emitter, find.value, square, square * find.probability, 1});
+        const double gathered = find.value * find.gatheredShare, rest = find.value - gathered;
+        blocks.seen[at].push_back({find.emitter, gathered, gathered * gathered,
+                                   find.value * find.value * find.probability, rest * rest * find.probability, 1});
     }
     for (Block& block : blocks.seen) block = merged(std::move(block));
     return blocks;
@@ -107,9 +110,10 @@ class Strengths {
 public:
     Strengths(const Block& seen, const std::vector<bool>& byPhotons) {
         for (const Seen& one : seen) {
-            if (byPhotons[one.emitter]) continue;
+            const double squares = byPhotons[one.emitter] ? one.ofRest : one.alone;
+            if (!(squares > 0)) continue;
             emitters_.push_back(one.emitter);
-            sums_.push_back(sums_.back() + std::sqrt(one.alone));
+            sums_.push_back(sums_.back() + std::sqrt(squares));
             finds_.push_back(finds_.back() + one.finds);
         }
     }

@@ -11,8 +11,9 @@ namespace quasilux {
 struct DirectFind {
     unsigned emitter = QL_NONE; ///< QL_NONE: none
     unsigned pixel = 0;
-    double value = 0;       ///< relative to the brightness of its part of the image
-    double probability = 1; ///< with which the emitter was chosen
+    double value = 0;         ///< relative to the brightness of its part of the image
+    double probability = 1;   ///< with which the emitter was chosen
+    double gatheredShare = 1; ///< of the value, what photons might bring instead
 };
 
 struct DirectChoice {

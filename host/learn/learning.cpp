@@ -139,7 +139,7 @@ void Learning::followPilots(bool directMayUsePhotons) {
         gathered_ += weights[k] * paths[k].vertices[0].weight;
         const auto& direct = paths[k].direct;
         finds.push_back({direct.emitter, paths[k].pixel, weights[k] * double(count) * direct.weight,
-                         direct.inverseDensity > 0 ? 1 / double(direct.inverseDensity) : 1});
+                         direct.inverseDensity > 0 ? 1 / double(direct.inverseDensity) : 1, paths[k].gatheredShare});
     }
     guide_.add(records);
     learned_.tables.guide = guide_.guide();
