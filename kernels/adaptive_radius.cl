@@ -17,24 +17,24 @@
 #define BIAS_CARE 3.0f
 #define RADIUS_SCALE_MIN 0.3f
 
-inline float sumAt(__global const float* sums, uint channel) { return sums[channel] + sums[channel + 3]; }
+/* Of the pilot's film, which has everything. */
+#define PILOT_LAYOUT (FILM_HAS_BIAS | FILM_HAS_COMPONENTS)
 
 __kernel void measureRadii(__global const float* film, __global RadiusMeasure* measures, const RadiusParams params) {
     const uint pixel = get_global_id(0);
     if (pixel >= params.width * params.height) return;
     const float n = params.passes;
-    __global const float* sums = film + (size_t)pixel * FILM_PIXEL_FLOATS;
+    __global const float* sums = film + (size_t)pixel * FILM_PIXEL_FLOATS(PILOT_LAYOUT);
     for (uint c = 0; c < LIGHT_CLASSES; ++c) {
         if (!(PHOTON_CLASSES >> c & 1)) continue;
-        __global const float* bias = sums + FILM_BIAS_SUMS + c * 9;
+        __global const float* bias = sums + FILM_CLASS_BIAS(PILOT_LAYOUT) + c * FILM_BIAS_FLOATS;
         float square = 0, noise = 0;
         for (uint channel = 0; channel < 3; ++channel) {
-            float radiance = 0;
-            for (uint k = 0; k < FILM_COMPONENTS; ++k) radiance += sumAt(sums + k * FILM_SUM_FLOATS, channel) / n;
+            const float radiance = sums[FILM_TOTAL_SUM + channel] / n;
             if (!(radiance > 0)) continue;
-            const float mean = bias[channel] / n;
+            const float sum = bias[FILM_BIAS_SUM + channel], mean = sum / n;
             square += mean * mean / (radiance * radiance);
-            noise += max(bias[3 + channel] - bias[channel] * mean, 0.f) / (n * (n - 1)) / (radiance * radiance);
+            noise += max(bias[FILM_BIAS_SQUARES + channel] - sum * mean, 0.f) / (n * (n - 1)) / (radiance * radiance);
         }
         if (!isfinite(square + noise)) square = noise = 0;
         const float perRadius = n / params.squaredRadii;

@@ -165,15 +165,15 @@ inline void tracePixel(const World* world, uint pixel, __global CameraCounters* 
 }
 
 /* A sample that is not finite counts as none, but the batch of passes that it may end is closed all the same. */
-inline void addFiniteSample(__global float* film, __global CameraCounters* counters, uint pixel, float3* components,
-                            float batchWeight) {
+inline void addFiniteSample(__global float* film, uint layout, __global CameraCounters* counters, uint pixel,
+                            float3* components, float batchWeight) {
     float3 total = 0;
     for (uint k = 0; k < FILM_COMPONENTS; ++k) total += components[k];
     if (!all(isfinite(total))) {
         atomic_inc(&counters->nonFinite);
         for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
     }
-    addSample(film, pixel, components, batchWeight);
+    addSample(film, layout, pixel, components, batchWeight);
 }
 
 /* Sum over the `paths` of a pixel of the component in this place of their samples, compensated (Kahan 1965): a meter has
@@ -207,7 +207,8 @@ __kernel void traceMeterPaths(__global const BvhNode* nodes, __global const Prim
  * `scale`. */
 __kernel void addMeterSamples(__global const float* samples, __global uint* sums, __global float* film,
                               __global CameraCounters* counters, const uint pixels, const uint samplesPerPixel,
-                              const float scale, const float quantaPerRadiance, const float batchWeight) {
+                              const float scale, const float quantaPerRadiance, const float batchWeight,
+                              const uint layout) {
     const uint pixel = get_global_id(0);
     if (pixel >= pixels) return;
     float3 components[FILM_COMPONENTS];
@@ -218,7 +219,7 @@ __kernel void addMeterSamples(__global const float* samples, __global uint* sums
 #endif
         components[c] = sum * scale;
     }
-    addFiniteSample(film, counters, pixel, components, batchWeight);
+    addFiniteSample(film, layout, counters, pixel, components, batchWeight);
 }
 #elif !defined(MAP_CAMERA)
 __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
@@ -229,16 +230,16 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
                                __global const float* radiusScales
 #endif
 ) {
-    const uint pixel = get_global_id(0);
-    if (pixel >= params.camera.width * params.camera.height) return;
+    const uint place = get_global_id(0); /* in this part of the film */
+    if (place >= params.pixels) return;
     const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map},
 #ifdef ADAPTIVE_RADIUS
                          radiusScales,
 #endif
                          &params};
     float3 components[FILM_SAMPLES];
-    tracePixel(&world, pixel, counters, components);
-    addFiniteSample(film, counters, pixel, components, params.batchWeight);
+    tracePixel(&world, params.firstPixel + place, counters, components);
+    addFiniteSample(film, params.filmLayout, counters, place, components, params.batchWeight);
 }
 #else
 /* Light that needs no photons is of these components only. */
@@ -279,7 +280,7 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
 /* Ends the pass: the sample of a pixel is what its paths took and what photons have splatted to it, times `scale`. */
 __kernel void addSamples(__global const float* samples, __global uint* sums, __global float* film,
                          __global CameraCounters* counters, const uint pixels, const uint samplesPerPixel,
-                         const float scale, const float quantaPerRadiance, const float batchWeight) {
+                         const float scale, const float quantaPerRadiance, const float batchWeight, const uint layout) {
     const uint pixel = get_global_id(0);
     if (pixel >= pixels) return;
     float3 components[FILM_SAMPLES];
@@ -288,6 +289,6 @@ __kernel void addSamples(__global const float* samples, __global uint* sums, __g
     components[LIGHT_DIRECT] += sumOfPaths(samples, SAMPLE_FLOATS, pixel, samplesPerPixel, 0);
     components[FILM_EMISSION] = sumOfPaths(samples, SAMPLE_FLOATS, pixel, samplesPerPixel, 1);
     for (uint c = 0; c < FILM_SAMPLES; ++c) components[c] *= scale;
-    addFiniteSample(film, counters, pixel, components, batchWeight);
+    addFiniteSample(film, layout, counters, pixel, components, batchWeight);
 }
 #endif

@@ -129,6 +129,8 @@ typedef struct {
     unsigned int directSamples; /* of emitters, where a path takes direct light first */
     unsigned int radiusBlock;   /* pixels of a row and column that share a density radius */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
+    unsigned int filmLayout;         /* film_sums.h */
+    unsigned int firstPixel, pixels; /* of the part of the film that the launch adds to */
     Camera camera;
     MapParams map;
     SceneTables scene;

@@ -13,9 +13,7 @@
 namespace quasilux {
 namespace {
 
-// Layout of kernels/film.clh with ESTIMATE_BIAS.
-constexpr unsigned sumFloats = 6, totals = (FILM_COMPONENTS + 1 + LIGHT_CLASSES) * sumFloats,
-                   biasSums = totals + (1 + LIGHT_CLASSES) * 3, pixelFloats = biasSums + LIGHT_CLASSES * 9 + 6;
+const FilmLayout layout;
 constexpr unsigned width = 32, height = 8, passes = 16;
 constexpr double noiseToCurvature = 0.4, squaredRadii = 20, inverseSquares = 14;
 
@@ -27,14 +25,14 @@ struct Light {
 // A film whose sums say just this, of radiance `radiance`: the mean of the bias by its squared radii, the scatter of
 // single passes by their inverse; the estimate of bias has 1.6 times the image's variance.
 void put(std::vector<float>& film, unsigned pixel, const Light& light, double radiance) {
-    float* sums = film.data() + size_t(pixel) * pixelFloats;
+    float* sums = film.data() + size_t(pixel) * layout.floatsPerPixel();
     const double mean = radiance * light.curvature * squaredRadii / passes;
     const double scatter = 1.6 * radiance * radiance * light.variance * inverseSquares / passes; // of a pass
     for (unsigned channel = 0; channel < 3; ++channel) {
-        sums[LIGHT_DIFFUSE * sumFloats + channel] = static_cast<float>(radiance * passes);
-        float* bias = sums + biasSums + LIGHT_DIFFUSE * 9;
-        bias[channel] = static_cast<float>(mean * passes);
-        bias[3 + channel] = static_cast<float>(passes * mean * mean + (passes - 1) * scatter);
+        sums[FILM_TOTAL_SUM + channel] = static_cast<float>(radiance * passes);
+        float* bias = sums + FILM_CLASS_BIAS(layout.bits()) + LIGHT_DIFFUSE * FILM_BIAS_FLOATS;
+        bias[FILM_BIAS_SUM + channel] = static_cast<float>(mean * passes);
+        bias[FILM_BIAS_SQUARES + channel] = static_cast<float>(passes * mean * mean + (passes - 1) * scatter);
     }
 }
 
@@ -62,7 +60,7 @@ double bestRadius(const Light& light) {
 
 TEST(AdaptiveRadius, BalancesNoiseAndBias) {
     const Light left{0.1, 0.01}, right{0.02, 0.002};
-    std::vector<float> film(size_t{width} * height * pixelFloats);
+    std::vector<float> film(size_t{width} * height * layout.floatsPerPixel());
     for (unsigned pixel = 0; pixel < width * height; ++pixel)
         put(film, pixel, pixel % width < width / 2 ? left : right,
             pixel % 3 + 0.5); // relative: brightness is none of it
@@ -75,7 +73,7 @@ TEST(AdaptiveRadius, BalancesNoiseAndBias) {
 }
 
 TEST(AdaptiveRadius, IsBoundedAndNeedsLight) {
-    std::vector<float> film(size_t{width} * height * pixelFloats);
+    std::vector<float> film(size_t{width} * height * layout.floatsPerPixel());
     for (unsigned pixel = 0; pixel < width * height; ++pixel)
         if (pixel % width < 10)
             put(film, pixel, {0, 0.01}, 1); // no bias in sight

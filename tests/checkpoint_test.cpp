@@ -57,7 +57,7 @@ Checkpoint stateOf(const RenderSettings& settings, const Renderer& renderer, uns
     const auto film = renderer.filmShape();
     checkpoint.width = film.width;
     checkpoint.height = film.height;
-    checkpoint.estimatesBias = film.estimatesBias;
+    checkpoint.film = film.layout;
     checkpoint.counters = renderer.counters();
     checkpoint.stop.firstPass = first;
     if (renderer.nextPass() > first) checkpoint.passes = {{first, renderer.nextPass()}};

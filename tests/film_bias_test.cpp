@@ -37,7 +37,7 @@ struct Told {
 Told toldAfter(unsigned passes) {
     Program program = testProgram("film.cl", "-DBVH_STACK_SIZE=32 -DPHOTON_CLASSES=8u -DESTIMATE_BIAS=1");
     Kernel add = program.kernel("addBiasOfPass");
-    Film film(testDevice(), side, side, true);
+    Film film(testDevice(), side, side, FilmLayout{});
     std::mt19937 random(7);
     Told told;
     std::vector<double> sum(3 * pixels), open(3 * pixels), squares(3 * pixels);
@@ -46,7 +46,7 @@ Told toldAfter(unsigned passes) {
         const Film::Pass now = film.beginPass(pass);
         const auto bias = biasOfPass(pass, now.biasWeight, random);
         Buffer<Float4> input(testDevice(), bias, "bias");
-        add.launch(pixels, input, film.sums(), pixels, now.batchWeight);
+        add.launch(pixels, input, film.sums(), pixels, now.batchWeight, film.layout().bits());
         weights += now.biasWeight;
         inBatch += now.biasWeight;
         told.truth += now.biasWeight * now.biasWeight * (1 + pass);

@@ -1,7 +1,7 @@
 // The film's compensated sums, the lattice that spreads the samples of a pixel, and the reconstruction filters.
 //
 // False alarms: the chi-squared tests together raise one with probability 1e-4 (support/chi_squared.h).
-#include "shared_types.h"
+#include "render/film_layout.h"
 #include "support/chi_squared.h"
 #include "support/test_kernels.h"
 
@@ -12,10 +12,7 @@
 namespace quasilux {
 namespace {
 
-// Layout of kernels/film.clh.
-constexpr unsigned sumFloats = 6,
-                   pixelFloats = (FILM_COMPONENTS + 1 + LIGHT_CLASSES) * sumFloats + (1 + LIGHT_CLASSES) * 3;
-constexpr unsigned classSquares = FILM_COMPONENTS + 1;
+const FilmLayout layout{false, true};
 
 constexpr int chiSquaredTests = 12; // upper bound of their number in this program
 
@@ -31,9 +28,9 @@ struct Float4 {
 std::vector<float> addSamples(const std::vector<Float4>& samples, unsigned pixels) {
     Program program = testProgram("film.cl", options);
     Buffer<Float4> input(testDevice(), samples, "samples");
-    Buffer<float> film(testDevice(), size_t(pixels) * pixelFloats, "film");
+    Buffer<float> film(testDevice(), size_t(pixels) * layout.floatsPerPixel(), "film");
     film.fill(0);
-    program.kernel("addSamples").launch(pixels, input, film, pixels, unsigned(samples.size() / pixels));
+    program.kernel("addSamples").launch(pixels, input, film, pixels, unsigned(samples.size() / pixels), layout.bits());
     return film.read();
 }
 
@@ -46,29 +43,34 @@ std::vector<Float4> wildSamples(unsigned count, unsigned seed) {
     return samples;
 }
 
-double sumOf(const std::vector<float>& film, unsigned pixel, unsigned component, unsigned channel) {
-    const float* sum = film.data() + size_t(pixel) * pixelFloats + component * sumFloats;
-    return double(sum[channel]) + sum[channel + 3];
+/// The compensated sum `at` in a pixel.
+double sumOf(const std::vector<float>& film, unsigned pixel, size_t at, unsigned channel) {
+    return valueOfSum(film.data() + pixel * layout.floatsPerPixel() + at, channel);
 }
+
+size_t componentSum(unsigned component) { return FILM_COMPONENT_SUMS(layout.bits()) + component * FILM_SUM_FLOATS; }
 
 TEST(Film, MillionSamplesAreSummedAsInDouble) {
     const auto samples = wildSamples(1'000'000, 1);
     const auto film = addSamples(samples, 1);
     for (unsigned channel = 0; channel < 3; ++channel) {
-        double sum = 0, squares = 0, totalSquares = 0;
+        double sum = 0, squares = 0, all = 0, totalSquares = 0;
         float plain = 0;
         for (const Float4& s : samples) {
             const float value = (&s.x)[channel], total = value + value * 0.5f;
             sum += value;
             squares += double(value) * value;
+            all += total;
             totalSquares += total * total;
             plain += value;
         }
-        EXPECT_NEAR(sumOf(film, 0, LIGHT_DIFFUSE, channel) / sum, 1, 1e-8);
-        EXPECT_NEAR(sumOf(film, 0, FILM_EMISSION, channel) / (sum / 2), 1, 1e-8);
-        EXPECT_NEAR(sumOf(film, 0, FILM_COMPONENTS, channel) / totalSquares, 1, 1e-8);
-        EXPECT_NEAR(sumOf(film, 0, classSquares + LIGHT_DIFFUSE, channel) / squares, 1, 1e-7);
-        EXPECT_EQ(sumOf(film, 0, LIGHT_CAUSTIC, channel), 0);
+        EXPECT_NEAR(sumOf(film, 0, componentSum(LIGHT_DIFFUSE), channel) / sum, 1, 1e-8);
+        EXPECT_NEAR(sumOf(film, 0, componentSum(FILM_EMISSION), channel) / (sum / 2), 1, 1e-8);
+        EXPECT_NEAR(sumOf(film, 0, FILM_TOTAL_SUM, channel) / all, 1, 1e-8);
+        EXPECT_NEAR(sumOf(film, 0, FILM_TOTAL_SQUARES, channel) / totalSquares, 1, 1e-8);
+        const size_t ofClass = FILM_CLASS_SQUARES(layout.bits()) + LIGHT_DIFFUSE * FILM_SUM_FLOATS;
+        EXPECT_NEAR(sumOf(film, 0, ofClass, channel) / squares, 1, 1e-7);
+        EXPECT_EQ(sumOf(film, 0, componentSum(LIGHT_CAUSTIC), channel), 0);
         EXPECT_GT(std::abs(plain / sum - 1), 1e-6) << "control: floats alone would do";
     }
 }
@@ -76,10 +78,11 @@ TEST(Film, MillionSamplesAreSummedAsInDouble) {
 TEST(Film, HalvesMergeToTheWhole) {
     const auto samples = wildSamples(200'000, 2);
     const auto whole = addSamples(samples, 1), halves = addSamples(samples, 2); // two pixels share the samples
-    for (unsigned component : {LIGHT_DIFFUSE, FILM_EMISSION, unsigned(FILM_COMPONENTS)})
+    for (const size_t at :
+         {componentSum(LIGHT_DIFFUSE), componentSum(FILM_EMISSION), size_t(FILM_TOTAL_SUM), size_t(FILM_TOTAL_SQUARES)})
         for (unsigned channel = 0; channel < 3; ++channel) {
-            const auto merged = float(sumOf(halves, 0, component, channel) + sumOf(halves, 1, component, channel));
-            const auto once = float(sumOf(whole, 0, component, channel));
+            const auto merged = float(sumOf(halves, 0, at, channel) + sumOf(halves, 1, at, channel));
+            const auto once = float(sumOf(whole, 0, at, channel));
             EXPECT_LE(std::abs(merged - once), std::nextafter(once, INFINITY) - once);
         }
 }

@@ -32,6 +32,7 @@ std::string whyNotSearched(const Scene& scene, const RenderSettings& settings, c
     // Without the bias the widest radius would always seem best.
     if (scene.sensor.meter != MeterKind::none) return "the bias of a meter's readings is not known";
     if (settings.map == MapOrder::camera) return "the bias is not known with --map camera";
+    if (!settings.film.bias) return "the bias is not known with --without bias";
     if (stop.passes) return "with --passes the result must not depend on timing";
     return {};
 }

@@ -111,8 +111,9 @@ struct Common {
 // More camera paths than this leave too few passes for the estimate of the error, whatever else they do.
 constexpr unsigned fewestPassesOfImage = 64, mostCameraPaths = 64;
 
-// Of the total noise. Classes of light that photons carry have noise of camera paths too, which counts as the photons' here.
-double shareOfPhotons(const ErrorEstimate& error) {
+// Of the total noise; all of it where the film does not tell. Classes of light that photons carry have noise of camera paths too, which counts as the photons' here.
+double shareOfPhotons(const ErrorEstimate& error, bool hasComponents) {
+    if (!hasComponents) return 1;
     double ofPhotons = 0;
     for (unsigned c = LIGHT_DIRECT + 1; c < LIGHT_CLASSES; ++c)
         ofPhotons += error.components[c].noiseRms * error.components[c].noiseRms;
@@ -144,7 +145,7 @@ PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsP
     const TileErrors tiles = errorByTile(image, tilesPerSide, brightness);
     PilotMeasure pilot;
     pilot.passes = image.passes;
-    pilot.noiseOfPhotons = shareOfPhotons(error);
+    pilot.noiseOfPhotons = shareOfPhotons(error, image.hasComponents());
     pilot.secondsPerPass = secondsPerPass;
     pilot.noise = tiles.noise;
     pilot.bias = tiles.bias;

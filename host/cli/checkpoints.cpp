@@ -43,7 +43,7 @@ Checkpoint CheckpointKeeper::describe(const AutoRender& soFar, const Renderer& r
     const auto film = renderer.filmShape();
     now.width = film.width;
     now.height = film.height;
-    now.estimatesBias = film.estimatesBias;
+    now.film = film.layout;
     now.counters = renderer.counters();
     now.seconds = seconds;
     if (now.counters.passes > 0) now.passes = {{now.stop.firstPass, renderer.nextPass()}};

@@ -128,6 +128,14 @@ void declareDevice(CLI::App& command, SceneOptions& options) {
         ->transform(wholeNumber(1, UINT64_MAX))
         ->group(group);
     command
+        .add_option("--without", options.without,
+                    "What the film does not keep, to save memory: components (layers of the image by class of light), "
+                    "bias (its estimate), or both; the image is the same (default: keeps all)")
+        ->type_name("LIST")
+        ->delimiter(',')
+        ->check(oneOf({"components", "bias"}))
+        ->group(group);
+    command
         .add_option("--kernels", options.kernels,
                     "Features compiled: scene (those that the scene needs) or generic (all) (default: scene)")
         ->type_name("NAME")
@@ -273,6 +281,9 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (radiusScale) result.radiusScale = *radiusScale;
     result.energyBalance = energyBalance;
     result.genericKernels = kernels == "generic";
+    if (!without.empty() && loaded.sensor.meter != MeterKind::none)
+        throw InputError("readings of meters and grids say all that there is: --without is of images, leave it out");
+    for (const auto& part : without) (part == "bias" ? result.film.bias : result.film.components) = false;
     return result;
 }
 

@@ -30,7 +30,8 @@ struct SceneOptions {
     std::string kernels = "scene";
     int device = -1;
     unsigned workGroupSize = 64;
-    uint64_t deviceMemory = 0; ///< bytes; 0: what the device has
+    uint64_t deviceMemory = 0;        ///< bytes; 0: what the device has
+    std::vector<std::string> without; ///< "components", "bias"
     bool json = false, quiet = false;
 
     /// `definitions` as loadScene takes them.

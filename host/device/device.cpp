@@ -118,7 +118,7 @@ std::vector<DeviceInfo> listDevices() {
     return list;
 }
 
-Device::Device(int index, unsigned workGroupSize, uint64_t memoryLimit, unsigned computeUnits)
+Device::Device(int index, unsigned workGroupSize, uint64_t memoryLimit, unsigned computeUnits, uint64_t bufferLimit)
     : workGroupSize_(workGroupSize) {
     device_ = ask([&] { return pick(index); });
     info_ = ask([&] { return describe(device_); });
@@ -126,6 +126,7 @@ Device::Device(int index, unsigned workGroupSize, uint64_t memoryLimit, unsigned
         info_.globalMemory = std::min(info_.globalMemory, memoryLimit);
         info_.maximumAllocation = std::min(info_.maximumAllocation, memoryLimit);
     }
+    if (bufferLimit > 0) info_.maximumAllocation = std::min(info_.maximumAllocation, bufferLimit);
     try {
         if (computeUnits > 0 && computeUnits < info_.computeUnits) {
             device_ = partOf(device_, computeUnits);

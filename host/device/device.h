@@ -45,8 +45,9 @@ class Device {
 public:
     /// `index` as in listDevices(); -1 takes the first GPU, else the first device. Throws InputError if there is none.
     /// `memoryLimit`, bytes: the device is taken to have no more; 0: what it has. `computeUnits` of it alone are used; 0 =
-    /// all.
-    explicit Device(int index = -1, unsigned workGroupSize = 64, uint64_t memoryLimit = 0, unsigned computeUnits = 0);
+    /// all. `bufferLimit`, bytes: likewise of one buffer.
+    explicit Device(int index = -1, unsigned workGroupSize = 64, uint64_t memoryLimit = 0, unsigned computeUnits = 0,
+                    uint64_t bufferLimit = 0);
 
     const DeviceInfo& info() const { return info_; }
     cl::Context& context() { return context_; }

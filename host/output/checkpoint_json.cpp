@@ -57,6 +57,8 @@ void visitSettings(Visit& visit, Settings& s) {
     visit("genericKernels", s.genericKernels);
     visit("furtherClasses", s.furtherClasses);
     visit("estimateBias", s.estimateBias);
+    visit("keepsBias", s.film.bias);
+    visit("keepsComponents", s.film.components);
     visit("energyBalance", s.energyBalance);
 }
 

@@ -105,7 +105,7 @@ MergedPasses::MergedPasses(const std::vector<std::string>& paths) {
 }
 
 void MergedPasses::add(const CheckpointReader& reader, const Checkpoint& part) {
-    const size_t pixels = size_t(part.width) * part.height, floats = Film::floatsPerPixel(part.estimatesBias);
+    const size_t pixels = size_t(part.width) * part.height, floats = part.film.floatsPerPixel();
     reader.requireBytes("film", pixels * floats * sizeof(float));
     const auto counts = reader.record<FilmCounts>("film counts");
     if (sums_.empty()) {
@@ -120,7 +120,7 @@ void MergedPasses::add(const CheckpointReader& reader, const Checkpoint& part) {
         const size_t count = std::min(pixelsAtOnce, pixels - first);
         piece.resize(count * floats);
         reader.read("film", first * floats * sizeof(float), piece.data(), piece.size() * sizeof(float));
-        mergeFilmSums(sums_.data() + first * floats, counts_, piece.data(), counts, count, part.estimatesBias);
+        mergeFilmSums(sums_.data() + first * floats, counts_, piece.data(), counts, count, part.film);
     }
     counts_ = mergedCounts(counts_, counts);
     addCounts(checkpoint_.counters, part.counters);
@@ -137,7 +137,9 @@ FilmImage MergedPasses::develop() const {
     FilmImage image;
     image.width = checkpoint_.width;
     image.height = checkpoint_.height;
-    developSums(sums_, checkpoint_.estimatesBias, counts_, static_cast<unsigned>(checkpoint_.counters.passes), image);
+    FilmDeveloper developer(checkpoint_.film, counts_, static_cast<unsigned>(checkpoint_.counters.passes), image);
+    developer.develop(sums_.data(), 0, size_t(image.width) * image.height);
+    developer.finish();
     return image;
 }
 

@@ -44,7 +44,7 @@ Json describe(const Checkpoint& c) {
             {"sceneChecksums", c.sceneChecksums},
             {"width", c.width},
             {"height", c.height},
-            {"estimatesBias", c.estimatesBias},
+            {"film", {{"bias", c.film.bias}, {"components", c.film.components}}},
             {"meter", static_cast<unsigned>(c.meter)},
             {"passes", ranges},
             {"stop", toJson(c.stop)},
@@ -73,7 +73,7 @@ Checkpoint checkpointOf(const CheckpointReader& reader) {
         from.at("sceneChecksums").get_to(c.sceneChecksums);
         c.width = from.at("width");
         c.height = from.at("height");
-        c.estimatesBias = from.at("estimatesBias");
+        c.film = {from.at("film").at("bias"), from.at("film").at("components")};
         c.meter = static_cast<MeterKind>(from.at("meter").get<unsigned>());
         for (const auto& range : from.at("passes")) c.passes.push_back({range.at(0), range.at(1)});
         c.stop = parsed<StopRule>(from.at("stop"));
@@ -113,7 +113,7 @@ std::string differenceOfImage(const Checkpoint& there, const Checkpoint& here) {
     if (const auto chosen = firstDifference(toJson(there.settings), toJson(here.settings)); !chosen.empty())
         return "by the search " + chosen;
     if (const auto scene = refusal([&] { requireSame(there.sceneChecksums, here.sceneChecksums); })) return *scene;
-    if (there.estimatesBias != here.estimatesBias || there.meter != here.meter) return "the sensor is another one";
+    if (!(there.film == here.film) || there.meter != here.meter) return "the sensor is another one";
     return {};
 }
 

@@ -22,7 +22,7 @@ struct Checkpoint {
     RenderSettings settings;       ///< of the image
     SceneChecksums sceneChecksums; ///< SceneReport::checksums
     unsigned width = 0, height = 0;
-    bool estimatesBias = false;
+    FilmLayout film;
     MeterKind meter = MeterKind::none;
 
     /// How far it has come.

@@ -15,6 +15,7 @@ namespace {
 constexpr std::array<unsigned, 3> choices{passesOfEqualRadius, 8, 16};
 constexpr double pilotSide = 128; // of the pilot's image, about: it is to cost little, whatever the size of the image
 constexpr unsigned foreseenPasses = 1024;
+const std::string pilotOwner = "pilot's ";
 
 double squaredShrink(unsigned pass) { return radiusShrink(pass) * radiusShrink(pass); }
 
@@ -60,7 +61,7 @@ size_t scaleCount(const shared::Camera& pilot, unsigned classes) {
 
 AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes)
     : block_(blockSize(camera)), camera_(coarseCamera(camera, block_)),
-      film_(std::in_place, device, camera_.width, camera_.height, true, "pilot's "),
+      film_(std::in_place, device, camera_.width, camera_.height, FilmLayout{}, pilotOwner),
       measureRadii_(pass.kernel("measureRadii")), chooseRadii_(pass.kernel("chooseRadii")),
       pilotScales_(device, scaleCount(camera_, classes), "pilot's radii"),
       measures_(device, pilotScales_.size(), "pilot's measures") {
@@ -69,14 +70,13 @@ AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared
     pilotScales_.fill(largestAdaptiveRadius);
 }
 
-std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
+std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes,
+                                                     const DeviceInfo& device) {
     const shared::Camera pilot = coarseCamera(camera, blockSize(camera));
     const uint64_t scales = scaleCount(pilot, classes);
-    std::map<std::string, uint64_t> bytes{
-        {"pilot's film", uint64_t(pilot.width) * pilot.height * Film::floatsPerPixel(true) * sizeof(float)},
-        {"pilot's camera counters", sizeof(shared::CameraCounters)},
-        {"pilot's radii", scales * sizeof(float)},
-        {"pilot's measures", scales * sizeof(shared::RadiusMeasure)}};
+    auto bytes = Film::plan(size_t(pilot.width) * pilot.height, FilmLayout{}, device, pilotOwner);
+    bytes["pilot's radii"] = scales * sizeof(float);
+    bytes["pilot's measures"] = scales * sizeof(shared::RadiusMeasure);
     for (size_t choice = 0; choice <= choices.size(); ++choice) bytes[scalesLabel(choice)] = scales * sizeof(float);
     return bytes;
 }

@@ -125,7 +125,7 @@ CameraMapPassCount CameraMapStage::run(unsigned pass, const std::array<float, LI
     }
     addSamples_.launch(film_.pixels(), samples_, sums_, film_.sums(), film_.counterBuffer(),
                        static_cast<unsigned>(film_.pixels()), pathsPerPixel(), sampleScale(cameraParams_.scene.meter),
-                       points_.quantaPerRadiance, film_.beginPass(pass).batchWeight);
+                       points_.quantaPerRadiance, film_.beginPass(pass).batchWeight, film_.layout().bits());
     return total;
 }
 

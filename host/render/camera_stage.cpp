@@ -7,31 +7,34 @@ CameraStage::CameraStage(const Program& pass, const GeometryBuffers& geometry, F
     : geometry_(geometry), film_(film), radii_(radii), traceCameraPaths_(pass.kernel(cameraKernel)), params_(params) {}
 
 void CameraStage::compile(const PhotonStage& photons) {
-    shared::CameraParams nothing = params_;
-    nothing.camera.width = nothing.camera.height = 0;
-    trace(film_, nothing, radii_ ? &radii_->scales(0) : nullptr, photons);
+    Film::Part& part = film_.parts().front();
+    launch(film_, part, 0, params_, radii_ ? &radii_->scales(0) : nullptr, photons);
     traceCameraPaths_.forgetPace();
     if (radii_) radii_->compile();
 }
 
-void CameraStage::trace(Film& film, const shared::CameraParams& params, const Buffer<float>* radiusScales,
-                        const PhotonStage& photons) {
-    const auto launch = [&](const auto&... more) {
-        traceCameraPaths_.launch(film.pixels(), geometry_.nodes, geometry_.blocks, geometry_.tables,
-                                 photons.table().cellStart(), photons.sorted(), film.sums(), film.counterBuffer(),
-                                 params, more...);
+// Traces the paths of the first `pixels` of a part of the film; of none, so that the runtime compiles the kernel.
+void CameraStage::launch(Film& film, Film::Part& part, size_t pixels, shared::CameraParams params,
+                         const Buffer<float>* radiusScales, const PhotonStage& photons) {
+    params.filmLayout = film.layout().bits();
+    params.firstPixel = static_cast<unsigned>(part.firstPixel);
+    params.pixels = static_cast<unsigned>(pixels);
+    const auto run = [&](const auto&... more) {
+        traceCameraPaths_.launch(part.pixels, geometry_.nodes, geometry_.blocks, geometry_.tables,
+                                 photons.table().cellStart(), photons.sorted(), part.sums, film.counterBuffer(), params,
+                                 more...);
     };
     if (radiusScales)
-        launch(*radiusScales);
+        run(*radiusScales);
     else
-        launch();
+        run();
 }
 
 void CameraStage::runOn(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons) {
     const Film::Pass onFilm = film.beginPass(params_.pass);
     params_.batchWeight = onFilm.batchWeight;
     params_.map.biasWeight = onFilm.biasWeight;
-    trace(film, params_, radiusScales, photons);
+    for (Film::Part& part : film.parts()) launch(film, part, part.pixels, params_, radiusScales, photons);
 }
 
 const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage& photons) {

@@ -30,8 +30,8 @@ public:
     size_t chooseRadius(unsigned pass, const PhotonStage& photons);
 
 private:
-    void trace(Film& film, const shared::CameraParams& params, const Buffer<float>* radiusScales,
-               const PhotonStage& photons);
+    void launch(Film& film, Film::Part& part, size_t pixels, shared::CameraParams params,
+                const Buffer<float>* radiusScales, const PhotonStage& photons);
     void runOn(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
 
     const GeometryBuffers& geometry_;

@@ -1,15 +1,12 @@
 #include "render/film.h"
 
-#include "render/film_layout.h"
-
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace quasilux {
 
 namespace {
-
-using namespace filmLayout;
 
 // Pixel positions are spread evenly over passes in a row, so batches estimate the variance of the mean with less bias; but of few passes
 // single ones estimate it with less variance. Bias is estimated in the middle half of each batch of four, about whose middle
@@ -21,6 +18,25 @@ struct Counts {
     double passes, batches;
     double openWeight; // 1 / passes of the open batch, 0 if there is none
 };
+
+// Pixels of which the sums are read at once.
+constexpr size_t pixelsAtOnce = 1 << 16;
+
+std::string partLabel(const std::string& owner, size_t part) {
+    return owner + "film" + (part > 0 ? ' ' + std::to_string(part + 1) : "");
+}
+
+// Pixels of each part.
+std::vector<size_t> partsOf(size_t pixels, const FilmLayout& layout, const DeviceInfo& device) {
+    const size_t most =
+        std::max<size_t>(device.maximumAllocation / (layout.floatsPerPixel() * sizeof(float)) / 64, 1) * 64;
+    std::vector<size_t> parts;
+    do {
+        parts.push_back(std::min(most, pixels));
+        pixels -= parts.back();
+    } while (pixels > 0);
+    return parts;
+}
 
 // Standard error of the mean from the sum over passes, the squares of batches, each divided by its number of passes, and
 // the sum over the open batch.
@@ -49,35 +65,33 @@ float biasStandardError(double sum, double squares, double open, const BiasCount
 
 void developPixel(const float* pixel, size_t first, const Counts& n, FilmImage& image) {
     for (size_t channel = 0; channel < 3; ++channel) {
-        const size_t at = first + channel;
-        double total = 0;
-        for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
-            const double sum = valueOf(pixel + k * sumFloats, channel);
-            image.components[k][at] = static_cast<float>(sum / n.passes);
-            total += sum;
-            if (k >= LIGHT_CLASSES) continue;
-            const double squares = valueOf(pixel + classSquares + k * sumFloats, channel);
-            image.componentError[k][at] = standardError(sum, squares, pixel[classBatch + 3 * k + channel], n);
-        }
-        image.radiance[at] = static_cast<float>(total / n.passes);
-        image.standardError[at] =
-            standardError(total, valueOf(pixel + totalSquares, channel), pixel[totalBatch + channel], n);
+        const double sum = valueOfSum(pixel + FILM_TOTAL_SUM, channel);
+        image.radiance[first + channel] = static_cast<float>(sum / n.passes);
+        image.standardError[first + channel] =
+            standardError(sum, valueOfSum(pixel + FILM_TOTAL_SQUARES, channel), pixel[FILM_TOTAL_BATCH + channel], n);
     }
 }
 
-void developBias(const float* bias, size_t first, const BiasCounts& n, FilmImage& image) {
-    const float* ofTotal = bias + size_t(9) * LIGHT_CLASSES;
-    for (size_t channel = 0; channel < 3; ++channel) {
-        const size_t at = first + channel;
-        double total = 0;
-        for (size_t c = 0; c < LIGHT_CLASSES; ++c) {
-            const float* sums = bias + 9 * c + channel;
-            image.componentBias[c][at] = static_cast<float>(sums[0] / n.passes);
-            image.componentBiasError[c][at] = biasStandardError(sums[0], sums[3], sums[6], n);
-            total += sums[0];
+void developComponents(const float* pixel, unsigned layout, size_t first, const Counts& n, FilmImage& image) {
+    const float *sums = pixel + FILM_COMPONENT_SUMS(layout), *squares = pixel + FILM_CLASS_SQUARES(layout),
+                *open = pixel + FILM_CLASS_BATCH(layout);
+    for (size_t channel = 0; channel < 3; ++channel)
+        for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
+            const double sum = valueOfSum(sums + k * FILM_SUM_FLOATS, channel);
+            image.components[k][first + channel] = static_cast<float>(sum / n.passes);
+            if (k < LIGHT_CLASSES)
+                image.componentError[k][first + channel] =
+                    standardError(sum, valueOfSum(squares + k * FILM_SUM_FLOATS, channel), open[3 * k + channel], n);
         }
-        image.bias[at] = static_cast<float>(total / n.passes);
-        image.biasError[at] = biasStandardError(total, ofTotal[channel], ofTotal[3 + channel], n);
+}
+
+void developBias(const float* sums, size_t first, const BiasCounts& n, std::vector<float>& bias,
+                 std::vector<float>& error) {
+    for (size_t channel = 0; channel < 3; ++channel) {
+        const double sum = sums[FILM_BIAS_SUM + channel];
+        bias[first + channel] = static_cast<float>(sum / n.passes);
+        error[first + channel] =
+            biasStandardError(sum, sums[FILM_BIAS_SQUARES + channel], sums[FILM_BIAS_BATCH + channel], n);
     }
 }
 
@@ -88,13 +102,30 @@ bool isBlack(const std::vector<float>& values) {
 
 } // namespace
 
-size_t Film::floatsPerPixel(bool estimatesBias) { return filmLayout::floatsPerPixel(estimatesBias); }
-
-Film::Film(Device& device, unsigned width, unsigned height, bool estimatesBias, const std::string& owner)
-    : width_(width), height_(height), estimatesBias_(estimatesBias), pixelFloats_(floatsPerPixel(estimatesBias)),
-      sums_(device, pixelFloats_ * width * height, owner + "film"), counters_(device, 1, owner + "camera counters") {
-    sums_.fill(0);
+Film::Film(Device& device, unsigned width, unsigned height, FilmLayout layout, const std::string& owner)
+    : width_(width), height_(height), layout_(layout), counters_(device, 1, owner + "camera counters") {
+    size_t first = 0;
+    for (const size_t pixels : partsOf(size_t(width) * height, layout, device.info())) {
+        parts_.push_back(
+            {first, pixels, Buffer<float>(device, pixels * layout.floatsPerPixel(), partLabel(owner, parts_.size()))});
+        parts_.back().sums.fill(0);
+        first += pixels;
+    }
     counters_.write({shared::CameraCounters{0, 0, 0}});
+}
+
+std::map<std::string, uint64_t> Film::plan(size_t pixels, FilmLayout layout, const DeviceInfo& device,
+                                           const std::string& owner) {
+    std::map<std::string, uint64_t> bytes{{owner + "camera counters", sizeof(shared::CameraCounters)}};
+    size_t part = 0;
+    for (const size_t ofPart : partsOf(pixels, layout, device))
+        bytes[partLabel(owner, part++)] = ofPart * layout.floatsPerPixel() * sizeof(float);
+    return bytes;
+}
+
+Buffer<float>& Film::sums() {
+    if (parts_.size() != 1) throw std::logic_error("a film in several parts has no buffer of all sums");
+    return parts_.front().sums;
 }
 
 Film::Pass Film::beginPass(unsigned pass) {
@@ -119,42 +150,67 @@ FilmImage Film::develop(unsigned passes) const {
 }
 
 void Film::developOver(FilmImage& image, unsigned passes) const {
-    const auto film = sums_.read();
     image.width = width_;
     image.height = height_;
-    developSums(film, estimatesBias_, counts_, passes, image);
+    FilmDeveloper developer(layout_, counts_, passes, image);
+    forEachPiece([&](const std::vector<float>& sums, size_t first) {
+        developer.develop(sums.data(), first, sums.size() / layout_.floatsPerPixel());
+    });
+    developer.finish();
 }
 
-void developSums(const std::vector<float>& sums, bool estimatesBias, const FilmCounts& counts, unsigned passes,
-                 FilmImage& image) {
-    image.passes = passes;
+void Film::forEachPiece(const std::function<void(const std::vector<float>& sums, size_t firstPixel)>& use) const {
+    const size_t floats = layout_.floatsPerPixel();
+    for (const Part& part : parts_)
+        for (size_t first = 0; first < part.pixels; first += pixelsAtOnce)
+            use(part.sums.read(first * floats, std::min(pixelsAtOnce, part.pixels - first) * floats),
+                part.firstPixel + first);
+}
+
+FilmDeveloper::FilmDeveloper(const FilmLayout& layout, const FilmCounts& counts, unsigned passes, FilmImage& image)
+    : layout_(layout), counts_(counts), passes_(passes), image_(image) {
     const size_t values = size_t(image.width) * image.height * 3;
     image.radiance.resize(values);
     image.standardError.resize(values);
-    for (auto& component : image.components) component.resize(values);
-    for (auto& error : image.componentError) error.resize(values);
-    if (estimatesBias) {
+    if (layout.bias) {
         image.bias.resize(values);
         image.biasError.resize(values);
-        for (auto& bias : image.componentBias) bias.resize(values);
-        for (auto& error : image.componentBiasError) error.resize(values);
     }
-    const FilmCounts closed = counts.closed();
-    const Counts means{double(std::max(1u, passes)), closed.batches, counts.openWeight()};
-    const BiasCounts biasCounts{std::max(1.0, counts.biasPasses), closed.biasSquares};
-    const size_t pixelFloats = floatsPerPixel(estimatesBias);
-    for (size_t pixel = 0; pixel < values / 3; ++pixel) {
-        const float* ofPixel = sums.data() + pixel * pixelFloats;
-        developPixel(ofPixel, pixel * 3, means, image);
-        if (estimatesBias) developBias(ofPixel + biasSums, pixel * 3, biasCounts, image);
+    if (!layout.components) return;
+    for (auto& component : image.components) component.resize(values);
+    for (auto& error : image.componentError) error.resize(values);
+    if (!layout.bias) return;
+    for (auto& bias : image.componentBias) bias.resize(values);
+    for (auto& error : image.componentBiasError) error.resize(values);
+}
+
+void FilmDeveloper::develop(const float* sums, size_t firstPixel, size_t pixels) {
+    const FilmCounts closed = counts_.closed();
+    const Counts means{double(std::max(1u, passes_)), closed.batches, counts_.openWeight()};
+    const BiasCounts biasCounts{std::max(1.0, counts_.biasPasses), closed.biasSquares};
+    const unsigned layout = layout_.bits();
+    for (size_t k = 0; k < pixels; ++k) {
+        const float* pixel = sums + k * layout_.floatsPerPixel();
+        const size_t first = 3 * (firstPixel + k);
+        developPixel(pixel, first, means, image_);
+        if (layout_.components) developComponents(pixel, layout, first, means, image_);
+        if (!layout_.bias) continue;
+        developBias(pixel + FILM_TOTAL_BIAS, first, biasCounts, image_.bias, image_.biasError);
+        for (size_t c = 0; layout_.components && c < LIGHT_CLASSES; ++c)
+            developBias(pixel + FILM_CLASS_BIAS(layout) + c * FILM_BIAS_FLOATS, first, biasCounts,
+                        image_.componentBias[c], image_.componentBiasError[c]);
     }
+}
+
+void FilmDeveloper::finish() {
+    image_.passes = passes_;
     for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
-        if (!isBlack(image.components[k])) continue;
-        image.components[k].clear();
+        if (!isBlack(image_.components[k])) continue;
+        image_.components[k].clear();
         if (k >= LIGHT_CLASSES) continue;
-        image.componentError[k].clear();
-        image.componentBias[k].clear();
-        image.componentBiasError[k].clear();
+        image_.componentError[k].clear();
+        image_.componentBias[k].clear();
+        image_.componentBiasError[k].clear();
     }
 }
 
@@ -162,22 +218,22 @@ void Film::save(StateSink& sink, const std::string& name) const {
     sink.record(name + " counts", counts_);
     sink.array(name + " counters", counters_.read());
     sink.begin(name);
-    for (size_t first = 0; first < sums_.size(); first += valuesAtOnce) {
-        const auto part = sums_.read(first, std::min(valuesAtOnce, sums_.size() - first));
-        sink.write(part.data(), part.size() * sizeof(float));
-    }
+    forEachPiece([&](const std::vector<float>& sums, size_t) { sink.write(sums.data(), sums.size() * sizeof(float)); });
 }
 
 void Film::restore(const StateSource& source, const std::string& name) {
-    source.requireBytes(name, sums_.size() * sizeof(float));
+    const size_t floats = layout_.floatsPerPixel();
+    source.requireBytes(name, pixels() * floats * sizeof(float));
     counts_ = source.record<FilmCounts>(name + " counts");
     counters_.write({source.record<shared::CameraCounters>(name + " counters")});
-    std::vector<float> part;
-    for (size_t first = 0; first < sums_.size(); first += valuesAtOnce) {
-        part.resize(std::min(valuesAtOnce, sums_.size() - first));
-        source.read(name, first * sizeof(float), part.data(), part.size() * sizeof(float));
-        sums_.writeAt(first, part);
-    }
+    std::vector<float> sums;
+    for (Part& part : parts_)
+        for (size_t first = 0; first < part.pixels; first += pixelsAtOnce) {
+            sums.resize(std::min(pixelsAtOnce, part.pixels - first) * floats);
+            source.read(name, (part.firstPixel + first) * floats * sizeof(float), sums.data(),
+                        sums.size() * sizeof(float));
+            part.sums.writeAt(first * floats, sums);
+        }
 }
 
 } // namespace quasilux

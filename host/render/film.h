@@ -4,7 +4,13 @@
 #include "device/buffer.h"
 #include "pass_types.h"
 #include "render/film_image.h"
+#include "render/film_layout.h"
 #include "util/state_archive.h"
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace quasilux {
 
@@ -23,16 +29,36 @@ struct FilmCounts {
     }
 };
 
-/// Means over `passes`, their standard errors and bias, from the sums of all pixels, over an older image of this size or an empty one.
-void developSums(const std::vector<float>& sums, bool estimatesBias, const FilmCounts& counts, unsigned passes,
-                 FilmImage& image);
+/// Means over passes, their standard errors and bias, from the sums of pixels.
+class FilmDeveloper {
+public:
+    /// `image`: of the film's size, an older one or empty.
+    FilmDeveloper(const FilmLayout& layout, const FilmCounts& counts, unsigned passes, FilmImage& image);
+    /// From the sums of so many pixels from the first one on.
+    void develop(const float* sums, size_t firstPixel, size_t pixels);
+    /// All pixels are there.
+    void finish();
+
+private:
+    FilmLayout layout_;
+    FilmCounts counts_;
+    unsigned passes_;
+    FilmImage& image_;
+};
 
 class Film {
 public:
-    /// `estimatesBias`: the kernels were compiled with ESTIMATE_BIAS. `owner` goes before the buffers' labels.
-    Film(Device& device, unsigned width, unsigned height, bool estimatesBias, const std::string& owner = "");
+    /// `layout.bias`: the kernels were compiled with ESTIMATE_BIAS. `owner` goes before the buffers' labels.
+    Film(Device& device, unsigned width, unsigned height, FilmLayout layout, const std::string& owner = "");
 
-    static size_t floatsPerPixel(bool estimatesBias);
+    /// Rows one after the other; as many pixels as a device allows in one buffer.
+    struct Part {
+        size_t firstPixel = 0, pixels = 0;
+        Buffer<float> sums;
+    };
+    /// Labels and bytes of the buffers that it has.
+    static std::map<std::string, uint64_t> plan(size_t pixels, FilmLayout layout, const DeviceInfo& device,
+                                                const std::string& owner = "");
 
     /// What the kernels are to know of a pass that adds to the film.
     struct Pass {
@@ -47,7 +73,7 @@ public:
 
     /// Means over `passes`, their standard errors and bias.
     FilmImage develop(unsigned passes) const;
-    /// The same over an older image, which stays as it is if the film cannot be read.
+    /// The same over an older image. Pixels that cannot be read stay as they are, and the image has as many passes as before.
     void developOver(FilmImage& image, unsigned passes) const;
     /// Samples dropped and paths cut since the beginning.
     shared::CameraCounters counters() const { return counters_.read().front(); }
@@ -58,16 +84,20 @@ public:
     void restore(const StateSource& source, const std::string& name);
 
     size_t pixels() const { return size_t(width_) * height_; }
-    Buffer<float>& sums() { return sums_; }
+    std::vector<Part>& parts() { return parts_; }
+    /// Of a film in one part: kernels that add to all of it at once need that (memory_plan.h refuses others).
+    Buffer<float>& sums();
+    const FilmLayout& layout() const { return layout_; }
     Buffer<shared::CameraCounters>& counterBuffer() { return counters_; }
 
 private:
+    void forEachPiece(const std::function<void(const std::vector<float>& sums, size_t firstPixel)>& use) const;
+
     unsigned width_, height_;
-    bool estimatesBias_;
-    size_t pixelFloats_;
+    FilmLayout layout_;
     bool isWhole_ = true;
     FilmCounts counts_;
-    Buffer<float> sums_;
+    std::vector<Part> parts_;
     Buffer<shared::CameraCounters> counters_;
 };
 

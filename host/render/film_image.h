@@ -3,6 +3,7 @@
 
 #include "shared_types.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -24,6 +25,11 @@ struct FilmImage {
     std::vector<float> bias, biasError;
     /// The same by LIGHT_*; empty, too, where the scene has no such light.
     std::array<std::vector<float>, LIGHT_CLASSES> componentBias, componentBiasError;
+
+    /// Or else the image is black, or its film kept none.
+    bool hasComponents() const {
+        return std::any_of(components.begin(), components.end(), [](const auto& one) { return !one.empty(); });
+    }
 };
 
 /// Layer name of a component: "direct", "caustic", "quasi_caustic", "diffuse", "emission".

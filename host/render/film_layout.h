@@ -1,26 +1,23 @@
-// The floats of a pixel in the film (kernels/film.clh): compensated sums of the components, of the total's squares, of the squares of
-// each class of light; plain sums of the open batch, of the total and by class; with an estimate of the bias plain sums of it, of its
-// squares and of the open batch by class, then of squares and open batch of its total.
+// Which sums a film keeps, and where they lie (kernels/film_sums.h).
 #pragma once
 
-#include "pass_types.h"
+#include "film_sums.h"
 
 #include <cstddef>
 
-namespace quasilux::filmLayout {
+namespace quasilux {
 
-inline constexpr size_t sumFloats = 6; ///< high, then low of R, G, B
-inline constexpr size_t totalSquares = FILM_COMPONENTS * sumFloats;
-inline constexpr size_t classSquares = totalSquares + sumFloats;
-inline constexpr size_t totalBatch = classSquares + LIGHT_CLASSES * sumFloats;
-inline constexpr size_t classBatch = totalBatch + 3;
-inline constexpr size_t biasSums = classBatch + LIGHT_CLASSES * 3;
-inline constexpr size_t biasClassFloats = 9; ///< sums, squares, open batch
-inline constexpr size_t biasFloats = LIGHT_CLASSES * biasClassFloats + 6;
+/// Of a film: what it keeps beside the image and its standard error.
+struct FilmLayout {
+    bool bias = true;       ///< estimate of the bias that the density radius leaves
+    bool components = true; ///< the image by component; with it standard errors and bias of each class of light
+
+    unsigned bits() const { return (bias ? FILM_HAS_BIAS : 0u) | (components ? FILM_HAS_COMPONENTS : 0u); }
+    size_t floatsPerPixel() const { return FILM_PIXEL_FLOATS(bits()); }
+    bool operator==(const FilmLayout&) const = default;
+};
 
 /// The value of a compensated sum.
-inline double valueOf(const float* sum, size_t channel) { return double(sum[channel]) + sum[channel + 3]; }
+inline double valueOfSum(const float* sum, size_t channel) { return double(sum[channel]) + sum[channel + 3]; }
 
-constexpr size_t floatsPerPixel(bool estimatesBias) { return biasSums + (estimatesBias ? biasFloats : 0); }
-
-} // namespace quasilux::filmLayout
+} // namespace quasilux

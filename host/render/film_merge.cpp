@@ -1,12 +1,8 @@
 #include "render/film_merge.h"
 
-#include "render/film_layout.h"
-
 namespace quasilux {
 
 namespace {
-
-using namespace filmLayout;
 
 void setValue(float* sum, size_t channel, double value) {
     sum[channel] = static_cast<float>(value);
@@ -21,7 +17,7 @@ struct Part {
     /// Of batches, that which is open as one of them.
     double squares(size_t at, size_t open, size_t channel) const {
         const double sum = pixel[open + channel];
-        return valueOf(pixel + at, channel) + sum * sum * openWeight;
+        return valueOfSum(pixel + at, channel) + sum * sum * openWeight;
     }
     /// Those of the bias are plain and have no weights (film.cpp).
     double biasSquares(size_t at, size_t open, size_t channel) const {
@@ -30,49 +26,49 @@ struct Part {
     }
 };
 
-void mergeImage(float* pixel, const Part& a, const Part& b) {
+void mergeSum(float* pixel, const Part& a, const Part& b, size_t at) {
+    for (size_t channel = 0; channel < 3; ++channel)
+        setValue(pixel + at, channel, valueOfSum(a.pixel + at, channel) + valueOfSum(b.pixel + at, channel));
+}
+
+void mergeSquares(float* pixel, const Part& a, const Part& b, size_t at, size_t open) {
     for (size_t channel = 0; channel < 3; ++channel) {
-        setValue(pixel + totalSquares, channel,
-                 a.squares(totalSquares, totalBatch, channel) + b.squares(totalSquares, totalBatch, channel));
-        pixel[totalBatch + channel] = 0;
-        for (size_t c = 0; c < LIGHT_CLASSES; ++c) {
-            const size_t at = classSquares + c * sumFloats, open = classBatch + 3 * c;
-            setValue(pixel + at, channel, a.squares(at, open, channel) + b.squares(at, open, channel));
-            pixel[open + channel] = 0;
-        }
-        for (size_t k = 0; k < FILM_COMPONENTS; ++k)
-            setValue(pixel + k * sumFloats, channel,
-                     valueOf(a.pixel + k * sumFloats, channel) + valueOf(b.pixel + k * sumFloats, channel));
+        setValue(pixel + at, channel, a.squares(at, open, channel) + b.squares(at, open, channel));
+        pixel[open + channel] = 0;
     }
 }
 
-void mergeBias(float* pixel, const Part& a, const Part& b) {
-    const auto mergeSquares = [&](size_t at, size_t open) {
-        for (size_t channel = 0; channel < 3; ++channel) {
-            pixel[at + channel] =
-                static_cast<float>(a.biasSquares(at, open, channel) + b.biasSquares(at, open, channel));
-            pixel[open + channel] = 0;
-        }
-    };
-    for (size_t c = 0; c < LIGHT_CLASSES; ++c) {
-        const size_t sums = biasSums + c * biasClassFloats;
-        for (size_t k = sums; k < sums + 3; ++k) pixel[k] = a.pixel[k] + b.pixel[k];
-        mergeSquares(sums + 3, sums + 6);
+void mergeBias(float* pixel, const Part& a, const Part& b, size_t at) {
+    const size_t sum = at + FILM_BIAS_SUM, squares = at + FILM_BIAS_SQUARES, open = at + FILM_BIAS_BATCH;
+    for (size_t channel = 0; channel < 3; ++channel) {
+        pixel[sum + channel] = a.pixel[sum + channel] + b.pixel[sum + channel];
+        pixel[squares + channel] =
+            static_cast<float>(a.biasSquares(squares, open, channel) + b.biasSquares(squares, open, channel));
+        pixel[open + channel] = 0;
     }
-    const size_t total = biasSums + LIGHT_CLASSES * biasClassFloats;
-    mergeSquares(total, total + 3);
+}
+
+void mergePixel(float* pixel, const Part& a, const Part& b, const FilmLayout& layout) {
+    mergeSum(pixel, a, b, FILM_TOTAL_SUM);
+    mergeSquares(pixel, a, b, FILM_TOTAL_SQUARES, FILM_TOTAL_BATCH);
+    if (layout.bias) mergeBias(pixel, a, b, FILM_TOTAL_BIAS);
+    if (!layout.components) return;
+    const unsigned bits = layout.bits();
+    for (size_t k = 0; k < FILM_COMPONENTS; ++k) mergeSum(pixel, a, b, FILM_COMPONENT_SUMS(bits) + k * FILM_SUM_FLOATS);
+    for (size_t c = 0; c < LIGHT_CLASSES; ++c) {
+        mergeSquares(pixel, a, b, FILM_CLASS_SQUARES(bits) + c * FILM_SUM_FLOATS, FILM_CLASS_BATCH(bits) + 3 * c);
+        if (layout.bias) mergeBias(pixel, a, b, FILM_CLASS_BIAS(bits) + c * FILM_BIAS_FLOATS);
+    }
 }
 
 } // namespace
 
 void mergeFilmSums(float* sums, const FilmCounts& counts, const float* others, const FilmCounts& otherCounts,
-                   size_t pixels, bool estimatesBias) {
-    const size_t floats = floatsPerPixel(estimatesBias);
+                   size_t pixels, const FilmLayout& layout) {
+    const size_t floats = layout.floatsPerPixel();
     for (size_t k = 0; k < pixels; ++k) {
         float* pixel = sums + k * floats;
-        const Part a{pixel, counts.openWeight()}, b{others + k * floats, otherCounts.openWeight()};
-        mergeImage(pixel, a, b);
-        if (estimatesBias) mergeBias(pixel, a, b);
+        mergePixel(pixel, {pixel, counts.openWeight()}, {others + k * floats, otherCounts.openWeight()}, layout);
     }
 }
 

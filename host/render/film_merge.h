@@ -8,7 +8,7 @@ namespace quasilux {
 /// Adds the sums of other passes of the same image, pixel by pixel from `first` on, to `sums`. Each film's open batch of passes is
 /// complete then (FilmCounts::close).
 void mergeFilmSums(float* sums, const FilmCounts& counts, const float* others, const FilmCounts& otherCounts,
-                   size_t pixels, bool estimatesBias);
+                   size_t pixels, const FilmLayout& layout);
 
 /// The counts of both, after mergeFilmSums.
 FilmCounts mergedCounts(const FilmCounts& a, const FilmCounts& b);

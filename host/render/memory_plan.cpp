@@ -26,10 +26,14 @@ uint64_t pixelsOf(const DeviceScene& scene) { return uint64_t(scene.camera.width
 std::string mebibytes(uint64_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024 * 1024)); }
 
 std::string advice(const DeviceScene& scene, const RenderSettings& settings) {
-    return fmt::format("use fewer --photons (now {}), a smaller film (now {} x {}), simpler meshes (now {} triangles), "
-                       "or a device with more memory",
-                       photonsPerPass(settings, scene.camera), scene.camera.width, scene.camera.height,
-                       scene.triangles);
+    const FilmLayout layout = filmLayout(scene.features, settings);
+    std::string parts = layout.components ? "components" : "";
+    if (layout.bias) parts += parts.empty() ? "bias" : ",bias";
+    const std::string without = parts.empty() ? "" : fmt::format(" or --without {}", parts);
+    return fmt::format(
+        "use fewer --photons (now {}), a smaller film (now {} x {}){}, simpler meshes (now {} triangles), "
+        "or a device with more memory",
+        photonsPerPass(settings, scene.camera), scene.camera.width, scene.camera.height, without, scene.triangles);
 }
 
 /// The three largest, for the user to see what it is.
@@ -51,22 +55,27 @@ uint64_t sumOf(const BufferSizes& sizes) {
     return sum;
 }
 
-BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings) {
-    return {{"tree nodes", bytesOf(scene.bvh.nodes)},
-            {"primitives", bytesOf(scene.bvh.blocks)},
-            {"scene tables", bytesOf(scene.tables)},
-            {"film", pixelsOf(scene) * Film::floatsPerPixel(estimatesBias(scene.features, settings)) * sizeof(float)},
-            {"camera counters", sizeof(shared::CameraCounters)}};
+BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, const DeviceInfo& device) {
+    BufferSizes sizes{{"tree nodes", bytesOf(scene.bvh.nodes)},
+                      {"primitives", bytesOf(scene.bvh.blocks)},
+                      {"scene tables", bytesOf(scene.tables)}};
+    const FilmLayout layout = filmLayout(scene.features, settings);
+    // Kernels of the other stages add to all of the film at once.
+    DeviceInfo ofFilm = device;
+    if (settings.map != MapOrder::photons || scene.offsets.meter.kind != METER_NONE)
+        ofFilm.maximumAllocation = UINT64_MAX;
+    sizes.merge(Film::plan(pixelsOf(scene), layout, ofFilm));
+    return sizes;
 }
 
 BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, uint64_t photons,
                      const DeviceInfo& device) {
-    BufferSizes sizes = planScene(scene, settings);
+    BufferSizes sizes = planScene(scene, settings, device);
     const unsigned classes = compiledClasses(scene.features, settings);
     const unsigned regions = PhotonStage::regionCount(photonsPerPass(settings, scene.camera));
     sizes["photon regions"] = regions * sizeof(shared::RegionCount);
     sizes.merge(PhotonArrays::plan(classes, photons, regions, compiledFeatures(scene, settings).depthLimit, device));
-    if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes));
+    if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes, device));
     if (const shared::Meter& meter = scene.offsets.meter; meter.kind != METER_NONE) {
         sizes["meter"] = splatWords(classes) * pixelsOf(scene) * sizeof(uint32_t);
         sizes["meter samples"] = MeterStage::sampleBytes(pixelsOf(scene) * meter.samples);
@@ -75,9 +84,10 @@ BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, u
 }
 
 uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings) {
-    const bool bias = estimatesBias(scene.features, settings);
-    const uint64_t layers = 2 + FILM_COMPONENTS + LIGHT_CLASSES + (bias ? 2 + 2 * LIGHT_CLASSES : 0);
-    return pixelsOf(scene) * (Film::floatsPerPixel(bias) + 3 * layers) * sizeof(float);
+    const FilmLayout layout = filmLayout(scene.features, settings);
+    const uint64_t ofBias = layout.bias ? 2 : 0, ofClass = layout.components ? 1 + ofBias : 0;
+    const uint64_t layers = 2 + ofBias + (layout.components ? FILM_COMPONENTS : 0) + LIGHT_CLASSES * ofClass;
+    return pixelsOf(scene) * 3 * layers * sizeof(float);
 }
 
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,

@@ -17,7 +17,7 @@ using BufferSizes = std::map<std::string, uint64_t>;
 uint64_t sumOf(const BufferSizes& sizes);
 
 /// Buffers that depend on the scene and the film alone.
-BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings);
+BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, const DeviceInfo& device);
 
 /// All buffers of a pass of --map photons with room for so many `photons`.
 BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, uint64_t photons,

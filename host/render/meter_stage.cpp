@@ -25,7 +25,7 @@ void MeterStage::compile(const PhotonStage& photons) {
                             film_.counterBuffer(), nothing);
     traceMeterPaths_.forgetPace();
     addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(), 0u, 0u, 0.f,
-                            counted_.quantaPerRadiance, 0.f);
+                            counted_.quantaPerRadiance, 0.f, film_.layout().bits());
 }
 
 void MeterStage::run(unsigned pass, const PhotonStage& photons) {
@@ -37,7 +37,7 @@ void MeterStage::run(unsigned pass, const PhotonStage& photons) {
                             photons.table().cellStart(), photons.sorted(), samples_, film_.counterBuffer(), params_);
     addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(),
                             static_cast<unsigned>(film_.pixels()), meter.samples, sampleScale(meter),
-                            counted_.quantaPerRadiance, params_.batchWeight);
+                            counted_.quantaPerRadiance, params_.batchWeight, film_.layout().bits());
 }
 
 } // namespace quasilux

@@ -81,6 +81,10 @@ bool estimatesBias(const Features& features, const RenderSettings& settings) {
     return estimatesBias(isMeter(features), settings);
 }
 
+FilmLayout filmLayout(const Features& features, const RenderSettings& settings) {
+    return {settings.film.bias && estimatesBias(features, settings), settings.film.components};
+}
+
 bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings) {
     return mayAdaptRadius(scene.sensor.meter != MeterKind::none, !scene.media.empty(), settings);
 }

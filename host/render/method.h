@@ -17,6 +17,8 @@ unsigned compiledClasses(const Features& features, const RenderSettings& setting
 
 /// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
 bool estimatesBias(const Features& features, const RenderSettings& settings);
+/// Of the image's film: what the settings ask it to keep, as far as there is such a thing.
+FilmLayout filmLayout(const Features& features, const RenderSettings& settings);
 /// Whether the density radius may be chosen by pixel, so that borders must be known for the largest one: known before the
 /// scene is flattened.
 bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);

@@ -48,7 +48,7 @@ struct Renderer::Stages {
           program(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                   kernelOptions(flat, settings)),
           geometry(device, flat), learned(std::move(known)), learning(learned ? nullptr : followPilots()),
-          film(device, flat.camera.width, flat.camera.height, estimatesBias(flat.features, settings)),
+          film(device, flat.camera.width, flat.camera.height, filmLayout(flat.features, settings)),
           report(describeScene(scene, flat, settings)) {
         const auto start = Clock::now();
         auto timingsBefore = device.timings();
@@ -169,7 +169,7 @@ struct Renderer::Stages {
         const PilotResult expected = pilot(program, photon, classes, true);
         const BufferSizes sizes = planPass(flat, settings, expected.photons, device.info());
         checkFits(sizes, device.info(), flat, settings);
-        forecast(sizes, sumOf(sizes) - sumOf(planScene(flat, settings)));
+        forecast(sizes, sumOf(sizes) - sumOf(planScene(flat, settings, device.info())));
         photons.emplace(device, program, geometry, photon, classes, storesDepth(), expected.photons);
         photons->thinVolume(expected.keepProbability);
         photons->useField(field);
@@ -373,7 +373,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     if (!expected.empty()) requireSame(expected, checksums);
     if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
     const double prepareSeconds = since(start);
-    checkFits(planScene(flat, settings), device.info(), flat, settings);
+    checkFits(planScene(flat, settings, device.info()), device.info(), flat, settings);
     stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), std::move(known));
     stages_->report.checksums = std::move(checksums);
     stages_->counters.prepareSeconds = prepareSeconds;
@@ -409,7 +409,7 @@ void Renderer::renderPass(unsigned pass) {
 
 Renderer::FilmShape Renderer::filmShape() const {
     const auto& camera = stages_->flat.camera;
-    return {camera.width, camera.height, estimatesBias(stages_->flat.features, stages_->settings)};
+    return {camera.width, camera.height, stages_->film.layout()};
 }
 
 unsigned Renderer::nextPass() const { return stages_->nextPass; }

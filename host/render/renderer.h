@@ -122,7 +122,7 @@ public:
 
     struct FilmShape {
         unsigned width, height;
-        bool estimatesBias;
+        FilmLayout layout;
     };
     FilmShape filmShape() const;
     /// The pass after the last one.

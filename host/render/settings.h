@@ -1,6 +1,7 @@
 // What decides the image besides the scene: the method, its numbers, and when to stop.
 #pragma once
 
+#include "render/film_layout.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -57,6 +58,7 @@ struct RenderSettings {
     unsigned furtherClasses =
         0; ///< of photons, as bits of photonClasses(): kernels serve splits and variants that use them, too; not 0 in a search
     bool estimateBias = true;   ///< beside the image; see estimatesBias() in method.h
+    FilmLayout film;            ///< what it is to keep; see filmLayout() in method.h
     bool energyBalance = false; ///< count what becomes of the photons' flux
     bool countGathered = false; ///< after the image: which photons of one more pass camera paths gather
     LawRule lawRule = LawRule::right;

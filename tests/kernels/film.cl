@@ -3,7 +3,8 @@
 #include "film.clh"
 
 /* Adds `count` samples, one after the other, to pixel `id` of `pixels`; component k of a sample is its k-th share. */
-__kernel void addSamples(__global const float4* samples, __global float* film, const uint pixels, const uint count) {
+__kernel void addSamples(__global const float4* samples, __global float* film, const uint pixels, const uint count,
+                         const uint layout) {
     const uint pixel = get_global_id(0);
     if (pixel >= pixels) return;
     for (uint i = 0; i < count; ++i) {
@@ -11,20 +12,20 @@ __kernel void addSamples(__global const float4* samples, __global float* film, c
         float3 components[FILM_COMPONENTS];
         for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = k == LIGHT_DIFFUSE ? value : (float3)0;
         components[FILM_EMISSION] = value * 0.5f;
-        addSample(film, pixel, components, 1);
+        addSample(film, layout, pixel, components, 1);
     }
 }
 
 #if ESTIMATE_BIAS
 /* One pass of diffuse light's bias alone, a value for each pixel. */
 __kernel void addBiasOfPass(__global const float4* bias, __global float* film, const uint pixels,
-                            const float batchWeight) {
+                            const float batchWeight, const uint layout) {
     const uint pixel = get_global_id(0);
     if (pixel >= pixels) return;
     float3 components[FILM_SAMPLES];
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
     components[FILM_BIAS(LIGHT_DIFFUSE)] = bias[pixel].xyz;
-    addSample(film, pixel, components, batchWeight);
+    addSample(film, layout, pixel, components, batchWeight);
 }
 #endif
 

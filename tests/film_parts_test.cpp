@@ -1,0 +1,110 @@
+// Films that take several buffers, and films that keep less: the image has the same bits.
+//
+// Nothing here is left to chance: renders have fixed seeds.
+#include "learn/learning.h"
+#include "render/renderer.h"
+#include "support/render_statistics.h"
+#include "support/test_kernels.h"
+
+#include <gtest/gtest.h>
+#include <map>
+
+namespace quasilux {
+namespace {
+
+constexpr unsigned passes = 6; // one batch of errors, and radii by pixel have been chosen once
+
+/// Keeps what is saved.
+struct Memory : StateSink, StateSource {
+    std::map<std::string, std::vector<char>> arrays;
+    std::vector<char>* open = nullptr;
+
+    void begin(const std::string& name) override { open = &arrays[name]; }
+    void write(const void* data, size_t bytes) override {
+        const auto* from = static_cast<const char*>(data);
+        open->insert(open->end(), from, from + bytes);
+    }
+    bool has(const std::string& name) const override { return arrays.count(name) > 0; }
+    uint64_t bytes(const std::string& name) const override { return arrays.at(name).size(); }
+    void read(const std::string& name, uint64_t first, void* data, size_t bytes) const override {
+        std::copy_n(arrays.at(name).data() + first, bytes, static_cast<char*>(data));
+    }
+};
+
+/// One that allows less in a buffer than the film takes.
+Device& smallDevice() {
+    static Device device(-1, testDevice().workGroupSize(), 0, 0, 10'000'000);
+    return device;
+}
+
+RenderSettings settingsOf(FilmLayout film) {
+    RenderSettings settings = settingsFromScene(projectScene("cornell_phong.xml"));
+    settings.photonsPerPass = 20'000;
+    settings.film = film;
+    return settings;
+}
+
+struct Rendered {
+    FilmImage image;
+    size_t buffers = 0; ///< of the film
+    Memory state;
+};
+
+RenderCounters countersAfter(unsigned rendered) {
+    RenderCounters counters;
+    counters.passes = rendered;
+    return counters;
+}
+
+Rendered render(Device& device, FilmLayout film, uint64_t seed = 1, const Memory* from = nullptr) {
+    RenderSettings settings = settingsOf(film);
+    settings.seed = seed;
+    Renderer renderer(device, projectScene("cornell_phong.xml"), settings);
+    if (from)
+        renderer.restoreState(*from, countersAfter(passes), passes);
+    else
+        for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
+    Rendered rendered{renderer.develop(), 0, {}};
+    renderer.saveState(rendered.state);
+    for (const auto& [label, bytes] : renderer.report().bufferBytes)
+        rendered.buffers += label.compare(0, 4, "film") == 0;
+    return rendered;
+}
+
+const Rendered& usual() {
+    static const Rendered rendered = render(testDevice(), {});
+    return rendered;
+}
+
+TEST(FilmParts, HaveTheSameBits) {
+    const Rendered parts = render(smallDevice(), {});
+    EXPECT_EQ(usual().buffers, 1u);
+    EXPECT_GT(parts.buffers, 2u);
+    EXPECT_EQ(parts.image.radiance, usual().image.radiance);
+    EXPECT_EQ(parts.image.standardError, usual().image.standardError);
+    EXPECT_EQ(parts.image.bias, usual().image.bias);
+    EXPECT_EQ(parts.image.components, usual().image.components);
+    EXPECT_NE(render(smallDevice(), {}, 2).image.radiance, usual().image.radiance) << "negative control: another seed";
+}
+
+TEST(FilmParts, AreSavedAsOne) {
+    const Rendered parts = render(smallDevice(), {}, 1, &usual().state);
+    EXPECT_EQ(parts.image.radiance, usual().image.radiance);
+    EXPECT_EQ(parts.state.arrays.at("film"), usual().state.arrays.at("film"));
+    EXPECT_EQ(render(testDevice(), {}, 1, &parts.state).image.standardError, usual().image.standardError);
+}
+
+TEST(FilmLayout, KeepsLessOfTheSameImage) {
+    for (const FilmLayout film : {FilmLayout{false, true}, FilmLayout{true, false}, FilmLayout{false, false}}) {
+        const Rendered less = render(testDevice(), film);
+        EXPECT_EQ(less.image.radiance, usual().image.radiance);
+        EXPECT_EQ(less.image.standardError, usual().image.standardError);
+        EXPECT_EQ(less.image.bias, film.bias ? usual().image.bias : std::vector<float>());
+        EXPECT_EQ(less.image.hasComponents(), film.components);
+        EXPECT_LT(less.state.arrays.at("film").size(), usual().state.arrays.at("film").size());
+    }
+    EXPECT_EQ((FilmLayout{false, false}.floatsPerPixel()), 15u) << "4K in 500 MB";
+}
+
+} // namespace
+} // namespace quasilux
