@@ -78,6 +78,8 @@ TEST_F(GridTest, PhotometricUnitsLeaveTheEfficacyOut) {
 TEST_F(GridTest, IsRefusedWhereThereIsNone) {
     expectRefused({"render", "scene.xml", "--grid", "out.csv"}, "no illuminance-grid");
     expectRefused({"render", "scene.xml", "--grid", "out.txt"}, ".csv");
+    write("both.xml", pointLight + grid);
+    expectRefused({"render", "both.xml", "--grid", "out.csv", "--without", "bias"}, "--without is of images");
 }
 
 TEST_F(GridTest, AMeterIsPrinted) {

@@ -20,24 +20,28 @@ double meanAbout(const FilmImage& image, const std::vector<float>& radiance, siz
     return sum / count;
 }
 
-// 1 / (value^2 + 0.01 m^2) of each channel of each pixel, a third of it: squares of errors are averaged over channels.
+// Root of 1 / (value^2 + 0.01 m^2) of each channel of each pixel, a third of it: squares of errors are averaged over channels. Roots, since
+// squares of faint images leave the range of a float.
 // After few passes a pixel that is too bright has a large standard error, too, and would divide it by too much: so the
 // value is that of the neighbourhood.
-std::vector<double> channelWeights(const FilmImage& image, const std::vector<float>& radiance) {
+std::vector<float> channelWeights(const FilmImage& image, const std::vector<float>& radiance) {
     double sum = 0;
     for (const float value : radiance) sum += value;
     const double mean = sum / static_cast<double>(radiance.size());
-    std::vector<double> weights(radiance.size());
+    std::vector<float> weights(radiance.size());
     for (size_t k = 0; k < weights.size(); ++k) {
         const double value = meanAbout(image, radiance, k / 3, k % 3), scale = value * value + 0.01 * mean * mean;
-        weights[k] = scale > 0 ? 1 / (3 * scale) : 0;
+        weights[k] = scale > 0 ? static_cast<float>(1 / std::sqrt(3 * scale)) : 0;
     }
     return weights;
 }
 
-std::vector<double> squaredByPixel(const std::vector<float>& errors, const std::vector<double>& weights) {
+std::vector<double> squaredByPixel(const std::vector<float>& errors, const std::vector<float>& weights) {
     std::vector<double> squares(weights.size() / 3);
-    for (size_t k = 0; k < errors.size(); ++k) squares[k / 3] += weights[k] * errors[k] * errors[k];
+    for (size_t k = 0; k < errors.size(); ++k) {
+        const double relative = double(weights[k]) * errors[k];
+        squares[k / 3] += relative * relative;
+    }
     return squares;
 }
 
@@ -97,7 +101,7 @@ double percentile95(std::vector<double> variances, double n) {
 }
 
 ErrorPart partOf(const std::vector<float>& noise, const std::vector<float>& bias, const std::vector<float>& biasNoise,
-                 const std::vector<double>& weights, double passes) {
+                 const std::vector<float>& weights, double passes) {
     ErrorPart part;
     std::vector<double> squares = squaredByPixel(noise, weights);
     part.noiseRms = std::sqrt(mean(squares));

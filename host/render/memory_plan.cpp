@@ -87,7 +87,9 @@ uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings) 
     const FilmLayout layout = filmLayout(scene.features, settings);
     const uint64_t ofBias = layout.bias ? 2 : 0, ofClass = layout.components ? 1 + ofBias : 0;
     const uint64_t layers = 2 + ofBias + (layout.components ? FILM_COMPONENTS : 0) + LIGHT_CLASSES * ofClass;
-    return pixelsOf(scene) * 3 * layers * sizeof(float);
+    constexpr uint64_t ofEstimate =
+        3 * sizeof(float) + sizeof(double); // error_estimate.cpp: weights, squares of one layer
+    return pixelsOf(scene) * (3 * layers * sizeof(float) + ofEstimate);
 }
 
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
