@@ -47,6 +47,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     for (const auto& emitter : emitters.emitters) {
         features.emitterTypes.insert(emitter.type);
         features.emitterTextures |= emitter.texture > 0;
+        features.areaTextures |= emitter.texture > 0 && emitter.shape != QL_NONE;
     }
     features.lightTree = !emitters.lightTree.empty();
     findMediumFeatures(scene, media, emitters, features);

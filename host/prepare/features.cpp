@@ -45,6 +45,7 @@ constexpr std::array flags = {
     Flag{&Features::sharingLambert, "HAS_SHARING_LAMBERT", "diffuse paths that look for emitters"},
     Flag{&Features::sharingMedia, "HAS_SHARING_MEDIA", "paths in media that look for emitters"},
     Flag{&Features::emitterTextures, "HAS_EMITTER_TEXTURES", "emitters with textures"},
+    Flag{&Features::areaTextures, "HAS_AREA_TEXTURES", "emitting shapes with textures"},
     Flag{&Features::lightTree, "HAS_LIGHT_TREE", "many emitters"},
     Flag{&Features::hiddenEmitters, "HAS_HIDDEN_EMITTERS", "emitters hidden from the camera"},
     Flag{&Features::directByPhotons, "HAS_DIRECT_BY_PHOTONS", "direct light of some emitters by photons"},

@@ -24,6 +24,7 @@ struct Features {
     bool sharingLambert = false, sharingMedia = false;   ///< scattering that shares direct light (direct_sharing.h)
     bool lightTree = false;                              ///< direct light is sampled from many emitters (light_tree.h)
     bool emitterTextures = false;                        ///< what some emitter sends is multiplied by a texture
+    bool areaTextures = false;                           ///< and it is a shape
     bool hiddenEmitters = false;                         ///< from the camera
     bool directByPhotons = false; ///< direct light of some emitters is taken from photons (host/learn/direct_choice.h)
     bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering of surfaces

@@ -40,6 +40,7 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
     shared::Emitter emitter{};
     emitter.shape = index;
     emitter.radiance = shape.emitter->radiance;
+    emitter.texture = shape.emitter->texture ? *shape.emitter->texture + 1 : 0;
     emitter.normalSign = shape.flipNormals ? -1.f : 1.f;
     if (shape.rectangle) {
         const auto& frame = *shape.rectangle;
@@ -59,6 +60,17 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
         addTriangles(shape.mesh, emitter, triangles);
     }
     return emitter;
+}
+
+/// Mean of its texture by area.
+Rgb meanOfRadiance(const ShapeDescription& shape, const Scene& scene) {
+    if (!shape.emitter->texture) return {1, 1, 1};
+    const TextureDescription& texture = scene.textures[*shape.emitter->texture];
+    if (shape.sphere) // even in azimuth and in the cosine of the angle to its axis
+        return meanOfTexture(texture, [](double x, double y) {
+            return TexturePlace{{x, std::acos(1 - 2 * y) / pi}, 1};
+        });
+    return meanOfTexture(texture, shape.mesh);
 }
 
 /// Of its intensity over that on the axis: 2 pi times the integral of min(1, (cutoff - angle) / (cutoff - beam)) sin(angle).
@@ -221,7 +233,8 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
         tables.emitterOfShape[k] = static_cast<unsigned>(tables.emitters.size());
         tables.emitters.push_back(areaEmitter(shape, k, tables.triangles));
         tables.emitters.back().medium = placement.shapeEmitters[k];
-        tables.power.push_back(pi * tables.emitters.back().area * mean(shape.emitter->radiance));
+        tables.power.push_back(pi * tables.emitters.back().area *
+                               mean(shape.emitter->radiance * meanOfRadiance(shape, scene)));
         tables.ids.push_back(shape.id);
     }
     for (size_t k = 0; k < scene.pointEmitters.size(); ++k) {

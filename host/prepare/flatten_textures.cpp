@@ -82,7 +82,8 @@ TextureTables flattenTextures(const Scene& scene, const MaterialTables& material
 }
 
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape) {
-    if (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)])) return 0;
+    const bool emits = shape.emitter && shape.emitter->texture;
+    if (!emits && (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)]))) return 0;
     return shape.sphere ? 9u : static_cast<unsigned>(2 * shape.mesh.cornerUvs.size());
 }
 

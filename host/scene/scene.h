@@ -57,6 +57,7 @@ struct Bsdf {
 /// Radiance that a shape emits on the side of its normal, W sr^-1 m^-2.
 struct AreaEmitter {
     Rgb radiance{};
+    std::optional<unsigned> texture; ///< index into Scene::textures; multiplies the radiance
     SourceLocation where;
 };
 
@@ -83,7 +84,7 @@ private:
 /// What a texture multiplies: what surfaces scatter, in [0, 1], or what emitters send, at least 0.
 enum class TextureUse { reflectance, emission };
 
-/// A factor over a surface, or over the directions of a point emitter.
+/// A factor over a surface that scatters or emits, or over the directions of a point emitter.
 struct TextureDescription {
     TextureUse use = TextureUse::reflectance;
     shared::Texture device{};
@@ -117,7 +118,7 @@ struct Sphere {
     glm::mat3 toLocal{1.f}; ///< rotation (and mirroring) from the world to its own axes, for texture coordinates
 };
 
-/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides, unit normal.
+/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides along which u and v run from 0 to 1, unit normal.
 struct RectangleFrame {
     glm::vec3 corner{}, edgeU{}, edgeV{}, normal{};
 };

@@ -36,6 +36,15 @@ constexpr ShapePlugin shapePlugins[] = {
 /// Plugins that readShapes takes apart.
 Names compoundShapes() { return {"instance", "shapegroup", "merge"}; }
 
+/// `textured`: which of its objects needs them.
+void checkTexCoords(const ShapeDescription& shape, const char* textured) {
+    if (!shape.sphere && shape.mesh.cornerUvs.empty())
+        throw InputError(shape.where,
+                         fmt::format("shape '{}' has no texture coordinates, or not at every corner, but its {} has "
+                                     "a texture; add them to the mesh file, or use {} {} without textures.",
+                                     shape.id, textured, textured[0] == 'e' ? "an" : "a", textured));
+}
+
 } // namespace
 
 bool leavesOutShape(const Element& element, LoadContext& context) {
@@ -66,14 +75,11 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     if (exterior) shape.exterior = useMedium(*exterior, context);
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
     keepShownAttributes(shape, context);
-    if (!shape.sphere && shape.mesh.cornerUvs.empty() &&
-        needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
-        throw InputError(shape.where,
-                         fmt::format("shape '{}' has no texture coordinates, or not at every corner, but its bsdf has "
-                                     "a texture; add them to the mesh file, or use a bsdf without textures.",
-                                     shape.id));
+    if (needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
+        checkTexCoords(shape, "bsdf");
     if (emitter) {
         shape.emitter = readShapeEmitter(*emitter, context);
+        if (shape.emitter->texture) checkTexCoords(shape, "emitter");
         if (!(static_cast<float>(areaOf(shape)) > 0))
             throw InputError(
                 shape.where,

@@ -127,7 +127,7 @@ EmissionColor readEmission(Properties& properties, const std::string& name, Rgb 
     const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
     if (!read.attribute.empty() || read.device.texture0 > 0 || read.device.texture1 > 0)
         throw InputError(texture->where,
-                         fmt::format("the texture '{}' of {} is looked up by direction, so it must be a 'bitmap' or a "
+                         fmt::format("the texture '{}' of {} gives what is emitted, so it must be a 'bitmap' or a "
                                      "'checkerboard' of two colours; bake it into an image.",
                                      name, properties.describe()));
     if (isBlack(largestValue(read)))
