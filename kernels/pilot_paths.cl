@@ -104,8 +104,8 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
     EmitterSample light = emitterSampleDirection(emitters + index, &data, s->position, uSelect, rngNext2(&state->rng));
     if (!light.valid) return;
     uint element = 0;
-#ifdef HAS_EMITTER_TRIANGLES
-    if (emitters[index].type == EMITTER_TRIANGLES)
+#ifdef HAS_EMITTING_TRIANGLES
+    if (EMITS_BY_TRIANGLE(emitters[index].type))
         element = trianglesSelect(emitters + index, data.triangles, uSelect) - emitters[index].firstTriangle;
 #endif
     light.radianceOverPdf /= probability;

@@ -235,6 +235,9 @@ typedef struct {
 /* As EMITTER_POINT, but for the intensity: radiance over cos^3 of the angle to `normal`, times the texture, which is looked up as
  * that of EMITTER_SPOT; none outside of its unit square. `area`: of the square, at depth 1. */
 #define EMITTER_PROJECTOR 8u
+/* As EMITTER_TRIANGLES, but along the normals of the triangles only; radiance field holds the irradiance across the beam; normal: that of all
+ * triangles, unit, or 0 where they differ. */
+#define EMITTER_DIRECTIONALAREA 9u
 
 typedef struct {
     unsigned int type;
@@ -246,7 +249,7 @@ typedef struct {
     float area;
     float radius;
     float normalSign;
-    float selectionProbability;                /* in proportion to power */
+    float selectionProbability;                /* in proportion to power; beams: host/prepare/flatten_emitters.cpp */
     float selectionCdf;                        /* sum of the probabilities up to and including this emitter; last = 1 */
     unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
     unsigned int medium;                       /* into which it emits: index or MEDIUM_NONE */

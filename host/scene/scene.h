@@ -58,6 +58,7 @@ struct Bsdf {
 struct AreaEmitter {
     Rgb radiance{};
     std::optional<unsigned> texture; ///< index into Scene::textures; multiplies the radiance
+    bool alongNormal = false;        ///< only; what `radiance` holds is the irradiance across the beam then, W m^-2
     SourceLocation where;
 };
 

@@ -28,7 +28,6 @@ constexpr Unsupported unsupported[] = {
     {"bsdf", "retarder", noPolarisation},
     {"bsdf", "circular", noPolarisation},
     {"texture", "volume", "use a 'bitmap' and texture coordinates"},
-    {"emitter", "directionalarea", "use 'directional'"},
     {"emitter", "sunsky", ofSky},
     {"emitter", "timed_sunsky", ofSky},
     {"sensor", "batch", "put its sensors into the <scene> themselves and render them with --sensor all"},

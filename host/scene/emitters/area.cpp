@@ -1,4 +1,5 @@
-// <emitter type="area">: a shape that emits the same radiance in all directions on the side of its normal.
+// <emitter type="area">: a shape that emits the same radiance in all directions on the side of its normal; and
+// <emitter type="directionalarea">: one that emits along its normal only.
 #include "scene/emitters/emitters.h"
 #include "scene/textures/texture_plugin.h"
 
@@ -10,6 +11,12 @@ AreaEmitter readArea(Properties& properties) {
     emitter.radiance = radiance.scale;
     emitter.texture = radiance.texture;
     emitter.where = properties.element().where;
+    return emitter;
+}
+
+AreaEmitter readDirectionalArea(Properties& properties) {
+    AreaEmitter emitter = readArea(properties);
+    emitter.alongNormal = true;
     return emitter;
 }
 

@@ -45,6 +45,16 @@ void checkTexCoords(const ShapeDescription& shape, const char* textured) {
                                      shape.id, textured, textured[0] == 'e' ? "an" : "a", textured));
 }
 
+/// For an emitter along its normals.
+void checkFlat(const ShapeDescription& shape) {
+    if (shape.sphere || !shape.mesh.cornerNormals.empty())
+        throw InputError(shape.emitter->where,
+                         fmt::format("emitter 'directionalarea' emits along the normals of flat faces, but shape '{}' "
+                                     "is curved; use a rectangle or disk, or a mesh with <boolean "
+                                     "name=\"face_normals\" value=\"true\"/>.",
+                                     shape.id));
+}
+
 } // namespace
 
 bool leavesOutShape(const Element& element, LoadContext& context) {
@@ -80,6 +90,7 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     if (emitter) {
         shape.emitter = readShapeEmitter(*emitter, context);
         if (shape.emitter->texture) checkTexCoords(shape, "emitter");
+        if (shape.emitter->alongNormal) checkFlat(shape);
         if (!(static_cast<float>(areaOf(shape)) > 0))
             throw InputError(
                 shape.where,
