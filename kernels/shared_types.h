@@ -108,8 +108,18 @@ typedef struct {
     unsigned int frontFirst, frontCount;
     unsigned int backFirst, backCount;
     unsigned int flags;
-    unsigned int frontRelief, backRelief; /* 1 + index of the Relief that bends the side's normals; 0: none */
+    unsigned int frontRelief, backRelief;       /* 1 + index of the Relief that bends the side's normals; 0: none */
+    unsigned int frontRoughness, backRoughness; /* 1 + index of the RoughnessLevels of the side's lobes; 0: none */
 } Material;
+
+/* Microfacet roughness alpha by texture. The lobes of the side are there once for each level (those of v follow each other); of levels
+ * that lie evenly in the fourth root of alpha, the nearest one is taken. */
+typedef struct {
+    unsigned int textureU, textureV; /* 1 + index of a Texture whose channels are equal; 0: none, one level */
+    unsigned int levelsU, levelsV;
+    float leastU, leastV; /* fourth root of alpha at the first level */
+    float levelsPerUnitU, levelsPerUnitV;
+} RoughnessLevels;
 
 #define RELIEF_NORMALS 0u  /* the texture holds normals: 2 rgb - 1, in the frame of dp/du */
 #define RELIEF_HEIGHTS 1u  /* it holds heights, times `scale`, along the shading normal */

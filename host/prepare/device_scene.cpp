@@ -43,7 +43,8 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.lobeWeights |= lobe.weightCount > 0;
     }
     features.relief = !materials.reliefs.empty();
-    features.textures |= features.relief;
+    features.alphaTextures = !materials.roughness.empty();
+    features.textures |= features.relief || features.alphaTextures;
     for (const auto& emitter : emitters.emitters) {
         features.emitterTypes.insert(emitter.type);
         features.emitterTextures |= emitter.texture > 0;
@@ -207,6 +208,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.features.meshAttributes = !textures.attributes.empty();
     out.offsets.media = appendMedia(media, tables);
     out.offsets.reliefs = tables.append(materials.reliefs);
+    out.offsets.roughness = tables.append(materials.roughness);
     out.offsets.lobeWeights = tables.append(materials.weights);
     out.offsets.mediumPlanes = tables.append(media.planes);
     out.offsets.emitters = tables.append(out.emitters.emitters);

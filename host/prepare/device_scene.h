@@ -85,6 +85,7 @@ struct MaterialTables {
     std::vector<shared::Lobe> lobes;
     std::vector<shared::LobeWeight> weights;
     std::vector<shared::Relief> reliefs;
+    std::vector<shared::RoughnessLevels> roughness;
 };
 MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecision>& split);
 struct TextureTables {
@@ -95,6 +96,8 @@ struct TextureTables {
 };
 /// Only textures that `materials` or `emitters` use bring texels and attributes.
 TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters);
+/// Whether layers of the image go by texture coordinates, so that all shapes show theirs.
+bool hasUvLayers(const Scene& scene);
 /// Words of a textured shape in the table of flattenUvs; 0 for others.
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape);
 std::vector<float> flattenUvs(const Scene& scene);

@@ -19,6 +19,9 @@ std::vector<unsigned> texturesInUse(const Scene& scene, const MaterialTables& ma
             if (number > 0) used.push_back(number - 1);
     for (const auto& weight : materials.weights) used.push_back(weight.texture);
     for (const auto& relief : materials.reliefs) used.push_back(relief.texture);
+    for (const auto& levels : materials.roughness)
+        for (const unsigned number : {levels.textureU, levels.textureV})
+            if (number > 0) used.push_back(number - 1);
     for (const auto& emitter : emitters.emitters)
         if (emitter.texture > 0) used.push_back(emitter.texture - 1);
     return withNested(scene, used);
@@ -81,9 +84,24 @@ TextureTables flattenTextures(const Scene& scene, const MaterialTables& material
     return tables;
 }
 
+bool hasUvLayers(const Scene& scene) {
+    return std::any_of(scene.aovs.begin(), scene.aovs.end(), [](const AovLayer& layer) {
+        switch (layer.quantity) {
+        case AovQuantity::uv:
+        case AovQuantity::dp_du:
+        case AovQuantity::dp_dv:
+        case AovQuantity::duv_dx:
+        case AovQuantity::duv_dy:
+            return true;
+        default:
+            return false;
+        }
+    });
+}
+
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape) {
-    const bool emits = shape.emitter && shape.emitter->texture;
-    if (!emits && (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)]))) return 0;
+    const bool isShown = hasUvLayers(scene) || (shape.emitter && shape.emitter->texture);
+    if (!isShown && (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)]))) return 0;
     return shape.sphere ? 9u : static_cast<unsigned>(2 * shape.mesh.cornerUvs.size());
 }
 

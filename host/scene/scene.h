@@ -32,8 +32,10 @@ struct QuasiSpecularChoice {
 struct LobeDescription {
     shared::Lobe device{};
     std::vector<shared::LobeWeight> weights; ///< factors by texture; their textures count from 0 in Scene::textures
-    std::string name;                        ///< "diffuse", "specular", …, as a quasi-specular list names it
-    QuasiSpecularChoice quasiSpecular;       ///< from the innermost bsdf that says something
+    std::optional<unsigned> alphaTextureU,
+        alphaTextureV;                 ///< index into Scene::textures, instead of the device's alphas
+    std::string name;                  ///< "diffuse", "specular", …, as a quasi-specular list names it
+    QuasiSpecularChoice quasiSpecular; ///< from the innermost bsdf that says something
     double halfWidth = 0; ///< radians: half the lobe's energy lies within this angle of its peak (0 delta, 45° Lambert)
 };
 

@@ -30,7 +30,6 @@ constexpr Unsupported unsupported[] = {
     {"texture", "volume", "use a 'bitmap' and texture coordinates"},
     {"emitter", "sunsky", ofSky},
     {"emitter", "timed_sunsky", ofSky},
-    {"sensor", "batch", "put its sensors into the <scene> themselves and render them with --sensor all"},
     {"sensor", "distant",
      "use sensor 'orthographic', whose rays are parallel too, or 'radiancemeter' for a single ray"},
     {"integrator", "ptracer", "use 'path', or 'volpath' where there are media: photons are traced for either"},
