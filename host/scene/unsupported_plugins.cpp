@@ -19,7 +19,6 @@ constexpr Unsupported unsupported[] = {
     {"shape", "sdfgrid", asMesh},
     {"shape", "ellipsoids", asMesh},
     {"shape", "ellipsoidsmesh", asMesh},
-    {"bsdf", "principledthin", "use 'principled' without spec_trans"},
     {"bsdf", "hair", "fibres are not modelled; use 'principled' or 'roughplastic'"},
     {"bsdf", "measured", "tables of measured scattering are not read; use 'principled' or a rough bsdf that is near"},
     {"bsdf", "measured_polarized", noPolarisation},

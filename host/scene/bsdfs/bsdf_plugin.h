@@ -34,6 +34,7 @@ int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
     X(roughplastic, readRoughPlastic)                                                                                  \
     X(roughdielectric, readRoughDielectric)                                                                            \
     X(principled, readPrincipled)                                                                                      \
+    X(principledthin, readPrincipledThin)                                                                              \
     X(blendbsdf, readBlend)                                                                                            \
     X(mask, readMask)                                                                                                  \
     X(normalmap, readNormalMap)                                                                                        \
