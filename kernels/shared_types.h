@@ -207,6 +207,7 @@ typedef struct {
 #define TEXTURE_BITMAP 1u
 #define TEXTURE_VERTEX_ATTRIBUTE 2u /* of meshes: by vertex, linear between; and by face */
 #define TEXTURE_FACE_ATTRIBUTE 3u
+#define TEXTURE_VOLUME 4u  /* of places in the world, not of texture coordinates */
 #define TEXTURE_NEAREST 0u /* filter */
 #define TEXTURE_BILINEAR 1u
 #define WRAP_REPEAT 0u
@@ -222,7 +223,7 @@ typedef struct {
     unsigned int filter, wrap;  /* bitmap */
     unsigned int width, height; /* bitmap, pixels */
     /* Bitmap: rows from v = 0 on, each from u = 0 on. Attribute: word in the table of attributes, where by shape it is said
-     * in which word of that table its colours begin, one a face or one a corner. */
+     * in which word of that table its colours begin, one a face or one a corner. Volume: word of its VolumeGrid there. */
     unsigned int firstTexel;
 } Texture;
 

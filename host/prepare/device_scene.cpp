@@ -205,7 +205,8 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.uvs = tables.append(flattenUvs(scene));
     out.offsets.attributes = tables.append(textures.attributes);
     out.features.nestedTextures = textures.areNested;
-    out.features.meshAttributes = !textures.attributes.empty();
+    out.features.meshAttributes = textures.haveAttributes;
+    out.features.textureVolumes = textures.haveVolumes;
     out.offsets.media = appendMedia(media, tables);
     out.offsets.reliefs = tables.append(materials.reliefs);
     out.offsets.roughness = tables.append(materials.roughness);

@@ -91,8 +91,9 @@ MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecisi
 struct TextureTables {
     std::vector<shared::Texture> textures;
     std::vector<Rgb> texels;
-    std::vector<uint32_t> attributes; ///< as shared::Texture has them
+    std::vector<uint32_t> attributes; ///< and volumes, as shared::Texture has them
     bool areNested = false;           ///< some are within others
+    bool haveAttributes = false, haveVolumes = false;
 };
 /// Only textures that `materials` or `emitters` use bring texels and attributes.
 TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters);

@@ -27,6 +27,8 @@ void addValues(const Scene& scene, unsigned index, Range& range) {
         range.add(0);
         range.add(1);
     }
+    if (texture.volume)
+        for (const float value : texture.volume->values) range.add(value);
     for (const Rgb& texel : texture.texels) range.add(texel.r);
     if (texture.device.type != TEXTURE_CHECKERBOARD) return;
     const auto addSquares = [&](const Rgb& color, unsigned number) {

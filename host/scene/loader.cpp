@@ -126,9 +126,10 @@ void checkUnusedMedia(const Element& root, LoadContext& context) {
 /// Volumes that no medium uses, likewise.
 void checkUnusedVolumes(const Element& root, LoadContext& context) {
     for (const Element& element : root.children) {
-        if (element.tag != "volume" || context.volumeIndex.count(&element)) continue;
+        if (element.tag != "volume" || context.volumeIndex.count(&element) || context.shownVolumes.count(&element))
+            continue;
         readVolume(element, context);
-        context.warn(element.where, fmt::format("volume '{}' is used by no medium.", idOf(element)));
+        context.warn(element.where, fmt::format("volume '{}' is used by no medium and no texture.", idOf(element)));
     }
 }
 

@@ -84,6 +84,13 @@ private:
     std::shared_ptr<const std::vector<Rgb>> pixels_ = std::make_shared<const std::vector<Rgb>>();
 };
 
+/// Values of at least 0 that vary in space, one or three channels.
+struct VolumeDescription {
+    shared::VolumeGrid device{};
+    std::vector<float> values; ///< channels of a voxel side by side, x fastest, z slowest
+    SourceLocation where;
+};
+
 /// What a texture multiplies: what surfaces scatter, in [0, 1], or what emitters send, at least 0.
 enum class TextureUse { reflectance, emission };
 
@@ -91,10 +98,11 @@ enum class TextureUse { reflectance, emission };
 struct TextureDescription {
     TextureUse use = TextureUse::reflectance;
     shared::Texture device{};
-    Texels texels;            ///< bitmap
-    std::string attribute;    ///< of meshes: its name
-    float attributeScale = 1; ///< a factor on it
-    bool isNumber = false;    ///< a weight is wanted, so that an attribute may have one channel only
+    Texels texels;                                   ///< bitmap
+    std::string attribute;                           ///< of meshes: its name
+    float attributeScale = 1;                        ///< a factor on it
+    std::shared_ptr<const VolumeDescription> volume; ///< TEXTURE_VOLUME
+    bool isNumber = false; ///< a weight is wanted, so that an attribute may have one channel only
     SourceLocation where;
 };
 
@@ -124,13 +132,6 @@ struct Sphere {
 /// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides along which u and v run from 0 to 1, unit normal.
 struct RectangleFrame {
     glm::vec3 corner{}, edgeU{}, edgeV{}, normal{};
-};
-
-/// Values of at least 0 that vary in space, one or three channels.
-struct VolumeDescription {
-    shared::VolumeGrid device{};
-    std::vector<float> values; ///< channels of a voxel side by side, x fastest, z slowest
-    SourceLocation where;
 };
 
 /// One of the phase functions that make up a medium's.

@@ -26,7 +26,6 @@ constexpr Unsupported unsupported[] = {
     {"bsdf", "polarizer", noPolarisation},
     {"bsdf", "retarder", noPolarisation},
     {"bsdf", "circular", noPolarisation},
-    {"texture", "volume", "use a 'bitmap' and texture coordinates"},
     {"emitter", "sunsky", ofSky},
     {"emitter", "timed_sunsky", ofSky},
     {"sensor", "distant",

@@ -32,6 +32,10 @@ float meanAlpha(const TextureDescription& texture, const Scene& scene) {
                        ofSquares(texture.device.color1, texture.device.texture1));
     }
     double sum = 0;
+    if (texture.volume) {
+        for (const float value : texture.volume->values) sum += value;
+        return static_cast<float>(sum / double(texture.volume->values.size()));
+    }
     for (const Rgb& texel : texture.texels) sum += texel.r;
     return static_cast<float>(sum / double(texture.texels.size()));
 }
