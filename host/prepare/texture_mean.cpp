@@ -109,10 +109,11 @@ Rgb meanOfTexture(const TextureDescription& texture, const Mesh& mesh) {
                          e2 = glm::dvec3(mesh.positions[triangle.z]) - p0;
         const double area = glm::length(glm::cross(e1, e2));
         const glm::dvec2 uv0 = mesh.cornerUvs[3 * t], uv1 = mesh.cornerUvs[3 * t + 1], uv2 = mesh.cornerUvs[3 * t + 2];
-        for (unsigned k = 0; k < side * side; ++k) {
-            const glm::dvec2 b = onTriangle((k % side + 0.5) / side, (k / side + 0.5) / side);
-            mean.add({(1 - b.x - b.y) * uv0 + b.x * uv1 + b.y * uv2, area / (side * side)});
-        }
+        for (unsigned j = 0; j < side; ++j)
+            for (unsigned i = 0; i < side; ++i) {
+                const glm::dvec2 b = onTriangle((i + 0.5) / side, (j + 0.5) / side);
+                mean.add({(1 - b.x - b.y) * uv0 + b.x * uv1 + b.y * uv2, area / (double(side) * side)});
+            }
     }
     return mean.mean();
 }
