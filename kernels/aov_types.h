@@ -1,4 +1,4 @@
-/* Floats of a pixel in the buffer of kernels/aovs.cl, shared by host and device like shared_types.h. */
+/* Floats of a pixel in the buffer of kernels/aovs.cl (AOV_…_FLOATS of them), shared by host and device like shared_types.h. */
 #ifndef QUASILUX_AOV_TYPES_H
 #define QUASILUX_AOV_TYPES_H
 
@@ -11,6 +11,13 @@
 #define AOV_SHAPE_INDEX 14u
 #define AOV_COVERAGE 15u /* share of the pixel where a ray meets anything */
 #define AOV_ALPHA 16u    /* where it meets anything but null surfaces */
-#define AOV_FLOATS 17u
+#define AOV_PLAIN_FLOATS 17u
+/* And where layers go by texture coordinates (HAS_UV_LAYERS). */
+#define AOV_UV 17u
+#define AOV_DP_DU 19u
+#define AOV_DP_DV 22u
+#define AOV_DUV_DX 25u
+#define AOV_DUV_DY 27u
+#define AOV_ALL_FLOATS 29u
 
 #endif

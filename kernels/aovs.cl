@@ -1,6 +1,6 @@
 /* What the rays of a pixel meet first, as integrator 'aov' of Mitsuba shows it: distances, places, normals, reflectance. Means over
  * samples, seen through the same filter as the image; where a ray meets nothing, it adds nothing.
- * From: camera rays. To: AOV_FLOATS for each pixel. */
+ * From: camera rays. To: AOV_FLOATS for each pixel. Option: HAS_UV_LAYERS. */
 #include "aov_types.h"
 #include "camera.clh"
 #include "tinted_lobe.clh"
@@ -20,10 +20,40 @@ inline float3 diffuseReflectance(const Surface* s, __global const Lobe* lobes, f
     return sum;
 }
 
+#ifdef HAS_UV_LAYERS
+#define AOV_FLOATS AOV_ALL_FLOATS
+#else
+#define AOV_FLOATS AOV_PLAIN_FLOATS
+#endif
+
 inline void addTriple(float* sums, float3 value) { vstore3(vload3(0, sums) + value, 0, sums); }
 
-inline void addAovs(float* sums, const Ray* ray, Hit hit, float weight, __global const PrimitiveBlock* blocks,
-                    __global const uint* tables, const SceneTables* scene) {
+#ifdef HAS_UV_LAYERS
+inline void addPair(float* sums, float2 value) { vstore2(vload2(0, sums) + value, 0, sums); }
+
+/* Change of the texture coordinates from where the surface was met to where the ray `beside` meets its tangent plane. */
+inline float2 uvStep(const Surface* s, const Ray* beside) {
+    const float distance = dot(s->position - beside->origin, s->geometricNormal);
+    const float3 step =
+        beside->origin - s->position + distance / dot(beside->direction, s->geometricNormal) * beside->direction;
+    const float3 u = s->tangents.u, v = s->tangents.v;
+    const float uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), alongU = dot(u, step), alongV = dot(v, step);
+    const float determinant = uu * vv - uv * uv;
+    return determinant > 0 ? (float2)(vv * alongU - uv * alongV, uu * alongV - uv * alongU) / determinant : 0;
+}
+
+/* `besideX`, `besideY`: rays of the places one pixel to the right and one down. */
+inline void addUvAovs(float* sums, const Surface* s, float weight, const Ray* besideX, const Ray* besideY) {
+    addPair(sums + AOV_UV, weight * s->uv);
+    addTriple(sums + AOV_DP_DU, weight * s->tangents.u);
+    addTriple(sums + AOV_DP_DV, weight * s->tangents.v);
+    addPair(sums + AOV_DUV_DX, weight * uvStep(s, besideX));
+    addPair(sums + AOV_DUV_DY, weight * uvStep(s, besideY));
+}
+#endif
+
+inline Surface addAovs(float* sums, const Ray* ray, Hit hit, float weight, __global const PrimitiveBlock* blocks,
+                       __global const uint* tables, const SceneTables* scene) {
     const Surface s = surfaceAt(hit, ray->origin, ray->direction, blocks, tables, scene);
     __global const Lobe* lobes = SCENE_TABLE(tables, scene, Lobe, lobes) + s.firstLobe;
     const Frame frame = frameFromNormal(s.shadingNormal);
@@ -37,6 +67,7 @@ inline void addAovs(float* sums, const Ray* ray, Hit hit, float weight, __global
     sums[AOV_PRIM_INDEX] += weight * (float)((hit.primitive & PRIMITIVE_INDEX_MASK) - first);
     sums[AOV_SHAPE_INDEX] += weight * (float)(s.shape + 1);
     sums[AOV_COVERAGE] += weight;
+    return s;
 }
 
 /* Does the ray meet anything but null surfaces? */
@@ -64,10 +95,16 @@ __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveB
     for (uint k = 0; k < AOV_FLOATS; ++k) sums[k] = 0;
     for (uint sample = 0; sample < samples; ++sample) {
         const FilterPlace place = filterPlace(camera, tables, pixel, pixelNumbers(pixel, sample, seed).xy);
-        const Ray ray = cameraRay(camera, pixel, place.offset, lensNumbers(pixel, sample, seed));
+        const float2 lens = lensNumbers(pixel, sample, seed);
+        const Ray ray = cameraRay(camera, pixel, place.offset, lens);
         const Hit hit = intersectClosest(nodes, blocks, ray);
         if (hit.primitive == QL_NONE) continue;
-        addAovs(sums, &ray, hit, place.weight, blocks, tables, &params.scene);
+        const Surface s = addAovs(sums, &ray, hit, place.weight, blocks, tables, &params.scene);
+#ifdef HAS_UV_LAYERS
+        const Ray besideX = cameraRay(camera, pixel, place.offset + (float2)(1, 0), lens);
+        const Ray besideY = cameraRay(camera, pixel, place.offset + (float2)(0, 1), lens);
+        addUvAovs(sums, &s, place.weight, &besideX, &besideY);
+#endif
         if (meetsSurface(ray, hit, nodes, blocks, tables, &params.scene)) sums[AOV_ALPHA] += place.weight;
     }
     for (uint k = 0; k < AOV_FLOATS; ++k) aovs[(size_t)pixel * AOV_FLOATS + k] = sums[k] / samples;

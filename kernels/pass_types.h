@@ -22,7 +22,7 @@ namespace quasilux::shared {
 typedef struct {
     unsigned int primitives, shapes, cornerNormals;
     unsigned int materials, lobes;
-    unsigned int textures, texels, uvs, attributes, lobeWeights, reliefs;
+    unsigned int textures, texels, uvs, attributes, lobeWeights, reliefs, roughness;
     unsigned int media, mediumPlanes;
     unsigned int emitters, emitterTriangles, emitterCount;
     unsigned int environment; /* EnvironmentMap; there is one where an emitter is an EMITTER_ENVMAP */

@@ -54,9 +54,9 @@ inline EmissionRecord recordOf(const EmittedPhoton* photon, __global const uint*
                              0,
                              photon->inverseDensity,
                              QL_NONE};
-#ifdef HAS_EMITTER_TRIANGLES
+#ifdef HAS_EMITTING_TRIANGLES
     __global const Emitter* emitter = SCENE_TABLE(tables, scene, Emitter, emitters) + photon->emitter;
-    if (EMITTER_IS(emitter, EMITTER_TRIANGLES))
+    if (EMITS_BY_TRIANGLE(emitter->type))
         record.element =
             trianglesSelect(emitter, SCENE_TABLE(tables, scene, EmitterTriangle, emitterTriangles), photon->part) -
             emitter->firstTriangle;

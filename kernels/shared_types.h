@@ -108,8 +108,18 @@ typedef struct {
     unsigned int frontFirst, frontCount;
     unsigned int backFirst, backCount;
     unsigned int flags;
-    unsigned int frontRelief, backRelief; /* 1 + index of the Relief that bends the side's normals; 0: none */
+    unsigned int frontRelief, backRelief;       /* 1 + index of the Relief that bends the side's normals; 0: none */
+    unsigned int frontRoughness, backRoughness; /* 1 + index of the RoughnessLevels of the side's lobes; 0: none */
 } Material;
+
+/* Microfacet roughness alpha by texture. The lobes of the side are there once for each level (those of v follow each other); of levels
+ * that lie evenly in the fourth root of alpha, the nearest one is taken. */
+typedef struct {
+    unsigned int textureU, textureV; /* 1 + index of a Texture whose channels are equal; 0: none, one level */
+    unsigned int levelsU, levelsV;
+    float leastU, leastV; /* fourth root of alpha at the first level */
+    float levelsPerUnitU, levelsPerUnitV;
+} RoughnessLevels;
 
 #define RELIEF_NORMALS 0u  /* the texture holds normals: 2 rgb - 1, in the frame of dp/du */
 #define RELIEF_HEIGHTS 1u  /* it holds heights, times `scale`, along the shading normal */
@@ -197,6 +207,7 @@ typedef struct {
 #define TEXTURE_BITMAP 1u
 #define TEXTURE_VERTEX_ATTRIBUTE 2u /* of meshes: by vertex, linear between; and by face */
 #define TEXTURE_FACE_ATTRIBUTE 3u
+#define TEXTURE_VOLUME 4u  /* of places in the world, not of texture coordinates */
 #define TEXTURE_NEAREST 0u /* filter */
 #define TEXTURE_BILINEAR 1u
 #define WRAP_REPEAT 0u
@@ -212,7 +223,7 @@ typedef struct {
     unsigned int filter, wrap;  /* bitmap */
     unsigned int width, height; /* bitmap, pixels */
     /* Bitmap: rows from v = 0 on, each from u = 0 on. Attribute: word in the table of attributes, where by shape it is said
-     * in which word of that table its colours begin, one a face or one a corner. */
+     * in which word of that table its colours begin, one a face or one a corner. Volume: word of its VolumeGrid there. */
     unsigned int firstTexel;
 } Texture;
 
@@ -235,6 +246,9 @@ typedef struct {
 /* As EMITTER_POINT, but for the intensity: radiance over cos^3 of the angle to `normal`, times the texture, which is looked up as
  * that of EMITTER_SPOT; none outside of its unit square. `area`: of the square, at depth 1. */
 #define EMITTER_PROJECTOR 8u
+/* As EMITTER_TRIANGLES, but along the normals of the triangles only; radiance field holds the irradiance across the beam; normal: that of all
+ * triangles, unit, or 0 where they differ. */
+#define EMITTER_DIRECTIONALAREA 9u
 
 typedef struct {
     unsigned int type;
@@ -246,7 +260,7 @@ typedef struct {
     float area;
     float radius;
     float normalSign;
-    float selectionProbability;                /* in proportion to power */
+    float selectionProbability;                /* in proportion to power; beams: host/prepare/flatten_emitters.cpp */
     float selectionCdf;                        /* sum of the probabilities up to and including this emitter; last = 1 */
     unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
     unsigned int medium;                       /* into which it emits: index or MEDIUM_NONE */

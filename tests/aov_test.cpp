@@ -85,6 +85,66 @@ TEST(Aovs, PixelsAtAnEdgeAreMeans) {
     EXPECT_NEAR(c.at("p.q.X").at(11), 0.5 * -0.1875, 0.003);
 }
 
+/// Layers by texture coordinates of one shape, 8 x 8 pixels.
+std::map<std::string, std::vector<float>> uvChannelsOf(const std::string& shape, const std::string& sensor) {
+    test::SceneFiles files;
+    files.write("plain.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    files.write("uv.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    return channelsOf(
+        loadScene(files.write("scene.xml", R"(<scene version="3.0.0"><integrator type="aov"><string name="aovs"
+        value="uv:uv,du:dp_du,dv:dp_dv,dx:duv_dx,dy:duv_dy"/><integrator type="path"/></integrator>)" +
+                                               sensor +
+                                               R"(<transform name="to_world"><lookat origin="0,0,4" target="0,0,0"
+        up="0,1,0"/></transform><film type="hdrfilm"><rfilter type="box"/><integer name="width" value="8"/><integer
+        name="height" value="8"/></film></sensor><emitter type="constant"/>)" +
+                                               shape + "</scene>")),
+        256);
+}
+
+TEST(Aovs, GoByTextureCoordinatesAsInMitsuba) {
+    // Row 5, column 3: means of mitsuba 3.9.1 over 1024 samples, scalar_rgb; its duv_… times 32, the root of the samples.
+    const char *perspective = R"(<sensor type="perspective"><float name="fov" value="40"/>)",
+               *orthographic = R"(<sensor type="orthographic">)";
+    const struct {
+        const char *shape, *sensor;
+        double tolerance;
+        float values[12];
+    } cases[] = {
+        {R"(<shape type="rectangle"/>)",
+         perspective,
+         0.01,
+         {0.4074f, 0.2246f, 2, 0, 0, 0, 2, 0, 0.1815f, 0, 0, -0.1787f}},
+        {R"(<shape type="rectangle"><boolean name="flip_normals" value="true"/></shape>)",
+         orthographic,
+         0.01,
+         {0.4364f, 0.3108f, 2, 0, 0, 0, 2, 0, 0.125f, 0, 0, -0.125f}},
+        {R"(<shape type="rectangle"><transform name="to_world"><scale x="2" y="1.5"/><rotate z="1" angle="90"/></transform></shape>)",
+         orthographic,
+         0.01,
+         {0.4054f, 0.5424f, 0, 4, 0, -3, 0, 0, 0, -0.0833f, -0.0625f, 0}},
+        {R"(<shape type="sphere"/>)",
+         orthographic,
+         0.02,
+         {0.6984f, 0.1334f, 2.3774f, -0.7995f, 0, -0.8952f, -2.6678f, -1.2741f, 0.0946f, -0.0274f, 0.0316f, 0.0816f}},
+        {R"(<shape type="cube"/>)", orthographic, 0.01, {0.3108f, 0.4364f, 0, 2, 0, 2, 0, 0, 0, 0.125f, -0.125f, 0}},
+        {R"(<shape type="obj"><string name="filename" value="uv.obj"/></shape>)",
+         orthographic,
+         0.01,
+         {0.562f, 0.6892f, 1, 0, 0, -1, -2, 0, 0.25f, 0, 0.125f, 0.125f}},
+        {R"(<shape type="obj"><string name="filename" value="plain.obj"/></shape>)",
+         orthographic,
+         0.01,
+         {0.281f, 0.3108f, 2, 0, 0, 1, 2, 0, 0.125f, 0, 0.0625f, -0.125f}}};
+    const std::vector<std::string> names = {"uv.U", "uv.V", "du.X", "du.Y", "du.Z", "dv.X",
+                                            "dv.Y", "dv.Z", "dx.U", "dx.V", "dy.U", "dy.V"};
+    for (const auto& c : cases) {
+        const auto channels = uvChannelsOf(c.shape, c.sensor);
+        ASSERT_EQ(channels.size(), names.size());
+        for (size_t k = 0; k < names.size(); ++k)
+            EXPECT_NEAR(channels.at(names[k]).at(5 * 8 + 3), c.values[k], c.tolerance) << c.shape << names[k];
+    }
+}
+
 TEST(Aovs, PlacesFarFromTheOriginAreThoseOfTheFile) {
     const auto c = channelsOf(sceneOf(rectangle(R"(<translate x="100000"/>)", diffuse),
                                       "<emitter type=\"point\"><point "

@@ -217,6 +217,25 @@ TEST(Sensors, OneOfSeveralIsChosenByNumberOrId) {
         }
 }
 
+TEST(Sensors, OfABatchHaveEqualPartsOfItsFilm) {
+    SceneFiles files;
+    const std::string path = files.write("scene.xml", R"(<scene version="3.0.0">
+<sensor type="batch"><sensor type="perspective" id="left"><float name="fov" value="10"/><film type="hdrfilm"><integer name="width" value="7"/></film></sensor>
+<sensor type="orthographic" id="right"/>
+<film type="hdrfilm"><integer name="width" value="64"/><integer name="height" value="48"/><rfilter type="tent"/></film><sampler type="independent"/></sensor>
+<sensor type="perspective"><float name="fov" value="20"/></sensor><emitter type="point"/></scene>)");
+    for (const char* wanted : {"", "left", "right", "1"}) {
+        const Scene scene = loadScene(path, {}, {wanted});
+        EXPECT_EQ(scene.sensorCount, 3u);
+        EXPECT_EQ(scene.sensor.width, 32u);
+        EXPECT_EQ(scene.sensor.filmWidth, 32u);
+        EXPECT_EQ(scene.sensor.height, 48u);
+        EXPECT_EQ(scene.sensor.filter, unsigned(FILTER_TENT));
+        EXPECT_EQ(scene.sensor.orthographic, *wanted == 'r' || *wanted == '1');
+    }
+    EXPECT_EQ(loadScene(path, {}, {"2"}).sensor.width, 768u);
+}
+
 TEST(Integrator, DepthLimit) {
     const auto depth = [](const std::string& integrator) { return load(integrator).maxDepth; };
     const auto path = [&](const std::string& value) {

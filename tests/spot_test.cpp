@@ -294,11 +294,10 @@ TEST(SpotReader, SaysWhatIsWrong) {
         {spot("<rgb name=\"texture\" value=\"0\"/>"), {"scene.xml:5:1", "parameter 'texture'", "positive channel"}},
         {spot("<texture type=\"mesh_attribute\" name=\"texture\"><string name=\"name\" "
               "value=\"vertex_color\"/></texture>"),
-         {"scene.xml:5:1", "the texture 'texture' of emitter 'spot' is looked up by direction",
-          "bake it into an image"}},
+         {"scene.xml:5:1", "the texture 'texture' of emitter 'spot' gives what is emitted", "bake it into an image"}},
         {spot("<texture type=\"checkerboard\" name=\"texture\"><texture type=\"checkerboard\" "
               "name=\"color0\"/></texture>"),
-         {"scene.xml:5:1", "is looked up by direction"}},
+         {"scene.xml:5:1", "gives what is emitted"}},
         {spot("<texture type=\"bitmap\" name=\"texture\"/>"), {"scene.xml:5:1", "needs <string name=\"filename\""}},
         {spot("<float name=\"cutof_angle\" value=\"1\"/>"), {"scene.xml:5:1", "Did you mean 'cutoff_angle'"}}};
     for (const auto& [body, messages] : cases) {

@@ -5,6 +5,7 @@
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
+#include "support/vol_files.h"
 
 #include <OpenImageIO/imageio.h>
 #include <cmath>
@@ -319,6 +320,68 @@ TEST(MeshAttribute, IsInterpolatedAsInMitsuba) {
         test::expectNear(tints[1], c.onSecond, 2e-6f);
         test::expectNear(tints[2], {.2f, .4f, .6f}, 2e-6f);
     }
+}
+
+/// A grid over [-1, 1]^3 whose colours are linear between the centres of its 2 x 2 x 2 voxels: (x, y, z) in [0.1, 0.9]^3 of places in
+/// [-1/2, 1/2]^3, and the value of the nearest of those beyond.
+std::string colorCube(const SceneFiles& files, const std::string& parameters = "") {
+    std::vector<float> values;
+    for (int k = 0; k < 8; ++k)
+        for (const int bit : {k & 1, k >> 1 & 1, k >> 2}) values.push_back(0.1f + 0.8f * float(bit));
+    files.write("cube.vol", test::volFile({2, 2, 2}, 3, values));
+    return R"(<volume type="gridvolume" name="volume"><string name="filename" value="cube.vol"/>)" + parameters +
+           R"(<transform name="to_world"><scale value="2"/><translate x="-1" y="-1" z="-1"/></transform></volume>)";
+}
+glm::vec3 colorOfCube(const glm::vec3& place) { return 0.1f + 0.8f * glm::clamp(place + 0.5f, 0.f, 1.f); }
+
+TEST(VolumeTexture, IsLookedUpAtThePlaceOfTheHit) {
+    SceneFiles files;
+    const std::string texture = "<bsdf type=\"diffuse\"><texture type=\"volume\" name=\"reflectance\">" +
+                                colorCube(files) + "</texture></bsdf></shape>";
+    // Without texture coordinates; on a sphere too, and beyond the grid's box.
+    files.write("m.obj", "v -3 -3 0.2\nv 3 -3 0.2\nv 0 3 0.2\nf 1 2 3\n");
+    const std::vector<RayFrom> rays{{{.3f, -.2f, 2}, down}, {{-.9f, .1f, 2}, down}, {{0, -2.5f, 2}, down}};
+    const Scene flat = loadScene(files.write(
+        "scene.xml", sceneWith("<shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/>" + texture)));
+    const auto tints = tintsAt(flat, rays);
+    for (size_t k = 0; k < rays.size(); ++k)
+        test::expectNear(tints[k], colorOfCube({rays[k].origin.x, rays[k].origin.y, 0.2f}), 2e-6f);
+    const Scene round = loadScene(
+        files.write("scene.xml", sceneWith("<shape type=\"sphere\"><float name=\"radius\" value=\"0.5\"/>" + texture)));
+    test::expectNear(tintsAt(round, {{{.3f, 0, 2}, down}})[0], colorOfCube({.3f, 0, .4f}), 2e-6f);
+}
+
+TEST(VolumeTexture, GivesNumbersAndColoursToo) {
+    SceneFiles files;
+    const auto tintOf = [&](const std::string& bsdf) {
+        return tintsAt(loadScene(files.write("scene.xml", sceneWith("<shape type=\"rectangle\">" + bsdf + "</shape>"))),
+                       {{{.3f, -.2f, 2}, down}})[0];
+    };
+    const glm::vec3 color = colorOfCube({.3f, -.2f, 0});
+    const float mean = (color.x + color.y + color.z) / 3;
+    test::expectNear(tintOf("<bsdf type=\"blendbsdf\"><texture type=\"volume\" name=\"weight\">" + colorCube(files) +
+                            "</texture><bsdf type=\"diffuse\"/><bsdf type=\"diffuse\"/></bsdf>"),
+                     glm::vec3(1 - mean), 2e-6f);
+    const auto constant = [](const std::string& volume) {
+        return "<bsdf type=\"diffuse\"><texture type=\"volume\" name=\"reflectance\">" + volume + "</texture></bsdf>";
+    };
+    test::expectNear(tintOf(constant("")), glm::vec3(0.75f));
+    test::expectNear(tintOf(constant("<rgb name=\"volume\" value=\"0.1,0.2,0.3\"/>")), {.1f, .2f, .3f});
+    test::expectNear(
+        tintOf(constant(
+            "<volume type=\"constvolume\" name=\"volume\"><rgb name=\"value\" value=\"0.4,0.2,0.3\"/></volume>")),
+        {.4f, .2f, .3f});
+    // Within a checkerboard, whose second square this is; as much as may be reflected.
+    files.write("bright.vol", test::volFile({1, 1, 1}, 1, {7}));
+    const std::string bright =
+        R"(<texture type="volume" name="color0"><volume type="gridvolume" name="volume"><string name="filename" value="bright.vol"/></volume></texture>)";
+    const Scene scene = loadScene(files.write(
+        "scene.xml", sceneWith("<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture type=\"checkerboard\" "
+                               "name=\"reflectance\">" +
+                               bright + "</texture></bsdf></shape>")));
+    test::expectNear(tintsAt(scene, {{{.3f, .2f, 2}, down}})[0], glm::vec3(1));
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("1 of the 1 values of the volume are above 1"), std::string::npos);
 }
 
 /// Two checkerboards within one.

@@ -95,7 +95,7 @@ TEST_F(Volumes, OneThatTwoMediaShareIsReadOnce) {
     ASSERT_EQ(scene.media.size(), 4u);
     EXPECT_EQ(scene.media[1].albedoVolume, scene.media[2].albedoVolume);
     EXPECT_NEAR(scene.media[1].albedo.b, 0.25, 1e-6);
-    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("volume 'b' is used by no medium")));
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("volume 'b' is used by no medium and no texture")));
 }
 
 TEST_F(Volumes, ColouredExtinctionIsRefused) {

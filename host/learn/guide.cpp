@@ -30,6 +30,11 @@ void addSources(unsigned index, const std::vector<Opening>& openings, std::vecto
     sources.push_back(plainSource(index, first));
 }
 
+// Emitters in the scene, but for those that choose no direction.
+bool sharesOpenings(const shared::Emitter& emitter) {
+    return !isDistant(emitter) && emitter.type != EMITTER_DIRECTIONALAREA;
+}
+
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -75,7 +80,7 @@ void GuideLearner::findMoreOpenings(unsigned emitter, const std::vector<UsefulRa
 void GuideLearner::findSharedOpenings(const std::vector<std::vector<UsefulRay>>& rays) {
     std::vector<UsefulRay> all;
     for (size_t e = 0; e < rays.size(); ++e)
-        if (!isDistant(emitters_.emitters[e])) all.insert(all.end(), rays[e].begin(), rays[e].end());
+        if (sharesOpenings(emitters_.emitters[e])) all.insert(all.end(), rays[e].begin(), rays[e].end());
     if (all.size() < fewestRecords) return;
     double radius = 0; // of the order of the scene
     for (const auto& ray : all) radius = std::max(radius, glm::distance(ray.position, all.front().position));
@@ -83,7 +88,7 @@ void GuideLearner::findSharedOpenings(const std::vector<std::vector<UsefulRay>>&
          findOpenings(all, radius, shared_, mostSharedOpenings - shared_.size(), leastSharedGain))
         shared_.push_back(opening);
     for (size_t e = 0; e < rays.size(); ++e) {
-        if (isDistant(emitters_.emitters[e])) continue;
+        if (!sharesOpenings(emitters_.emitters[e])) continue;
         openings_[e].clear();
         for (const Opening& opening : shared_) {
             const auto through =

@@ -43,10 +43,12 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.lobeWeights |= lobe.weightCount > 0;
     }
     features.relief = !materials.reliefs.empty();
-    features.textures |= features.relief;
+    features.alphaTextures = !materials.roughness.empty();
+    features.textures |= features.relief || features.alphaTextures;
     for (const auto& emitter : emitters.emitters) {
         features.emitterTypes.insert(emitter.type);
         features.emitterTextures |= emitter.texture > 0;
+        features.areaTextures |= emitter.texture > 0 && emitter.shape != QL_NONE;
     }
     features.lightTree = !emitters.lightTree.empty();
     findMediumFeatures(scene, media, emitters, features);
@@ -203,9 +205,11 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.uvs = tables.append(flattenUvs(scene));
     out.offsets.attributes = tables.append(textures.attributes);
     out.features.nestedTextures = textures.areNested;
-    out.features.meshAttributes = !textures.attributes.empty();
+    out.features.meshAttributes = textures.haveAttributes;
+    out.features.textureVolumes = textures.haveVolumes;
     out.offsets.media = appendMedia(media, tables);
     out.offsets.reliefs = tables.append(materials.reliefs);
+    out.offsets.roughness = tables.append(materials.roughness);
     out.offsets.lobeWeights = tables.append(materials.weights);
     out.offsets.mediumPlanes = tables.append(media.planes);
     out.offsets.emitters = tables.append(out.emitters.emitters);

@@ -85,16 +85,20 @@ struct MaterialTables {
     std::vector<shared::Lobe> lobes;
     std::vector<shared::LobeWeight> weights;
     std::vector<shared::Relief> reliefs;
+    std::vector<shared::RoughnessLevels> roughness;
 };
 MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecision>& split);
 struct TextureTables {
     std::vector<shared::Texture> textures;
     std::vector<Rgb> texels;
-    std::vector<uint32_t> attributes; ///< as shared::Texture has them
+    std::vector<uint32_t> attributes; ///< and volumes, as shared::Texture has them
     bool areNested = false;           ///< some are within others
+    bool haveAttributes = false, haveVolumes = false;
 };
 /// Only textures that `materials` or `emitters` use bring texels and attributes.
 TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters);
+/// Whether layers of the image go by texture coordinates, so that all shapes show theirs.
+bool hasUvLayers(const Scene& scene);
 /// Words of a textured shape in the table of flattenUvs; 0 for others.
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape);
 std::vector<float> flattenUvs(const Scene& scene);

@@ -11,8 +11,9 @@ namespace {
 #define LOBE_NAME(ID, argument) #ID,
 constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
 #undef LOBE_NAME
-constexpr std::array<const char*, 9> emitterNames = {"RECTANGLE", "TRIANGLES", "SPHERE", "POINT",    "DIRECTIONAL",
-                                                     "CONSTANT",  "ENVMAP",    "SPOT",   "PROJECTOR"};
+constexpr std::array<const char*, 10> emitterNames = {"RECTANGLE",   "TRIANGLES",      "SPHERE", "POINT",
+                                                      "DIRECTIONAL", "CONSTANT",       "ENVMAP", "SPOT",
+                                                      "PROJECTOR",   "DIRECTIONALAREA"};
 constexpr std::array<const char*, 4> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH", "MIXED"}; // in the order of PHASE_*
 
 std::string lower(std::string text) {
@@ -38,6 +39,8 @@ constexpr std::array flags = {
     Flag{&Features::nestedTextures, "HAS_NESTED_TEXTURES", "textures within textures"},
     Flag{&Features::meshAttributes, "HAS_MESH_ATTRIBUTES", "attributes of meshes"},
     Flag{&Features::lobeWeights, "HAS_LOBE_WEIGHTS", "blends by texture"},
+    Flag{&Features::textureVolumes, "HAS_TEXTURE_VOLUMES", "textures by place"},
+    Flag{&Features::alphaTextures, "HAS_ALPHA_TEXTURES", "roughness by texture"},
     Flag{&Features::relief, "HAS_RELIEF", "normal and bump maps"},
     Flag{&Features::media, "HAS_MEDIA", "media"},
     Flag{&Features::chromaticMedia, "HAS_CHROMATIC_MEDIA", "media with coloured extinction"},
@@ -45,6 +48,7 @@ constexpr std::array flags = {
     Flag{&Features::sharingLambert, "HAS_SHARING_LAMBERT", "diffuse paths that look for emitters"},
     Flag{&Features::sharingMedia, "HAS_SHARING_MEDIA", "paths in media that look for emitters"},
     Flag{&Features::emitterTextures, "HAS_EMITTER_TEXTURES", "emitters with textures"},
+    Flag{&Features::areaTextures, "HAS_AREA_TEXTURES", "emitting shapes with textures"},
     Flag{&Features::lightTree, "HAS_LIGHT_TREE", "many emitters"},
     Flag{&Features::hiddenEmitters, "HAS_HIDDEN_EMITTERS", "emitters hidden from the camera"},
     Flag{&Features::directByPhotons, "HAS_DIRECT_BY_PHOTONS", "direct light of some emitters by photons"},

@@ -15,7 +15,7 @@ struct Features {
     std::set<unsigned> phases;       ///< PHASE_* in use
     bool spheres = false, nullPrimitives = false, cornerNormals = false, borders = false, depthLimit = false,
          orthographicCamera = false, textures = false, nestedTextures = false, meshAttributes = false,
-         lobeWeights = false, relief = false, thinLens = false,
+         lobeWeights = false, relief = false, alphaTextures = false, textureVolumes = false, thinLens = false,
          filterTable = false; ///< a reconstruction filter other than those that are sampled by formula
     bool radianceMeter = false, irradianceMeter = false; ///< what the sensor is, if no camera
     bool media = false, chromaticMedia = false;          ///< extinction differs between the channels of some medium
@@ -24,6 +24,7 @@ struct Features {
     bool sharingLambert = false, sharingMedia = false;   ///< scattering that shares direct light (direct_sharing.h)
     bool lightTree = false;                              ///< direct light is sampled from many emitters (light_tree.h)
     bool emitterTextures = false;                        ///< what some emitter sends is multiplied by a texture
+    bool areaTextures = false;                           ///< and it is a shape
     bool hiddenEmitters = false;                         ///< from the camera
     bool directByPhotons = false; ///< direct light of some emitters is taken from photons (host/learn/direct_choice.h)
     bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering of surfaces

@@ -35,13 +35,35 @@ void addTriangles(const Mesh& mesh, shared::Emitter& emitter, std::vector<shared
         triangles[emitter.firstTriangle + k].areaCdf = sums[k] == area ? 1.f : static_cast<float>(sums[k] / area);
 }
 
+/// Of the triangles of a plane mesh, or 0 where they differ by more than rounding.
+glm::vec3 commonNormal(const Mesh& mesh) {
+    constexpr double rounding = 1e-5;
+    glm::dvec3 sum(0);
+    std::vector<glm::dvec3> crosses;
+    for (const auto& t : mesh.triangles) {
+        const glm::dvec3 p0 = mesh.positions[t.x];
+        crosses.push_back(glm::cross(glm::dvec3(mesh.positions[t.y]) - p0, glm::dvec3(mesh.positions[t.z]) - p0));
+        sum += crosses.back();
+    }
+    const glm::dvec3 normal = glm::normalize(sum);
+    const bool isCommon = std::all_of(crosses.begin(), crosses.end(), [&](const glm::dvec3& cross) {
+        return glm::length(cross - glm::length(cross) * normal) <= rounding * glm::length(cross);
+    });
+    return isCommon ? glm::vec3(normal) : glm::vec3(0);
+}
+
 shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
                             std::vector<shared::EmitterTriangle>& triangles) {
     shared::Emitter emitter{};
     emitter.shape = index;
     emitter.radiance = shape.emitter->radiance;
+    emitter.texture = shape.emitter->texture ? *shape.emitter->texture + 1 : 0;
     emitter.normalSign = shape.flipNormals ? -1.f : 1.f;
-    if (shape.rectangle) {
+    if (shape.emitter->alongNormal) {
+        emitter.type = EMITTER_DIRECTIONALAREA;
+        addTriangles(shape.mesh, emitter, triangles);
+        emitter.normal = pack(commonNormal(shape.mesh));
+    } else if (shape.rectangle) {
         const auto& frame = *shape.rectangle;
         emitter.type = EMITTER_RECTANGLE;
         emitter.origin = pack(frame.corner);
@@ -59,6 +81,17 @@ shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
         addTriangles(shape.mesh, emitter, triangles);
     }
     return emitter;
+}
+
+/// Mean of its texture by area.
+Rgb meanOfRadiance(const ShapeDescription& shape, const Scene& scene) {
+    if (!shape.emitter->texture) return {1, 1, 1};
+    const TextureDescription& texture = scene.textures[*shape.emitter->texture];
+    if (shape.sphere) // even in azimuth and in the cosine of the angle to its axis
+        return meanOfTexture(texture, [](double x, double y) {
+            return TexturePlace{{x, std::acos(1 - 2 * y) / pi}, 1};
+        });
+    return meanOfTexture(texture, shape.mesh);
 }
 
 /// Of its intensity over that on the axis: 2 pi times the integral of min(1, (cutoff - angle) / (cutoff - beam)) sin(angle).
@@ -199,13 +232,25 @@ void sortIntoTree(EmitterTables& tables) {
     tables.lightTree = std::move(tree.nodes);
 }
 
-void setSelection(EmitterTables& tables) {
+/// By which emitters are chosen: power. Of a beam that of one as wide as the scene: where it falls it is as bright.
+std::vector<double> prominences(const EmitterTables& tables, const Scene& scene) {
+    std::vector<double> all = tables.power;
+    for (size_t k = 0; k < all.size(); ++k) {
+        const shared::Emitter& emitter = tables.emitters[k];
+        if (emitter.type != EMITTER_DIRECTIONALAREA) continue;
+        const double radius = boundingSphere(scene).radius;
+        all[k] *= std::max(1.0, pi * radius * radius / emitter.area);
+    }
+    return all;
+}
+
+void setSelection(EmitterTables& tables, const std::vector<double>& prominence) {
     double total = 0;
-    for (const double power : tables.power) total += power;
+    for (const double one : prominence) total += one;
     double sum = 0;
     for (size_t k = 0; k < tables.emitters.size(); ++k) {
-        sum += tables.power[k] / total;
-        tables.emitters[k].selectionProbability = static_cast<float>(tables.power[k] / total);
+        sum += prominence[k] / total;
+        tables.emitters[k].selectionProbability = static_cast<float>(prominence[k] / total);
         tables.emitters[k].selectionCdf = k + 1 == tables.emitters.size() ? 1.f : static_cast<float>(sum);
     }
 }
@@ -221,7 +266,9 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
         tables.emitterOfShape[k] = static_cast<unsigned>(tables.emitters.size());
         tables.emitters.push_back(areaEmitter(shape, k, tables.triangles));
         tables.emitters.back().medium = placement.shapeEmitters[k];
-        tables.power.push_back(pi * tables.emitters.back().area * mean(shape.emitter->radiance));
+        const double solidAngle = shape.emitter->alongNormal ? 1 : pi; // by the cosine
+        tables.power.push_back(solidAngle * tables.emitters.back().area *
+                               mean(shape.emitter->radiance * meanOfRadiance(shape, scene)));
         tables.ids.push_back(shape.id);
     }
     for (size_t k = 0; k < scene.pointEmitters.size(); ++k) {
@@ -234,7 +281,7 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
     }
     sortIntoTree(tables);
     addDistantEmitters(scene, tables);
-    setSelection(tables);
+    setSelection(tables, prominences(tables, scene));
     return tables;
 }
 

@@ -1,5 +1,6 @@
 // Bsdfs into materials and lobes.
 #include "prepare/device_scene.h"
+#include "prepare/roughness_levels.h"
 
 #include <fmt/format.h>
 
@@ -23,6 +24,20 @@ unsigned appendSide(const Bsdf& bsdf, const std::vector<LobeDescription>& side,
     return static_cast<unsigned>(side.size());
 }
 
+/// As in Material: appends the side's lobes again for all levels of their roughness but the first, whose place they have.
+unsigned appendRoughness(const Scene& scene, const Bsdf& bsdf, const std::vector<LobeDescription>& side, unsigned first,
+                         MaterialTables& tables) {
+    const auto levels = roughnessLevels(scene, bsdf, side);
+    if (!levels) return 0;
+    const std::vector<shared::Lobe> plain(tables.lobes.begin() + first, tables.lobes.end());
+    tables.lobes.resize(first);
+    for (unsigned k = 0; k < levels->levelsU * levels->levelsV; ++k)
+        for (size_t i = 0; i < side.size(); ++i)
+            tables.lobes.push_back(lobeAtLevel(plain[i], side[i], *levels, k / levels->levelsV, k % levels->levelsV));
+    tables.roughness.push_back(*levels);
+    return static_cast<unsigned>(tables.roughness.size());
+}
+
 /// As in Material.
 unsigned appendRelief(const std::optional<shared::Relief>& relief, MaterialTables& tables) {
     if (!relief) return 0;
@@ -40,8 +55,10 @@ MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecisi
         material.flags = bsdf.isNull ? MATERIAL_NULL : 0;
         material.frontFirst = static_cast<unsigned>(tables.lobes.size());
         material.frontCount = appendSide(bsdf, bsdf.front, split[k].front, tables);
+        material.frontRoughness = appendRoughness(scene, bsdf, bsdf.front, material.frontFirst, tables);
         material.backFirst = static_cast<unsigned>(tables.lobes.size());
         material.backCount = appendSide(bsdf, bsdf.back, split[k].back, tables);
+        material.backRoughness = appendRoughness(scene, bsdf, bsdf.back, material.backFirst, tables);
         material.frontRelief = appendRelief(bsdf.frontRelief, tables);
         material.backRelief = appendRelief(bsdf.backRelief, tables);
         tables.materials.push_back(material);

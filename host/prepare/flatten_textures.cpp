@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <map>
 
 namespace quasilux {
@@ -19,6 +20,9 @@ std::vector<unsigned> texturesInUse(const Scene& scene, const MaterialTables& ma
             if (number > 0) used.push_back(number - 1);
     for (const auto& weight : materials.weights) used.push_back(weight.texture);
     for (const auto& relief : materials.reliefs) used.push_back(relief.texture);
+    for (const auto& levels : materials.roughness)
+        for (const unsigned number : {levels.textureU, levels.textureV})
+            if (number > 0) used.push_back(number - 1);
     for (const auto& emitter : emitters.emitters)
         if (emitter.texture > 0) used.push_back(emitter.texture - 1);
     return withNested(scene, used);
@@ -60,18 +64,39 @@ unsigned appendAttributes(unsigned index, const Scene& scene, std::vector<uint32
     return static_cast<unsigned>(directory);
 }
 
+/// Appends a volume and returns its word.
+unsigned appendShownVolume(const VolumeDescription& volume, std::vector<uint32_t>& words) {
+    constexpr size_t recordWords = sizeof(shared::VolumeGrid) / sizeof(uint32_t);
+    const size_t first = words.size();
+    shared::VolumeGrid record = volume.device;
+    record.firstValue = recordWords;
+    words.resize(first + recordWords);
+    std::memcpy(words.data() + first, &record, sizeof(record));
+    for (const float value : volume.values) words.push_back(std::bit_cast<uint32_t>(value));
+    return static_cast<unsigned>(first);
+}
+
 } // namespace
 
 TextureTables flattenTextures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters) {
     TextureTables tables;
     for (const TextureDescription& texture : scene.textures) tables.textures.push_back(texture.device);
     std::map<const void*, unsigned> placed; // images that several textures share, by Texels::identity
+    std::map<const VolumeDescription*, unsigned> volumes;
     for (const unsigned k : texturesInUse(scene, materials, emitters)) {
         shared::Texture& record = tables.textures[k];
         const Texels& texels = scene.textures[k].texels;
         tables.areNested |= record.texture0 > 0 || record.texture1 > 0;
         if (!scene.textures[k].attribute.empty()) {
             record.firstTexel = appendAttributes(k, scene, tables.attributes);
+            tables.haveAttributes = true;
+            continue;
+        }
+        if (scene.textures[k].volume) {
+            const VolumeDescription* volume = scene.textures[k].volume.get();
+            if (!volumes.count(volume)) volumes[volume] = appendShownVolume(*volume, tables.attributes);
+            record.firstTexel = volumes[volume];
+            tables.haveVolumes = true;
             continue;
         }
         const auto [image, isNew] = placed.emplace(texels.identity(), static_cast<unsigned>(tables.texels.size()));
@@ -81,8 +106,24 @@ TextureTables flattenTextures(const Scene& scene, const MaterialTables& material
     return tables;
 }
 
+bool hasUvLayers(const Scene& scene) {
+    return std::any_of(scene.aovs.begin(), scene.aovs.end(), [](const AovLayer& layer) {
+        switch (layer.quantity) {
+        case AovQuantity::uv:
+        case AovQuantity::dp_du:
+        case AovQuantity::dp_dv:
+        case AovQuantity::duv_dx:
+        case AovQuantity::duv_dy:
+            return true;
+        default:
+            return false;
+        }
+    });
+}
+
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape) {
-    if (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)])) return 0;
+    const bool isShown = hasUvLayers(scene) || (shape.emitter && shape.emitter->texture);
+    if (!isShown && (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)]))) return 0;
     return shape.sphere ? 9u : static_cast<unsigned>(2 * shape.mesh.cornerUvs.size());
 }
 

@@ -44,7 +44,8 @@ Light lightOfTriangles(const shared::Emitter& emitter, const std::vector<shared:
 }
 
 Light lightOf(const shared::Emitter& emitter, const std::vector<shared::EmitterTriangle>& triangles) {
-    if (emitter.type == EMITTER_TRIANGLES) return lightOfTriangles(emitter, triangles);
+    if (emitter.type == EMITTER_TRIANGLES || emitter.type == EMITTER_DIRECTIONALAREA)
+        return lightOfTriangles(emitter, triangles);
     Light light;
     const glm::dvec3 origin = unpack(emitter.origin);
     if (emitter.type == EMITTER_RECTANGLE) {

@@ -55,6 +55,32 @@ glm::dvec3 meanOfAll(const TextureDescription& texture) {
     return sum / double(texture.texels.size());
 }
 
+class WeightedMean {
+public:
+    explicit WeightedMean(const TextureDescription& texture) : texture_(texture) {}
+
+    void add(const TexturePlace& place) {
+        if (!(place.weight > 0) || !std::isfinite(place.uv.x) || !std::isfinite(place.uv.y)) return;
+        sum_ += place.weight * textureValue(texture_, place.uv);
+        weights_ += place.weight;
+    }
+    Rgb mean() const {
+        const glm::dvec3 mean = weights_ > 0 ? sum_ / weights_ : glm::dvec3(0);
+        // What all samples have missed may shine all the same: it is to be chosen now and then.
+        return narrow(glm::max(mean, 1e-3 * meanOfAll(texture_)));
+    }
+
+private:
+    const TextureDescription& texture_;
+    glm::dvec3 sum_{0};
+    double weights_ = 0;
+};
+
+/// The unit square onto a triangle, keeping shares of area; weights of its second and third corner.
+glm::dvec2 onTriangle(double x, double y) {
+    return y > x ? glm::dvec2(x / 2, y - x / 2) : glm::dvec2(x - y / 2, y / 2);
+}
+
 } // namespace
 
 glm::dvec3 textureValue(const TextureDescription& texture, glm::dvec2 uv) {
@@ -67,18 +93,29 @@ glm::dvec3 textureValue(const TextureDescription& texture, glm::dvec2 uv) {
 
 Rgb meanOfTexture(const TextureDescription& texture, const std::function<TexturePlace(double x, double y)>& placeAt) {
     const unsigned columns = samplesAlong(texture.device.width), rows = samplesAlong(texture.device.height);
-    glm::dvec3 sum(0);
-    double weights = 0;
+    WeightedMean mean(texture);
     for (unsigned j = 0; j < rows; ++j)
-        for (unsigned i = 0; i < columns; ++i) {
-            const TexturePlace place = placeAt((i + 0.5) / columns, (j + 0.5) / rows);
-            if (!(place.weight > 0) || !std::isfinite(place.uv.x) || !std::isfinite(place.uv.y)) continue;
-            sum += place.weight * textureValue(texture, place.uv);
-            weights += place.weight;
-        }
-    const glm::dvec3 mean = weights > 0 ? sum / weights : glm::dvec3(0);
-    // What all samples have missed may shine all the same: it is to be chosen now and then.
-    return narrow(glm::max(mean, 1e-3 * meanOfAll(texture)));
+        for (unsigned i = 0; i < columns; ++i) mean.add(placeAt((i + 0.5) / columns, (j + 0.5) / rows));
+    return mean.mean();
+}
+
+Rgb meanOfTexture(const TextureDescription& texture, const Mesh& mesh) {
+    const double samples = double(samplesAlong(texture.device.width)) * samplesAlong(texture.device.height);
+    const auto side = static_cast<unsigned>(std::ceil(std::sqrt(samples / double(mesh.triangles.size()))));
+    WeightedMean mean(texture);
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const glm::uvec3& triangle = mesh.triangles[t];
+        const glm::dvec3 p0 = mesh.positions[triangle.x], e1 = glm::dvec3(mesh.positions[triangle.y]) - p0,
+                         e2 = glm::dvec3(mesh.positions[triangle.z]) - p0;
+        const double area = glm::length(glm::cross(e1, e2));
+        const glm::dvec2 uv0 = mesh.cornerUvs[3 * t], uv1 = mesh.cornerUvs[3 * t + 1], uv2 = mesh.cornerUvs[3 * t + 2];
+        for (unsigned j = 0; j < side; ++j)
+            for (unsigned i = 0; i < side; ++i) {
+                const glm::dvec2 b = onTriangle((i + 0.5) / side, (j + 0.5) / side);
+                mean.add({(1 - b.x - b.y) * uv0 + b.x * uv1 + b.y * uv2, area / (double(side) * side)});
+            }
+    }
+    return mean.mean();
 }
 
 } // namespace quasilux

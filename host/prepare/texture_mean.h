@@ -18,5 +18,7 @@ struct TexturePlace {
 /// Weighted mean over the unit square that `placeAt` takes to the texture, by as many samples as it has pixels, within reason. Above 0 in
 /// some channel wherever a pixel is.
 Rgb meanOfTexture(const TextureDescription& texture, const std::function<TexturePlace(double x, double y)>& placeAt);
+/// Mean by area over a mesh with texture coordinates, likewise.
+Rgb meanOfTexture(const TextureDescription& texture, const Mesh& mesh);
 
 } // namespace quasilux

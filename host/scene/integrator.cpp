@@ -50,11 +50,6 @@ AovQuantity quantityOf(const std::string& name, const SourceLocation& where) {
         throw InputError(where,
                          fmt::format("parameter 'aovs': unknown quantity '{}'.{}", name,
                                      knownNames(name, Names(std::begin(quantityNames), std::end(quantityNames)))));
-    if (name == "uv" || name.starts_with("dp_") || name.starts_with("duv_"))
-        throw InputError(where,
-                         fmt::format("parameter 'aovs': '{}' goes by texture coordinates, which are not among the "
-                                     "layers; remove it.",
-                                     name));
     return static_cast<AovQuantity>(found - std::begin(quantityNames));
 }
 

@@ -44,6 +44,7 @@ public:
     std::unordered_map<int, unsigned> scalarTextureIndex;         ///< of the grey copy of a coloured texture
     std::unordered_map<const Element*, unsigned> mediumIndex;     ///< of media in use, into Scene::media
     std::unordered_map<const Element*, unsigned> volumeIndex;     ///< of volumes in use, into Scene::volumes
+    std::set<const Element*> shownVolumes;                        ///< by textures
     std::vector<const Element*> openPhases;                       ///< being read now, as openBsdfs
     std::set<const Element*> usedPhases;                          ///< that a medium has
     int defaultBsdf = -1, defaultEmitterBsdf = -1; ///< of shapes without one; -1 until the first needs it

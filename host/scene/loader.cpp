@@ -40,25 +40,21 @@ void checkVersion(const Element& root, LoadContext& context) {
             fmt::format("version {} is read as Mitsuba 3: names and defaults are those of version 3.", version));
 }
 
-struct PlacedSensor {
-    const Element* element;
-    std::optional<unsigned> shape; ///< that it lies on
-};
-
 void readObject(const Element& object, LoadContext& context, std::vector<PlacedSensor>& sensors,
                 std::vector<const Element*>& integrators) {
     if (object.tag == "shape") {
         for (PlacedShape& placed : readShapes(object, context)) {
             context.scene.shapes.push_back(std::move(placed.shape));
             if (placed.sensor)
-                sensors.push_back({placed.sensor, static_cast<unsigned>(context.scene.shapes.size() - 1)});
+                sensors.push_back(
+                    {placed.sensor, static_cast<unsigned>(context.scene.shapes.size() - 1), std::nullopt});
         }
     } else if (object.tag == "emitter") {
         const bool isShared = isShapeEmitter(object) && object.find("id");
         if (!isShared && !leavesOutEmitter(object, context)) readSceneEmitter(object, context);
-    } else if (object.tag == "sensor")
-        sensors.push_back({&object, std::nullopt});
-    else if (object.tag == "integrator")
+    } else if (object.tag == "sensor") {
+        for (const PlacedSensor& placed : placeSensors(object, context)) sensors.push_back(placed);
+    } else if (object.tag == "integrator")
         integrators.push_back(&object);
     else if (object.tag == "bsdf" || object.tag == "texture" || object.tag == "medium" || object.tag == "phase" ||
              object.tag == "volume" || object.tag == "alias")
@@ -130,9 +126,10 @@ void checkUnusedMedia(const Element& root, LoadContext& context) {
 /// Volumes that no medium uses, likewise.
 void checkUnusedVolumes(const Element& root, LoadContext& context) {
     for (const Element& element : root.children) {
-        if (element.tag != "volume" || context.volumeIndex.count(&element)) continue;
+        if (element.tag != "volume" || context.volumeIndex.count(&element) || context.shownVolumes.count(&element))
+            continue;
         readVolume(element, context);
-        context.warn(element.where, fmt::format("volume '{}' is used by no medium.", idOf(element)));
+        context.warn(element.where, fmt::format("volume '{}' is used by no medium and no texture.", idOf(element)));
     }
 }
 
@@ -174,7 +171,7 @@ void readSensors(const std::vector<PlacedSensor>& sensors, const std::string& wa
         throw InputError({context.scene.path}, "the scene has no <sensor>; add <sensor type=\"perspective\">.");
     const size_t chosen = chooseSensor(sensors, wanted, context);
     for (size_t i = 0; i < sensors.size(); ++i) {
-        const Sensor sensor = readSensor(*sensors[i].element, context, sensors[i].shape);
+        const Sensor sensor = readSensor(sensors[i], context);
         if (i == chosen)
             context.scene.sensor = sensor;
         else if (wanted.empty())

@@ -13,6 +13,16 @@ constexpr double farAway = 4; // times the size of the scene
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
+/// Of a sensor, or of the first one of a batch.
+const Element* transformWithin(const Element& sensor) {
+    for (const Element& child : sensor.children) {
+        if (child.tag == "transform") return &child;
+        const Element* nested = child.tag == "sensor" ? transformWithin(child) : nullptr;
+        if (nested) return nested;
+    }
+    return nullptr;
+}
+
 } // namespace
 
 glm::dvec3 chooseOrigin(const Scene& scene) {
@@ -33,9 +43,8 @@ glm::dvec3 chooseOrigin(const Scene& scene) {
 glm::dvec3 placeOfSensor(const Element& root) {
     try {
         for (const Element& sensor : root.children)
-            for (const Element& parameter : sensor.children)
-                if (sensor.tag == "sensor" && parameter.tag == "transform")
-                    return glm::dvec3(parseTransform(parameter)[3]);
+            if (const Element* transform = sensor.tag == "sensor" ? transformWithin(sensor) : nullptr)
+                return glm::dvec3(parseTransform(*transform)[3]);
     } catch (const InputError&) { // whoever loads the scene about this place says what is wrong
     }
     return glm::dvec3(0);

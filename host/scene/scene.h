@@ -32,8 +32,10 @@ struct QuasiSpecularChoice {
 struct LobeDescription {
     shared::Lobe device{};
     std::vector<shared::LobeWeight> weights; ///< factors by texture; their textures count from 0 in Scene::textures
-    std::string name;                        ///< "diffuse", "specular", …, as a quasi-specular list names it
-    QuasiSpecularChoice quasiSpecular;       ///< from the innermost bsdf that says something
+    std::optional<unsigned> alphaTextureU,
+        alphaTextureV;                 ///< index into Scene::textures, instead of the device's alphas
+    std::string name;                  ///< "diffuse", "specular", …, as a quasi-specular list names it
+    QuasiSpecularChoice quasiSpecular; ///< from the innermost bsdf that says something
     double halfWidth = 0; ///< radians: half the lobe's energy lies within this angle of its peak (0 delta, 45° Lambert)
 };
 
@@ -57,6 +59,8 @@ struct Bsdf {
 /// Radiance that a shape emits on the side of its normal, W sr^-1 m^-2.
 struct AreaEmitter {
     Rgb radiance{};
+    std::optional<unsigned> texture; ///< index into Scene::textures; multiplies the radiance
+    bool alongNormal = false;        ///< only; what `radiance` holds is the irradiance across the beam then, W m^-2
     SourceLocation where;
 };
 
@@ -80,17 +84,25 @@ private:
     std::shared_ptr<const std::vector<Rgb>> pixels_ = std::make_shared<const std::vector<Rgb>>();
 };
 
+/// Values of at least 0 that vary in space, one or three channels.
+struct VolumeDescription {
+    shared::VolumeGrid device{};
+    std::vector<float> values; ///< channels of a voxel side by side, x fastest, z slowest
+    SourceLocation where;
+};
+
 /// What a texture multiplies: what surfaces scatter, in [0, 1], or what emitters send, at least 0.
 enum class TextureUse { reflectance, emission };
 
-/// A factor over a surface, or over the directions of a point emitter.
+/// A factor over a surface that scatters or emits, or over the directions of a point emitter.
 struct TextureDescription {
     TextureUse use = TextureUse::reflectance;
     shared::Texture device{};
-    Texels texels;            ///< bitmap
-    std::string attribute;    ///< of meshes: its name
-    float attributeScale = 1; ///< a factor on it
-    bool isNumber = false;    ///< a weight is wanted, so that an attribute may have one channel only
+    Texels texels;                                   ///< bitmap
+    std::string attribute;                           ///< of meshes: its name
+    float attributeScale = 1;                        ///< a factor on it
+    std::shared_ptr<const VolumeDescription> volume; ///< TEXTURE_VOLUME
+    bool isNumber = false; ///< a weight is wanted, so that an attribute may have one channel only
     SourceLocation where;
 };
 
@@ -117,16 +129,9 @@ struct Sphere {
     glm::mat3 toLocal{1.f}; ///< rotation (and mirroring) from the world to its own axes, for texture coordinates
 };
 
-/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides, unit normal.
+/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides along which u and v run from 0 to 1, unit normal.
 struct RectangleFrame {
     glm::vec3 corner{}, edgeU{}, edgeV{}, normal{};
-};
-
-/// Values of at least 0 that vary in space, one or three channels.
-struct VolumeDescription {
-    shared::VolumeGrid device{};
-    std::vector<float> values; ///< channels of a voxel side by side, x fastest, z slowest
-    SourceLocation where;
 };
 
 /// One of the phase functions that make up a medium's.

@@ -20,7 +20,9 @@
     X(PRINCIPLEDDIFFUSE, argument)                                                                                     \
     X(SHEEN, argument)                                                                                                 \
     X(GGXSCHLICK, argument)                                                                                            \
-    X(CLEARCOAT, argument)
+    X(CLEARCOAT, argument)                                                                                             \
+    X(THINGGX, argument)                                                                                               \
+    X(DIFFUSETRANSMISSION, argument)
 
 #define LOBE_ENUMERATOR(ID, argument) LOBE_##ID,
 enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
@@ -28,15 +30,18 @@ enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
 /* Lobes as broad as Lambert's, f being bounded by 1 / pi times a constant. */
 #define LOBE_IS_BROAD(type)                                                                                            \
     ((type) == LOBE_LAMBERT || (type) == LOBE_COATEDLAMBERT || (type) == LOBE_ROUGHCOATEDLAMBERT ||                    \
-     (type) == LOBE_PRINCIPLEDDIFFUSE || (type) == LOBE_SHEEN)
+     (type) == LOBE_PRINCIPLEDDIFFUSE || (type) == LOBE_SHEEN || (type) == LOBE_DIFFUSETRANSMISSION)
 
 /* A lobe that lets light pass as if the surface were not there is no event of a path: neither a class nor a segment begins. */
 #define LOBE_PASSES(type) ((type) == LOBE_PASSAGE)
 
 /* Lobes that transmit without being delta: light from both sides of a surface counts (LOBE_TRANSMITS). */
-#if defined(HAS_LOBE_GGXDIELECTRIC) || defined(HAS_LOBE_BECKMANNDIELECTRIC)
+#if defined(HAS_LOBE_GGXDIELECTRIC) || defined(HAS_LOBE_BECKMANNDIELECTRIC) || defined(HAS_LOBE_THINGGX) ||            \
+    defined(HAS_LOBE_DIFFUSETRANSMISSION)
 #define HAS_TRANSMITTING_LOBE
 #endif
-#define LOBE_TRANSMITS(type) ((type) == LOBE_GGXDIELECTRIC || (type) == LOBE_BECKMANNDIELECTRIC)
+#define LOBE_TRANSMITS(type)                                                                                           \
+    ((type) == LOBE_GGXDIELECTRIC || (type) == LOBE_BECKMANNDIELECTRIC || (type) == LOBE_THINGGX ||                    \
+     (type) == LOBE_DIFFUSETRANSMISSION)
 
 #endif

@@ -67,7 +67,7 @@ __kernel void radiances(__global const Emitter* emitter, __global const uint* en
     const uint i = get_global_id(0);
     if (i >= count) return;
     const EmitterData data = dataOf(0, environment);
-    vstore3(emitterRadiance(emitter, &data, vload3(i, directions)), i, result);
+    vstore3(emitterRadiance(emitter, &data, vload3(i, directions), 0), i, result);
 }
 
 /* The numbers (5) that emitterInvertEmission gives of the photons of samplePhotons. */

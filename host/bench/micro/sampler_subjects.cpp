@@ -46,7 +46,7 @@ shared::Emitter makeEmitter(unsigned type) {
         emitter.edgeU = {0, 1, 0};
         emitter.edgeV = {1, 0, 0};
         emitter.area = 1;
-    } else if (type == EMITTER_TRIANGLES) {
+    } else if (type == EMITTER_TRIANGLES || type == EMITTER_DIRECTIONALAREA) {
         emitter.area = 0.5f;
         emitter.triangleCount = 1;
     } else {
@@ -78,6 +78,7 @@ std::vector<SamplerSubject<shared::Emitter>> emitterSubjects() {
             {"emitter sphere", "-DHAS_EMITTER_SPHERE", makeEmitter(EMITTER_SPHERE)},
             {"emitter point", "-DHAS_EMITTER_POINT", makeEmitter(EMITTER_POINT)},
             {"emitter directional", "-DHAS_EMITTER_DIRECTIONAL", makeEmitter(EMITTER_DIRECTIONAL)},
+            {"emitter directionalarea", "-DHAS_EMITTER_DIRECTIONALAREA", makeEmitter(EMITTER_DIRECTIONALAREA)},
             {"emitter constant", "-DHAS_EMITTER_CONSTANT", makeEmitter(EMITTER_CONSTANT)},
             {"emitter spot", "-DHAS_EMITTER_SPOT", makeEmitter(EMITTER_SPOT)},
             {"emitter projector", "-DHAS_EMITTER_PROJECTOR", makeEmitter(EMITTER_PROJECTOR)},

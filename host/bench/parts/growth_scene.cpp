@@ -50,8 +50,8 @@ void addBox(Scene& scene) {
     addRectangle(scene, "left", low, y, z, wall);
     addRectangle(scene, "right", low + x, z, y, wall);
     const glm::vec3 corner(-0.25f, 0.99f, -0.25f);
-    addRectangle(scene, "light", corner, {0, 0, 0.5f}, {0.5f, 0, 0}, passing).emitter =
-        AreaEmitter{{100, 100, 100}, {}};
+    addRectangle(scene, "light", corner, {0, 0, 0.5f}, {0.5f, 0, 0}, passing).emitter.emplace().radiance = {100, 100,
+                                                                                                            100};
 }
 
 /// Latitudes and longitudes, poles included; `rings` bands of 2 * rings quadrilaterals.

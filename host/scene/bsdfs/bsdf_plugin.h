@@ -34,6 +34,7 @@ int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
     X(roughplastic, readRoughPlastic)                                                                                  \
     X(roughdielectric, readRoughDielectric)                                                                            \
     X(principled, readPrincipled)                                                                                      \
+    X(principledthin, readPrincipledThin)                                                                              \
     X(blendbsdf, readBlend)                                                                                            \
     X(mask, readMask)                                                                                                  \
     X(normalmap, readNormalMap)                                                                                        \
@@ -91,13 +92,15 @@ CoatedBase readCoatedBase(Properties& properties);
 
 /// Microfacets of <bsdf type="roughconductor|roughdielectric|roughplastic">.
 struct Roughness {
-    bool ggx = false; ///< else Beckmann
-    float alphaU = 0, alphaV = 0;
+    bool ggx = false;                                     ///< else Beckmann
+    float alphaU = 0, alphaV = 0;                         ///< of textures the mean
+    std::optional<unsigned> alphaTextureU, alphaTextureV; ///< index into Scene::textures, of equal channels
 
     double halfWidth() const; ///< of what is reflected, radians
+    void applyTo(LobeDescription& lobe) const;
 };
-/// `distribution`, and `alpha` or `alpha_u` and `alpha_v`. `smooth` is the bsdf to use without roughness.
-Roughness readRoughness(Properties& properties, const std::string& smooth);
+/// `distribution`, and `alpha` or `alpha_u` and `alpha_v`, as textures too where `byTexture`. `smooth` is the bsdf to use without roughness.
+Roughness readRoughness(Properties& properties, const std::string& smooth, bool byTexture);
 
 /// eta and k of <bsdf type="conductor|roughconductor">: `material`, or `eta` and `k`. Without Fresnel reflection
 /// (material "none") they are 0 and 1, which makes the Fresnel factor |(eta - 1 - ik)/(eta + 1 - ik)|² exactly 1.

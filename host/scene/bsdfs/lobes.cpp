@@ -27,6 +27,8 @@ std::vector<unsigned> Bsdf::textures() const {
             for (const unsigned number : {lobe.device.reflectanceTexture, lobe.device.transmittanceTexture})
                 if (number > 0) all.push_back(number - 1);
             for (const shared::LobeWeight& weight : lobe.weights) all.push_back(weight.texture);
+            for (const auto& texture : {lobe.alphaTextureU, lobe.alphaTextureV})
+                if (texture) all.push_back(*texture);
         }
     for (const auto* relief : {&frontRelief, &backRelief})
         if (*relief) all.push_back((*relief)->texture);

@@ -1,65 +1,23 @@
 // <bsdf type="principled">: Disney's material, a sum of lobes (Burley 2012, 2015).
-#include "scene/bsdfs/bsdf_plugin.h"
+#include "scene/bsdfs/principled_parts.h"
 
-#include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
-
-struct Principled {
-    Reflectance base{Rgb{0.5f, 0.5f, 0.5f}};
-    double roughness, anisotropic, metallic, specTrans, specTint, sheen, sheenTint, flatness, clearcoat, clearcoatGloss;
-    double eta;
-
-    double dielectric() const { return 1 - metallic; }
-    bool textured() const { return base.texture != 0; }
-    double alphaU() const { return std::max(0.001, roughness * roughness / aspect()); }
-    double alphaV() const { return std::max(0.001, roughness * roughness * aspect()); }
-    double aspect() const { return std::sqrt(1 - 0.9 * anisotropic); }
-    /// The base colour at luminance 1; white where it is black.
-    Rgb tint() const {
-        const auto brightness = static_cast<float>(luminance(base.scale));
-        return brightness > 0 ? base.scale * (1 / brightness) : Rgb{1, 1, 1};
-    }
-};
-
-Rgb grey(double value) {
-    const auto single = static_cast<float>(value);
-    return {single, single, single};
-}
-
-Rgb mix(Rgb a, Rgb b, double share) {
-    const auto t = static_cast<float>(share);
-    return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
-}
-
-Rgb sum(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 
 /// `eta`, or `specular`, which stands for reflectances up to 8 % at normal incidence.
 double readEta(Properties& properties) {
     if (properties.has("eta") && properties.has("specular"))
         throw InputError(properties.where("specular"), "principled has both eta and specular; keep one.");
     if (!properties.has("eta")) return 2 / (1 - std::sqrt(0.08 * properties.share("specular", 0.5))) - 1;
-    const double eta = properties.number("eta", 1.5);
-    if (eta < 1)
-        throw InputError(properties.where("eta"), fmt::format("parameter 'eta' is {}; it must be at least 1.", eta));
-    return eta;
+    return readPrincipledIndex(properties);
 }
 
 Principled readParameters(Properties& properties) {
-    Principled p;
-    p.base = readReflectance(properties, "base_color", 0.5f);
-    p.roughness = properties.share("roughness", 0.5);
-    p.anisotropic = properties.share("anisotropic", 0);
+    Principled p = readSharedParameters(properties);
     p.metallic = properties.share("metallic", 0);
-    p.specTrans = properties.share("spec_trans", 0);
-    p.specTint = properties.share("spec_tint", 0);
-    p.sheen = properties.share("sheen", 0);
-    p.sheenTint = properties.share("sheen_tint", 0);
-    p.flatness = properties.share("flatness", 0);
     p.clearcoat = properties.share("clearcoat", 0);
     p.clearcoatGloss = properties.share("clearcoat_gloss", 0);
     p.eta = readEta(properties);
@@ -72,30 +30,11 @@ void check(const Principled& p, Properties& properties) {
                            : p.specTint > 0                 ? "spec_tint"
                            : p.sheen > 0 && p.sheenTint > 0 ? "sheen_tint"
                                                             : nullptr;
-    if (p.textured() && coloured)
-        throw InputError(properties.where(coloured),
-                         fmt::format("principled: {} needs one colour, and base_color is a texture; give it as <rgb>, "
-                                     "or leave {} out.",
-                                     coloured, coloured));
+    checkOneColor(p, coloured, properties);
     if (p.specTrans > 0 && p.eta == 1)
         throw InputError(
             properties.where("spec_trans"),
             "principled: light that is transmitted needs an index eta (or specular) that bends it; eta is 1.");
-}
-
-LobeDescription facets(const Principled& p, unsigned type, const Reflectance& reflectance) {
-    LobeDescription lobe = makeLobe(type, "specular", reflectance, ggxHalfWidth(std::max(p.alphaU(), p.alphaV())));
-    lobe.device.alphaU = static_cast<float>(p.alphaU());
-    lobe.device.alphaV = static_cast<float>(p.alphaV());
-    return lobe;
-}
-
-/// From `normal` at normal incidence to `grazing`.
-LobeDescription schlick(const Principled& p, const Reflectance& scale, Rgb normal, Rgb grazing) {
-    LobeDescription lobe = facets(p, LOBE_GGXSCHLICK, scale);
-    lobe.device.eta = normal;
-    lobe.device.k = grazing;
-    return lobe;
 }
 
 /// Fresnel's reflectance of the part that is neither metal nor tinted, and what passes.
@@ -135,19 +74,6 @@ void addSchlick(const Principled& p, BsdfLobes& lobes) {
     if (p.metallic + tinted > 0) lobes.front.push_back(schlick(p, grey(1), normal, grey(p.metallic + tinted)));
 }
 
-void addDiffuse(const Principled& p, BsdfLobes& lobes) {
-    Reflectance base = p.base;
-    base.scale = base.scale * static_cast<float>(p.dielectric() * (1 - p.specTrans));
-    LobeDescription lobe = makeLobe(LOBE_PRINCIPLEDDIFFUSE, "diffuse", base, lambertHalfWidth);
-    lobe.device.alphaU = static_cast<float>(p.roughness);
-    lobe.device.exponent = static_cast<float>(p.flatness);
-    lobes.front.push_back(lobe);
-    if (p.sheen == 0) return;
-    const Rgb color = mix(grey(1), p.textured() ? grey(1) : p.tint(), p.sheenTint);
-    lobes.front.push_back(
-        makeLobe(LOBE_SHEEN, "sheen", color * static_cast<float>(p.sheen * p.dielectric()), lambertHalfWidth));
-}
-
 void addClearcoat(const Principled& p, BsdfLobes& lobes) {
     const double alpha = 0.1 + (0.001 - 0.1) * p.clearcoatGloss;
     // Half of D cos lies within tan² = alpha.
@@ -162,7 +88,7 @@ BsdfLobes readPrincipled(Properties& properties) {
     const Principled p = readParameters(properties);
     check(p, properties);
     BsdfLobes lobes;
-    addDiffuse(p, lobes);
+    addDiffuse(p, p.dielectric() * (1 - p.specTrans), p.dielectric(), lobes.front);
     addDielectric(p, lobes);
     addSchlick(p, lobes);
     addClearcoat(p, lobes);

@@ -4,11 +4,10 @@
 namespace quasilux {
 
 BsdfLobes readRoughConductor(Properties& properties) {
-    const Roughness roughness = readRoughness(properties, "conductor");
+    const Roughness roughness = readRoughness(properties, "conductor", true);
     LobeDescription lobe = makeLobe(roughness.ggx ? LOBE_GGX : LOBE_BECKMANN, "specular",
                                     readReflectance(properties, "specular_reflectance", 1), roughness.halfWidth());
-    lobe.device.alphaU = roughness.alphaU;
-    lobe.device.alphaV = roughness.alphaV;
+    roughness.applyTo(lobe);
     readConductorIndex(properties, lobe.device);
     BsdfLobes lobes;
     lobes.front.push_back(lobe);

@@ -9,6 +9,7 @@ namespace quasilux {
 namespace {
 
 constexpr double smallestAlpha = 1e-4; // below, single precision cannot hold the distribution
+constexpr float defaultAlpha = 0.1f;
 
 float readAlpha(Properties& properties, const std::string& name, double missing, const std::string& smooth) {
     const double alpha = properties.number(name, missing);
@@ -20,6 +21,35 @@ float readAlpha(Properties& properties, const std::string& name, double missing,
     return static_cast<float>(alpha);
 }
 
+/// Mean of numbers as the lookup of a texture at random places has it; of an attribute of meshes, not known here yet, the default.
+float meanAlpha(const TextureDescription& texture, const Scene& scene) {
+    if (!texture.attribute.empty()) return defaultAlpha;
+    if (texture.device.type == TEXTURE_CHECKERBOARD) {
+        const auto ofSquares = [&](const Rgb& color, unsigned number) {
+            return number > 0 ? meanAlpha(scene.textures[number - 1], scene) : color.r;
+        };
+        return 0.5f * (ofSquares(texture.device.color0, texture.device.texture0) +
+                       ofSquares(texture.device.color1, texture.device.texture1));
+    }
+    double sum = 0;
+    if (texture.volume) {
+        for (const float value : texture.volume->values) sum += value;
+        return static_cast<float>(sum / double(texture.volume->values.size()));
+    }
+    for (const Rgb& texel : texture.texels) sum += texel.r;
+    return static_cast<float>(sum / double(texture.texels.size()));
+}
+
+/// Of a texture its index and the mean.
+Scalar readAlphaOrTexture(Properties& properties, const std::string& name, double missing, const std::string& smooth,
+                          bool byTexture) {
+    const Element* texture = byTexture ? properties.texture(name) : nullptr;
+    if (!texture) return {readAlpha(properties, name, missing, smooth), std::nullopt};
+    const unsigned index = useScalarTexture(*texture, properties.context());
+    const Scene& scene = properties.context().scene;
+    return {std::max(meanAlpha(scene.textures[index], scene), static_cast<float>(smallestAlpha)), index};
+}
+
 } // namespace
 
 double Roughness::halfWidth() const {
@@ -27,16 +57,30 @@ double Roughness::halfWidth() const {
     return ggx ? ggxHalfWidth(widest) : beckmannHalfWidth(widest);
 }
 
-Roughness readRoughness(Properties& properties, const std::string& smooth) {
-    const bool anisotropic = properties.has("alpha_u") || properties.has("alpha_v");
-    if (anisotropic && (properties.has("alpha") || !properties.has("alpha_u") || !properties.has("alpha_v")))
+void Roughness::applyTo(LobeDescription& lobe) const {
+    lobe.device.alphaU = alphaU;
+    lobe.device.alphaV = alphaV;
+    lobe.alphaTextureU = alphaTextureU;
+    lobe.alphaTextureV = alphaTextureV;
+}
+
+Roughness readRoughness(Properties& properties, const std::string& smooth, bool byTexture) {
+    const auto isGiven = [&](const std::string& name) {
+        return properties.has(name) || (byTexture && properties.texture(name));
+    };
+    const bool anisotropic = isGiven("alpha_u") || isGiven("alpha_v");
+    if (anisotropic && (isGiven("alpha") || !isGiven("alpha_u") || !isGiven("alpha_v")))
         throw InputError(properties.where("alpha_u"), fmt::format("{}: give either alpha, or both alpha_u and alpha_v.",
                                                                   properties.element().get("type")));
-    const float alpha = readAlpha(properties, "alpha", 0.1, smooth);
+    const Scalar alpha = readAlphaOrTexture(properties, "alpha", defaultAlpha, smooth, byTexture);
+    const Scalar u = readAlphaOrTexture(properties, "alpha_u", alpha.value, smooth, byTexture);
+    const Scalar v = readAlphaOrTexture(properties, "alpha_v", alpha.value, smooth, byTexture);
     Roughness roughness;
     roughness.ggx = properties.choice("distribution", "beckmann", {"beckmann", "ggx"}) == "ggx";
-    roughness.alphaU = readAlpha(properties, "alpha_u", alpha, smooth);
-    roughness.alphaV = readAlpha(properties, "alpha_v", alpha, smooth);
+    roughness.alphaU = u.value;
+    roughness.alphaV = v.value;
+    roughness.alphaTextureU = anisotropic ? u.texture : alpha.texture;
+    roughness.alphaTextureV = anisotropic ? v.texture : alpha.texture;
     properties.accept({"sample_visible"});
     return roughness;
 }

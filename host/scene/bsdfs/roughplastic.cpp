@@ -36,7 +36,7 @@ BsdfLobes readRoughPlastic(Properties& properties) {
         throw InputError(properties.where("int_ior"),
                          fmt::format("roughplastic: int_ior is {} and ext_ior {}; the coat must have the larger index.",
                                      inside, outside));
-    const Roughness roughness = readRoughness(properties, "plastic");
+    const Roughness roughness = readRoughness(properties, "plastic", false);
     if (roughness.alphaU != roughness.alphaV)
         throw InputError(properties.where("alpha_u"),
                          "roughplastic: alpha_u and alpha_v differ; its coat is isotropic, so give alpha.");

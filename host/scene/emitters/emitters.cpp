@@ -16,6 +16,7 @@ struct ShapeEmitterPlugin {
 };
 constexpr ShapeEmitterPlugin shapeEmitters[] = {
     {"area", readArea},
+    {"directionalarea", readDirectionalArea},
 };
 
 struct SceneEmitterPlugin {

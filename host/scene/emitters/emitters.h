@@ -9,7 +9,7 @@ namespace quasilux {
 bool leavesOutEmitter(const Element& element, LoadContext& context);
 /// Whether its plugin is one for shapes: directly in the scene it is there to be referenced.
 bool isShapeEmitter(const Element& element);
-/// The emitter nested in a shape. Throws InputError unless it is an `area` emitter.
+/// The emitter nested in a shape. Throws InputError unless it is an `area` or `directionalarea` emitter.
 AreaEmitter readShapeEmitter(const Element& element, LoadContext& context);
 /// An emitter of its own, directly in the scene; it is added to context.scene.
 void readSceneEmitter(const Element& element, LoadContext& context);
@@ -24,6 +24,7 @@ PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties);
 glm::dmat4 roundPlacement(Properties& properties);
 
 AreaEmitter readArea(Properties& properties);
+AreaEmitter readDirectionalArea(Properties& properties);
 void readConstant(Properties& properties);
 void readEnvmap(Properties& properties);
 void readDirectional(Properties& properties);

@@ -34,15 +34,26 @@ void checkPlace(const SensorPlugin& plugin, const Element& element, bool inShape
 
 } // namespace
 
-Sensor readSensor(const Element& element, LoadContext& context, std::optional<unsigned> shape) {
-    const SensorPlugin& plugin = findPlugin(sensorPlugins, element);
-    checkPlace(plugin, element, shape.has_value());
+void refuseResponse(Properties& properties) {
+    if (properties.find("srf") || properties.texture("srf"))
+        throw InputError(properties.where("srf"), "parameter 'srf': light is linear RGB here, so that a sensor has no "
+                                                  "spectral response; remove it.");
+}
+
+Sensor readSensor(const PlacedSensor& placed, LoadContext& context) {
+    const Element& element = *placed.element;
+    const SensorPlugin& plugin = findPlugin(sensorPlugins, element, {"batch"});
+    checkPlace(plugin, element, placed.shape.has_value());
     Properties properties(element, context);
     Sensor sensor;
     sensor.where = element.where;
     sensor.plugin = plugin.name;
-    sensor.meterShape = shape.value_or(0);
-    if (const Element* film = properties.object("film")) readFilm(*film, context, sensor);
+    sensor.meterShape = placed.shape.value_or(0);
+    const Element* film = properties.object("film");
+    if (placed.film) // instead of its own, as in Mitsuba
+        takeShareOfFilm(*placed.film, context, sensor);
+    else if (film)
+        readFilm(*film, context, sensor);
     if (const Element* sampler = properties.object("sampler")) readSampler(*sampler, context);
     if (plugin.clips) {
         sensor.nearClip = properties.numberAbove("near_clip", sensor.nearClip, 0, true);
@@ -51,9 +62,7 @@ Sensor readSensor(const Element& element, LoadContext& context, std::optional<un
     if (const Element* medium = properties.object("medium")) sensor.medium = useMedium(*medium, context);
     plugin.read(properties, sensor);
     properties.accept({"shutter_open", "shutter_close"}); // nothing moves
-    if (properties.find("srf") || properties.texture("srf"))
-        throw InputError(properties.where("srf"), "parameter 'srf': light is linear RGB here, so that a sensor has no "
-                                                  "spectral response; remove it.");
+    refuseResponse(properties);
     properties.finish();
     return sensor;
 }

@@ -5,9 +5,31 @@
 
 namespace quasilux {
 
-/// Reads <sensor> with its film; `shape` is the index of the shape that it stands in. Throws InputError for unknown
-/// plugins, parameters and films.
-Sensor readSensor(const Element& element, LoadContext& context, std::optional<unsigned> shape);
+/// The film of a batch, whose sensors each have an equal part of its width.
+struct SharedFilm {
+    const Element* film = nullptr; ///< nullptr: the default one
+    const Element* batch = nullptr;
+    unsigned sensors = 1;
+};
+
+/// A sensor that is not read yet.
+struct PlacedSensor {
+    const Element* element = nullptr;
+    std::optional<unsigned> shape; ///< that it lies on
+    std::optional<SharedFilm> film;
+};
+
+/// What a <sensor> directly in the scene stands for: itself, or the sensors of a batch.
+std::vector<PlacedSensor> placeSensors(const Element& element, LoadContext& context);
+
+/// Reads a sensor with its film. Throws InputError for unknown plugins, parameters and films.
+Sensor readSensor(const PlacedSensor& placed, LoadContext& context);
+
+/// Throws InputError where the sensor has a spectral response.
+void refuseResponse(Properties& properties);
+
+/// Size, filter and format of one sensor's part of the film. Throws InputError where it cannot be divided.
+void takeShareOfFilm(const SharedFilm& shared, LoadContext& context, Sensor& sensor);
 
 /// What each plugin has of its own; size of the film and clipping planes are known already.
 void readPerspective(Properties& properties, Sensor& sensor);

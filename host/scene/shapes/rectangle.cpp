@@ -13,15 +13,15 @@ void readRectangle(Properties& properties, ShapeDescription& shape) {
     const std::vector<glm::vec2> uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     shape.mesh = flatMesh(corners, {{0, 1, 2}, {0, 2, 3}}, uvs, toWorld, shape.flipNormals, shape.where);
 
-    glm::dvec3 edgeU = transformVector(toWorld, {2, 0, 0}), edgeV = transformVector(toWorld, {0, 2, 0});
+    const glm::dvec3 edgeU = transformVector(toWorld, {2, 0, 0}), edgeV = transformVector(toWorld, {0, 2, 0});
     if (std::abs(glm::dot(glm::normalize(edgeU), glm::normalize(edgeV))) >= 1e-5) return;
-    // The sides are ordered so that their cross product points to the normal's side.
-    if ((glm::determinant(glm::dmat3(toWorld)) < 0) != shape.flipNormals) std::swap(edgeU, edgeV);
+    const bool reversed = (glm::determinant(glm::dmat3(toWorld)) < 0) != shape.flipNormals;
+    const glm::dvec3 cross = glm::normalize(glm::cross(glm::normalize(edgeU), glm::normalize(edgeV)));
     RectangleFrame frame;
     frame.corner = shape.mesh.positions[0];
     frame.edgeU = glm::vec3(edgeU);
     frame.edgeV = glm::vec3(edgeV);
-    frame.normal = glm::vec3(glm::normalize(glm::cross(glm::normalize(edgeU), glm::normalize(edgeV))));
+    frame.normal = glm::vec3(reversed ? -cross : cross);
     shape.rectangle = frame;
 }
 

@@ -36,6 +36,25 @@ constexpr ShapePlugin shapePlugins[] = {
 /// Plugins that readShapes takes apart.
 Names compoundShapes() { return {"instance", "shapegroup", "merge"}; }
 
+/// `textured`: which of its objects needs them.
+void checkTexCoords(const ShapeDescription& shape, const char* textured) {
+    if (!shape.sphere && shape.mesh.cornerUvs.empty())
+        throw InputError(shape.where,
+                         fmt::format("shape '{}' has no texture coordinates, or not at every corner, but its {} has "
+                                     "a texture; add them to the mesh file, or use {} {} without textures.",
+                                     shape.id, textured, textured[0] == 'e' ? "an" : "a", textured));
+}
+
+/// For an emitter along its normals.
+void checkFlat(const ShapeDescription& shape) {
+    if (shape.sphere || !shape.mesh.cornerNormals.empty())
+        throw InputError(shape.emitter->where,
+                         fmt::format("emitter 'directionalarea' emits along the normals of flat faces, but shape '{}' "
+                                     "is curved; use a rectangle or disk, or a mesh with <boolean "
+                                     "name=\"face_normals\" value=\"true\"/>.",
+                                     shape.id));
+}
+
 } // namespace
 
 bool leavesOutShape(const Element& element, LoadContext& context) {
@@ -66,14 +85,12 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     if (exterior) shape.exterior = useMedium(*exterior, context);
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
     keepShownAttributes(shape, context);
-    if (!shape.sphere && shape.mesh.cornerUvs.empty() &&
-        needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
-        throw InputError(shape.where,
-                         fmt::format("shape '{}' has no texture coordinates, or not at every corner, but its bsdf has "
-                                     "a texture; add them to the mesh file, or use a bsdf without textures.",
-                                     shape.id));
+    if (needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
+        checkTexCoords(shape, "bsdf");
     if (emitter) {
         shape.emitter = readShapeEmitter(*emitter, context);
+        if (shape.emitter->texture) checkTexCoords(shape, "emitter");
+        if (shape.emitter->alongNormal) checkFlat(shape);
         if (!(static_cast<float>(areaOf(shape)) > 0))
             throw InputError(
                 shape.where,

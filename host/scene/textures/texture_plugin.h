@@ -15,6 +15,9 @@ bool replacesTexture(const Element& element, LoadContext& context);
 void readCheckerboard(Properties& properties, TextureDescription& texture);
 void readBitmap(Properties& properties, TextureDescription& texture);
 void readMeshAttribute(Properties& properties, TextureDescription& texture);
+void readVolumeTexture(Properties& properties, TextureDescription& texture);
+/// A volume of one channel.
+VolumeDescription meanOfChannels(const VolumeDescription& volume);
 
 /// A reflectance as the scene gives it: a colour, or 1 times a texture.
 struct Reflectance {

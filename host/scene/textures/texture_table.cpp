@@ -17,8 +17,10 @@ struct TexturePlugin {
     bool hasCoordinates = true; ///< that to_uv transforms
 };
 
-constexpr TexturePlugin texturePlugins[] = {
-    {"checkerboard", readCheckerboard}, {"bitmap", readBitmap}, {"mesh_attribute", readMeshAttribute, false}};
+constexpr TexturePlugin texturePlugins[] = {{"checkerboard", readCheckerboard},
+                                            {"bitmap", readBitmap},
+                                            {"mesh_attribute", readMeshAttribute, false},
+                                            {"volume", readVolumeTexture, false}};
 
 /// As in Mitsuba, what the transform does within the plane of x and y.
 void readToUv(Properties& properties, shared::Texture& texture) {
@@ -78,6 +80,8 @@ unsigned scalarTexture(unsigned index, LoadContext& context) {
         for (unsigned* number : {&grey.device.texture0, &grey.device.texture1})
             if (*number > 0) *number = scalarTexture(*number - 1, context) + 1;
     }
+    if (grey.volume && grey.volume->device.channels != 1)
+        grey.volume = std::make_shared<const VolumeDescription>(meanOfChannels(*grey.volume));
     std::vector<Rgb> luminances(grey.texels.size());
     std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
     grey.texels = std::move(luminances);
@@ -125,9 +129,9 @@ EmissionColor readEmission(Properties& properties, const std::string& name, Rgb 
     if (replacesTexture(*texture, properties.context())) return {{0.5f, 0.5f, 0.5f}, std::nullopt};
     const int index = useTexture(*texture, properties.context(), TextureUse::emission);
     const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
-    if (!read.attribute.empty() || read.device.texture0 > 0 || read.device.texture1 > 0)
+    if (!read.attribute.empty() || read.volume || read.device.texture0 > 0 || read.device.texture1 > 0)
         throw InputError(texture->where,
-                         fmt::format("the texture '{}' of {} is looked up by direction, so it must be a 'bitmap' or a "
+                         fmt::format("the texture '{}' of {} gives what is emitted, so it must be a 'bitmap' or a "
                                      "'checkerboard' of two colours; bake it into an image.",
                                      name, properties.describe()));
     if (isBlack(largestValue(read)))

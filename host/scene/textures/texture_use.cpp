@@ -70,7 +70,9 @@ std::vector<unsigned> withNested(const Scene& scene, const std::vector<unsigned>
 bool needsTexCoords(const Scene& scene, const Bsdf& bsdf) {
     if (bsdf.frontRelief || bsdf.backRelief) return true;
     const std::vector<unsigned> shown = withNested(scene, bsdf.textures());
-    return std::any_of(shown.begin(), shown.end(), [&](unsigned index) { return !isAttribute(scene.textures[index]); });
+    return std::any_of(shown.begin(), shown.end(), [&](unsigned index) {
+        return !isAttribute(scene.textures[index]) && !scene.textures[index].volume;
+    });
 }
 
 void keepShownAttributes(ShapeDescription& shape, LoadContext& context) {

@@ -1,0 +1,162 @@
+// Roughness by texture: the levels that lobes are made for, and images whose halves are those of constant roughness. Differences of
+// means are held to 4 standard errors of 10 batches (Student t: 0.3 % each) plus 0.5 %. Seeds are fixed.
+#include "prepare/device_scene.h"
+#include "support/render_statistics.h"
+#include "support/scene_files.h"
+#include "support/textured_emitters.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace quasilux {
+namespace {
+
+using testing::HasSubstr;
+
+DeviceScene flattened(const Scene& scene) {
+    return flattenScene(scene, {"auto", 1000, false, [](double) { return 1.0; }});
+}
+
+template <typename T>
+const T* tableAt(const DeviceScene& scene, unsigned offset) {
+    return reinterpret_cast<const T*>(scene.tables.data() + offset);
+}
+
+Scene withBsdf(const std::string& bsdf) {
+    test::SceneFiles files;
+    std::vector<float> ramp;
+    for (int k = 0; k < 100; ++k) ramp.insert(ramp.end(), 3, 0.01f + 0.007f * float(k));
+    writeFloats(files.path("ramp.exr"), 100, 1, ramp);
+    return loadScene(files.write("scene.xml", test::sceneWith("<shape type=\"rectangle\">" + bsdf + "</shape>")));
+}
+
+const std::string ramp = R"(<texture type="bitmap" name="NAME"><string name="filename" value="ramp.exr"/></texture>)";
+std::string rampAs(const std::string& name) {
+    std::string text = ramp;
+    return text.replace(text.find("NAME"), 4, name);
+}
+
+/// The alphas of the lobe that a texture's value leads to, as kernels/surface.clh looks it up.
+std::pair<float, float> alphasAt(const DeviceScene& scene, double u, double v) {
+    const auto& material = *tableAt<shared::Material>(scene, scene.offsets.materials);
+    const auto& levels = tableAt<shared::RoughnessLevels>(scene, scene.offsets.roughness)[material.frontRoughness - 1];
+    const auto level = [](double alpha, float least, float perUnit, unsigned count) {
+        return std::min(unsigned(std::max((std::pow(alpha, 0.25) - double(least)) * double(perUnit) + 0.5, 0.0)),
+                        count - 1);
+    };
+    const unsigned k = level(u, levels.leastU, levels.levelsPerUnitU, levels.levelsU) * levels.levelsV +
+                       (levels.textureV > 0 ? level(v, levels.leastV, levels.levelsPerUnitV, levels.levelsV) : 0);
+    const auto& lobe = tableAt<shared::Lobe>(scene, scene.offsets.lobes)[material.frontFirst + k];
+    return {lobe.alphaU, lobe.alphaV};
+}
+
+TEST(AlphaTexture, HasALobeNearEachValue) {
+    const DeviceScene one = flattened(withBsdf("<bsdf type=\"roughconductor\">" + rampAs("alpha") + "</bsdf>"));
+    EXPECT_TRUE(one.features.alphaTextures);
+    for (double alpha = 0.01; alpha < 0.703; alpha += 0.0013) {
+        const auto [u, v] = alphasAt(one, alpha, alpha);
+        EXPECT_EQ(u, v);
+        EXPECT_NEAR(u, alpha, 0.006 * alpha);
+    }
+    const DeviceScene two = flattened(
+        withBsdf("<bsdf type=\"roughconductor\">" + rampAs("alpha_u") +
+                 "<texture type=\"checkerboard\" name=\"alpha_v\"><float name=\"color0\" value=\"0.05\"/><float "
+                 "name=\"color1\" value=\"0.6\"/></texture></bsdf>"));
+    for (double alpha = 0.01; alpha < 0.703; alpha += 0.05)
+        for (const double beta : {0.05, 0.6}) {
+            const auto [u, v] = alphasAt(two, alpha, beta);
+            EXPECT_NEAR(u, alpha, 0.024 * alpha);
+            EXPECT_NEAR(v, beta, 1e-5) << "the ends of the range are levels";
+        }
+    const DeviceScene alongV = flattened(withBsdf(
+        "<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.3\"/>" + rampAs("alpha_v") + "</bsdf>"));
+    EXPECT_FLOAT_EQ(alphasAt(alongV, 0, 0.1).first, 0.3f);
+    EXPECT_NEAR(alphasAt(alongV, 0, 0.1).second, 0.1, 0.0006);
+}
+
+TEST(AlphaTexture, IsOnBothSidesOfADielectricAndInBlends) {
+    const DeviceScene glass = flattened(withBsdf("<bsdf type=\"roughdielectric\">" + rampAs("alpha") + "</bsdf>"));
+    const auto& material = *tableAt<shared::Material>(glass, glass.offsets.materials);
+    EXPECT_EQ(material.frontRoughness, 1u);
+    EXPECT_EQ(material.backRoughness, 2u);
+    const DeviceScene blend = flattened(
+        withBsdf("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.5\"/><bsdf type=\"diffuse\"/><bsdf "
+                 "type=\"roughconductor\">" +
+                 rampAs("alpha") + "</bsdf></bsdf>"));
+    const auto& mixed = *tableAt<shared::Material>(blend, blend.offsets.materials);
+    EXPECT_EQ(mixed.frontCount, 2u);
+    const auto* lobes = tableAt<shared::Lobe>(blend, blend.offsets.lobes) + mixed.frontFirst;
+    for (unsigned level = 0; level < 1024; ++level) {
+        EXPECT_EQ(lobes[2 * level].type, unsigned(LOBE_LAMBERT));
+        EXPECT_EQ(lobes[2 * level + 1].type, unsigned(LOBE_BECKMANN));
+        if (level > 0) {
+            EXPECT_GT(lobes[2 * level + 1].alphaU, lobes[2 * level - 1].alphaU);
+        }
+    }
+}
+
+TEST(AlphaTexture, SaysWhatIsWrong) {
+    test::SceneFiles files;
+    const std::string checkers = "<texture type=\"checkerboard\" name=\"alpha\"/>";
+    const auto messageOf = [&](const std::string& bsdf) {
+        const std::string file =
+            files.write("scene.xml", test::sceneWith("<shape type=\"rectangle\">\n" + bsdf + "</shape>"));
+        try {
+            flattened(loadScene(file));
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("loaded");
+    };
+    EXPECT_THAT(messageOf("<bsdf type=\"roughplastic\">\n" + checkers + "</bsdf>"),
+                HasSubstr("scene.xml:6:1: bsdf 'roughplastic' takes no texture as 'alpha'"));
+    EXPECT_THAT(
+        messageOf("<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.1\"/>" + checkers + "</bsdf>"),
+        HasSubstr("either alpha, or both alpha_u and alpha_v"));
+    const std::string rough = "<bsdf type=\"roughconductor\">" + checkers + "</bsdf>";
+    EXPECT_THAT(
+        messageOf("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.5\"/>" + rough + rough + "</bsdf>"),
+        HasSubstr("scene.xml:5:1: the roughness of this bsdf's parts goes by different textures"));
+}
+
+/// A metal floor with this alpha under a lamp, from where the lamp is mirrored.
+Scene metalFloor(const std::string& alpha) {
+    test::SceneFiles files;
+    writeFloats(files.path("halves.exr"), 2, 1, {0.06f, 0.06f, 0.06f, 0.35f, 0.35f, 0.35f});
+    return loadScene(files.write(
+        "scene.xml",
+        R"(<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><float name="fov" value="30"/><transform name="to_world">
+        <lookat origin="0,-3,2" target="0,0,0" up="0,0,1"/></transform><film type="hdrfilm"><rfilter type="box"/>
+        <integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="rectangle"><transform name="to_world">
+        <scale value="2"/></transform><bsdf type="roughconductor"><string name="distribution" value="ggx"/>)" +
+            alpha + R"(</bsdf></shape>
+        <shape type="rectangle"><transform name="to_world"><scale x="1" y="0.4"/><rotate x="1" angle="120"/><translate y="3" z="2"/></transform>
+        <emitter type="area"/></shape></scene>)"));
+}
+
+/// Left and right half of the image, without a margin between.
+std::vector<MeanAndError> halves(const std::string& alpha) {
+    std::vector<int> group(256, -1);
+    for (int k = 0; k < 256; ++k)
+        if (k % 16 < 6 || k % 16 >= 10) group[size_t(k)] = k % 16 < 8 ? 0 : 1;
+    RenderSettings settings;
+    settings.photonsPerPass = 8000;
+    return renderGroups(metalFloor(alpha), settings, group, 10, 3);
+}
+
+TEST(AlphaTexture, HalvesOfAnImageAreThoseOfConstantAlphas) {
+    const std::string texture =
+        R"(<texture type="bitmap" name="alpha"><string name="filename" value="halves.exr"/><string name="filter_type" value="nearest"/></texture>)";
+    const auto both = halves(texture), left = halves(R"(<float name="alpha" value="0.06"/>)"),
+               right = halves(R"(<float name="alpha" value="0.35"/>)");
+    const auto differ = [](const MeanAndError& a, const MeanAndError& b) {
+        return std::abs(a.mean - b.mean) > 4 * std::hypot(a.standardError, b.standardError) + 0.005 * b.mean;
+    };
+    EXPECT_FALSE(differ(both[0], left[0])) << both[0].mean << " " << left[0].mean;
+    EXPECT_FALSE(differ(both[1], right[1])) << both[1].mean << " " << right[1].mean;
+    EXPECT_TRUE(differ(both[0], right[0])) << "negative control";
+    EXPECT_TRUE(differ(both[1], left[1])) << "negative control";
+}
+
+} // namespace
+} // namespace quasilux
