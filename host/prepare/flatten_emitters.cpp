@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace quasilux {
@@ -37,19 +38,28 @@ void addTriangles(const Mesh& mesh, shared::Emitter& emitter, std::vector<shared
 
 /// Of the triangles of a plane mesh, or 0 where they differ by more than rounding.
 glm::vec3 commonNormal(const Mesh& mesh) {
-    constexpr double rounding = 1e-5;
     glm::dvec3 sum(0);
     std::vector<glm::dvec3> crosses;
+    double size = 0;
+    for (const auto& p : mesh.positions)
+        size = std::max({size, std::abs(double(p.x)), std::abs(double(p.y)), std::abs(double(p.z))});
     for (const auto& t : mesh.triangles) {
         const glm::dvec3 p0 = mesh.positions[t.x];
         crosses.push_back(glm::cross(glm::dvec3(mesh.positions[t.y]) - p0, glm::dvec3(mesh.positions[t.z]) - p0));
         sum += crosses.back();
     }
-    const glm::dvec3 normal = glm::normalize(sum);
-    const bool isCommon = std::all_of(crosses.begin(), crosses.end(), [&](const glm::dvec3& cross) {
-        return glm::length(cross - glm::length(cross) * normal) <= rounding * glm::length(cross);
-    });
-    return isCommon ? glm::vec3(normal) : glm::vec3(0);
+    // In a plane as far as positions are known: the normals of thin triangles, such as a disk's, are known less well.
+    const double rounding = 8 * std::numeric_limits<float>::epsilon() * size;
+    const glm::dvec3 normal = glm::normalize(sum), corner = mesh.positions[mesh.triangles.front().x];
+    const auto isInPlane = [&](unsigned vertex) {
+        return std::abs(glm::dot(glm::dvec3(mesh.positions[vertex]) - corner, normal)) <= rounding;
+    };
+    for (size_t k = 0; k < crosses.size(); ++k) {
+        const auto& t = mesh.triangles[k];
+        if (!isInPlane(t.x) || !isInPlane(t.y) || !isInPlane(t.z) || glm::dot(crosses[k], normal) < 0)
+            return glm::vec3(0);
+    }
+    return normal;
 }
 
 shared::Emitter areaEmitter(const ShapeDescription& shape, unsigned index,
@@ -232,25 +242,13 @@ void sortIntoTree(EmitterTables& tables) {
     tables.lightTree = std::move(tree.nodes);
 }
 
-/// By which emitters are chosen: power. Of a beam that of one as wide as the scene: where it falls it is as bright.
-std::vector<double> prominences(const EmitterTables& tables, const Scene& scene) {
-    std::vector<double> all = tables.power;
-    for (size_t k = 0; k < all.size(); ++k) {
-        const shared::Emitter& emitter = tables.emitters[k];
-        if (emitter.type != EMITTER_DIRECTIONALAREA) continue;
-        const double radius = boundingSphere(scene).radius;
-        all[k] *= std::max(1.0, pi * radius * radius / emitter.area);
-    }
-    return all;
-}
-
-void setSelection(EmitterTables& tables, const std::vector<double>& prominence) {
+void setSelection(EmitterTables& tables) {
     double total = 0;
-    for (const double one : prominence) total += one;
+    for (const double power : tables.power) total += power;
     double sum = 0;
     for (size_t k = 0; k < tables.emitters.size(); ++k) {
-        sum += prominence[k] / total;
-        tables.emitters[k].selectionProbability = static_cast<float>(prominence[k] / total);
+        sum += tables.power[k] / total;
+        tables.emitters[k].selectionProbability = static_cast<float>(tables.power[k] / total);
         tables.emitters[k].selectionCdf = k + 1 == tables.emitters.size() ? 1.f : static_cast<float>(sum);
     }
 }
@@ -281,7 +279,7 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
     }
     sortIntoTree(tables);
     addDistantEmitters(scene, tables);
-    setSelection(tables, prominences(tables, scene));
+    setSelection(tables);
     return tables;
 }
 
