@@ -61,7 +61,7 @@ void findLargest(const Goniogram& goniogram, Photometry& out) {
     out.largest = *at;
     out.largestGamma = std::atan2(std::hypot(d.x, d.y), d.z) / radiansPerDegree;
     const double c = std::hypot(d.x, d.y) > 1e-9 ? std::atan2(-d.y, d.x) / radiansPerDegree : 0;
-    out.largestC = c < -1e-9 ? c + 360 : std::max(c, 0.0);
+    out.largestC = c < -1e-9 ? c + 360 : c > 1e-9 ? c : 0;
 }
 
 std::vector<LuminanceRow> luminancesOf(const Goniogram& goniogram) {

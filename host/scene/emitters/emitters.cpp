@@ -23,8 +23,8 @@ struct SceneEmitterPlugin {
     void (*read)(Properties&);
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
-    {"point", readPoint},       {"spot", readSpot},     {"directional", readDirectional},
-    {"constant", readConstant}, {"envmap", readEnvmap}, {"projector", readProjector},
+    {"point", readPoint},   {"spot", readSpot},           {"directional", readDirectional}, {"constant", readConstant},
+    {"envmap", readEnvmap}, {"projector", readProjector}, {"quasilux_ies", readLuminaire},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {

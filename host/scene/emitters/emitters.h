@@ -26,6 +26,7 @@ glm::dmat4 roundPlacement(Properties& properties);
 AreaEmitter readArea(Properties& properties);
 void readConstant(Properties& properties);
 void readEnvmap(Properties& properties);
+void readLuminaire(Properties& properties);
 void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
 void readProjector(Properties& properties);

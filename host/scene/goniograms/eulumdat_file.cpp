@@ -204,7 +204,7 @@ void readIntensities(EulumdatLines& lines, const EulumdatCounts& counts, double 
             plane.candela.push_back(candelaPerUnit * lines.numberFrom("luminous intensity", 0));
     lines.finish();
     mirrorAll(planes, counts.symmetry);
-    goniogram.axes = glm::dmat3(directionAt(0, 90), directionAt(90, 90), directionAt(0, 0));
+    goniogram.axes = axesOfTypeC();
     setSphere(goniogram, polar, std::move(planes), true);
     if (!(goniogram.largest() > 0)) lines.fail("every luminous intensity is 0; a luminaire emits light.");
 }

@@ -77,6 +77,9 @@ struct Goniogram {
     double tiltFactor(double degrees, const SourceLocation& where) const;
 };
 
+/// Of photometry of type C: azimuth is C, the pole is gamma = 0.
+inline glm::dmat3 axesOfTypeC() { return {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}}; }
+
 /// Unit vector in the luminaire's frame.
 glm::dvec3 directionAt(double c, double gamma);
 

@@ -180,7 +180,7 @@ private:
         const double first = planes.front().azimuth, last = planes.back().azimuth;
         if (first == 90 || last == 90) mirrorPlanes(planes, 90); // also of a quadrant
         if (last == 90 || last == 180) mirrorPlanes(planes, 0);
-        out_.axes = glm::dmat3(directionAt(0, 90), directionAt(90, 90), directionAt(0, 0));
+        out_.axes = axesOfTypeC();
         setSphere(out_, angles.vertical, std::move(planes), true);
     }
 
