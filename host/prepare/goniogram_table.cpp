@@ -103,6 +103,7 @@ unsigned appendWords(const std::vector<T>& values, std::vector<uint32_t>& words,
 
 std::vector<float> singles(const std::vector<double>& values, double factor) {
     std::vector<float> out;
+    out.reserve(values.size());
     for (const double value : values) out.push_back(static_cast<float>(factor * value));
     return out;
 }
@@ -139,6 +140,7 @@ GoniogramKind addGoniogram(const LuminaireType& type, std::vector<uint32_t>& wor
     head.polars = appendWords(singles(goniogram.polar, radiansOfDegree), words, first);
     head.azimuths = appendWords(singles(goniogram.azimuth, radiansOfDegree), words, first);
     std::vector<float> sines, rowSums, columnSums;
+    sines.reserve(goniogram.polar.size());
     for (const double polar : goniogram.polar) sines.push_back(static_cast<float>(std::sin(polar * radiansOfDegree)));
     head.sines = appendWords(sines, words, first);
     head.intensities = appendWords(singles(goniogram.candela, 1), words, first);

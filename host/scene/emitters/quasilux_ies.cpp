@@ -1,7 +1,5 @@
 // <emitter type="quasilux_ies">: a luminaire by its IES or EULUMDAT file (docs/reference/photometry.md).
 #include "scene/emitters/emitters.h"
-#include "scene/photometric_units.h"
-#include "scene/spectrum/spectrum.h"
 #include "scene/transform.h"
 
 #include <cmath>
@@ -10,33 +8,6 @@
 namespace quasilux {
 
 namespace {
-
-constexpr double coldest = 500, hottest = 40000; // kelvin
-
-/// Radiance of a black body by wavelength in nm, in proportion to what it has at 560 nm (Planck's law).
-Rgb colorOfBlackBody(double kelvin, const SourceLocation& where, LoadContext& context) {
-    constexpr double secondConstant = 1.438776877e7; // nm K (CODATA 2018)
-    const auto planck = [&](double nm) { return std::pow(nm, -5) / std::expm1(secondConstant / (nm * kelvin)); };
-    return colorOfSpectrum([&](double nm) { return planck(nm) / planck(560); }, ColorUse::emission, where, context);
-}
-
-/// Of luminance 1.
-Rgb readTint(Properties& properties) {
-    Rgb tint = properties.emission("tint", {1, 1, 1});
-    if (properties.has("colour_temperature")) {
-        const SourceLocation where = properties.where("colour_temperature");
-        if (properties.has("tint"))
-            throw InputError(where,
-                             fmt::format("{} has both tint and colour_temperature; keep one.", properties.describe()));
-        const double kelvin = properties.number("colour_temperature", 0);
-        if (!(kelvin >= coldest && kelvin <= hottest))
-            throw InputError(where, fmt::format("parameter 'colour_temperature' is {}; expected {} to {} kelvin.",
-                                                kelvin, coldest, hottest));
-        tint = colorOfBlackBody(kelvin, where, properties.context());
-    }
-    const double all = luminanceOf(tint.r, tint.g, tint.b);
-    return tint * static_cast<float>(1 / all);
-}
 
 /// Index into Scene::luminaireTypes; of luminaires of a type the file is read once.
 unsigned typeOf(Properties& properties) {
@@ -76,14 +47,14 @@ void readLuminaire(Properties& properties) {
     if (properties.has("lumens")) factor *= properties.numberAbove("lumens", 0, 0, true) / type.goniogram.lumens();
     // Irradiance is intensity over the square of a distance in scene units, and is to be that by square metre.
     factor /= type.metresPerUnit * type.metresPerUnit;
-    if (properties.context().scene.settings.units != "photometric") factor /= luminousEfficacy;
+    factor *= radiantFactor(properties);
     if (!(factor > 0))
         throw InputError(properties.element().where,
                          fmt::format("{} sends no light: its factors multiply to 0. Remove it if it is off.",
                                      properties.describe()));
 
     PointEmitter emitter = darkPointAt(transformPoint(toWorld, glm::dvec3(0)), properties);
-    const Rgb tint = readTint(properties);
+    const Rgb tint = readLightColour(properties);
     const auto channel = [&](float share) { return toFiniteFloat(factor * share, emitter.where, "the intensity"); };
     emitter.intensity = {channel(tint.r), channel(tint.g), channel(tint.b)};
     PointEmitter::Luminaire luminaire{index, {}};
