@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <numbers>
+#include <random>
 
 namespace quasilux {
 namespace {
@@ -341,6 +342,10 @@ TEST(GoniogramErrors, OfIesFilesSayLineAndWhatToDo) {
         {replaced(plain, "100 ", "x1 "), {"lamp.ies:8: candela value: 'x1' is not a number"}},
         {plain + "7\n", {"lamp.ies:5: 3 vertical and 1 horizontal", "need 7", "has 8"}},
         {withNumbers([](IesText& t) { t.candela = [](double, double) { return 0; }; }), {"every candela value is 0"}},
+        {withNumbers([](IesText& t) { t.lamps = "1 -1 1e300"; }),
+         {"lamp.ies: intensities up to 1e+302 cd", "at most 1e+12"}},
+        {withNumbers([](IesText& t) { t.size = "1e9 1 0"; }), {"lamp.ies: a luminous shape of 1e+09 m"}},
+        {withNumbers([](IesText& t) { t.lamps = "1 -1 1e-300"; }), {"lamp.ies: a luminous flux of 6.28e-298 lm"}},
         {withNumbers([](IesText& t) {
              t.horizontal = {0, 100};
          }),
@@ -395,6 +400,37 @@ TEST(GoniogramErrors, AFileThatIsCutOffAnywhereIsRefused) {
         for (size_t length = 0; length < last - 1; ++length)
             EXPECT_THROW(read(files.write(name, text.substr(0, length))), InputError) << name << " " << length;
     }
+}
+
+// Bytes and whole numbers are changed at random: nothing crashes, and what is read is finite.
+TEST(GoniogramErrors, AFileThatIsDamagedIsRefusedOrReadAsNumbers) {
+    IesText ies;
+    ies.tilt = "INCLUDE\n1\n2\n0 90\n1 0.5\n";
+    ies.horizontal = {0, 45, 90};
+    const std::pair<std::string, std::string> files[] = {{"lamp.ies", ies.text()}, {"lamp.ldt", LdtText{}.text()}};
+    const std::string pieces[] = {"0", "-1", "1e308", "nan",    "inf",  "4294967296", "",
+                                  " ", "\n", "90",    "180",    "360",  "3",          "2",
+                                  "1", ".",  "-",     "1e-320", "\x80", "TILT=NONE"};
+    std::mt19937 random(7);
+    test::SceneFiles folder;
+    size_t refused = 0, read = 0;
+    for (int k = 0; k < 4000; ++k) {
+        auto [name, text] = files[k % 2];
+        for (unsigned changes = 1 + random() % 3; changes > 0; --changes)
+            text.replace(random() % text.size(), random() % 4, pieces[random() % std::size(pieces)]);
+        try {
+            const Goniogram goniogram = quasilux::readGoniogram(folder.write(name, text), {});
+            const double lumens = goniogram.lumens();
+            ASSERT_TRUE(lumens > 0 && lumens < 1e14) << text;
+            ASSERT_EQ(goniogram.candela.size(), goniogram.polar.size() * goniogram.azimuth.size());
+            ASSERT_GE(goniogram.intensity(directionAt(33, 44)), 0) << text;
+            ++read;
+        } catch (const InputError&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 1000u);
+    EXPECT_GT(read, 100u);
 }
 
 } // namespace

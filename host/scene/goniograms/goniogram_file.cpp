@@ -43,6 +43,26 @@ void makeUtf8(std::string& text) {
     text = out;
 }
 
+// What no luminaire has, but factors may make of it.
+constexpr double mostCandela = 1e12, leastLumens = 1e-9, mostMetres = 1e5, mostOfLamps = 1e15;
+
+void checkMagnitudes(const Goniogram& goniogram) {
+    const auto fail = [&](const std::string& what) {
+        throw InputError(SourceLocation{goniogram.path, 0, 0}, what + " A factor or a unit may be wrong.");
+    };
+    if (!(goniogram.largest() <= mostCandela))
+        fail(fmt::format("intensities up to {:.3g} cd; expected at most {:.3g}.", goniogram.largest(), mostCandela));
+    if (!(goniogram.lumens() >= leastLumens))
+        fail(fmt::format("a luminous flux of {:.3g} lm; expected at least {:.3g}.", goniogram.lumens(), leastLumens));
+    const LuminousShape& shape = goniogram.shape;
+    if (const double size = std::max({shape.sizeC0, shape.sizeC90, shape.height}); !(size <= mostMetres))
+        fail(fmt::format("a luminous shape of {:.3g} m; expected at most {:.3g}.", size, mostMetres));
+    for (const LampSet& set : goniogram.lampSets)
+        if (!(set.lumens <= mostOfLamps && set.watts <= mostOfLamps))
+            fail(fmt::format("lamps of {:.3g} lm and {:.3g} W; expected at most {:.3g}.", set.lumens, set.watts,
+                             mostOfLamps));
+}
+
 } // namespace
 
 Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet) {
@@ -58,6 +78,7 @@ Goniogram readGoniogram(const std::string& path, const SourceLocation& where, si
         throw InputError(
             where, fmt::format("set of lamps number {} of '{}'; IES LM-63 files have one, remove it.", lampSet, path));
     Goniogram goniogram = ending == ".ldt" ? readEulumdat(path, content, where, lampSet) : readIes(path, content);
+    checkMagnitudes(goniogram);
     makeUtf8(goniogram.luminaire);
     for (LampSet& set : goniogram.lampSets) makeUtf8(set.name);
     return goniogram;
