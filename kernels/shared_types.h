@@ -249,6 +249,10 @@ typedef struct {
 /* As EMITTER_TRIANGLES, but along the normals of the triangles only; radiance field holds the irradiance across the beam; normal: that of all
  * triangles, unit, or 0 where they differ. */
 #define EMITTER_DIRECTIONALAREA 9u
+/* Intensity of a GoniogramTable times radiance, from its luminous shape about origin; edgeU, edgeV, normal: x, y, z of the table in the world,
+ * unit; radius: of a sphere about the shape. At an angle a from `normal` its intensity is at most that of a surface which looks
+ * cutoffAngle nearer to it: cos(a - cutoffAngle) of the largest one. */
+#define EMITTER_GONIOGRAM 10u
 
 typedef struct {
     unsigned int type;
@@ -267,6 +271,7 @@ typedef struct {
     float beamAngle, cutoffAngle; /* spot: full intensity up to beamAngle, none beyond cutoffAngle, which is larger */
     unsigned int directByPhotons; /* 1: genuine diffuse lobes take its direct light from photons, not by sampling it */
     unsigned int texture;         /* 1 + index of the Texture that multiplies `radiance`; 0: none */
+    unsigned int goniogram;       /* word at which its GoniogramTable begins */
 } Emitter;
 
 typedef struct {
@@ -283,6 +288,26 @@ typedef struct {
      * ENVMAP_BLOCK-th and the last one. */
     unsigned int rows, columns, blocks;
 } EnvironmentMap;
+
+/* What the light of a GoniogramTable is sent from, about its own axes. */
+#define LUMINOUS_POINT 0u
+#define LUMINOUS_BOX 1u   /* or a rectangle, flat */
+#define LUMINOUS_ROD_X 2u /* a cylinder along x, elliptic; or, flat, an ellipse */
+#define LUMINOUS_ROD_Y 3u
+#define LUMINOUS_ROD_Z 4u
+#define LUMINOUS_ELLIPSOID 5u /* its surface */
+
+/* Intensities by direction (kernels/emitters/goniogram.clh). The words of its tables follow, and are counted from here on. */
+typedef struct {
+    unsigned int rows, columns;    /* angles from the pole and about it, at least 2 each */
+    unsigned int polars, azimuths; /* floats: these angles, radians, from 0 to pi and to 2 pi; equal ones are a jump */
+    unsigned int sines;            /* floats: of the former */
+    unsigned int intensities;      /* floats: by azimuth, rows of each side by side */
+    unsigned int rowSums,
+        columnSums;     /* floats, sums of probabilities: of rows - 1 rows of cells; of columns - 1 in each of them */
+    unsigned int shape; /* LUMINOUS_* */
+    Packed3 halfSize;   /* of the shape, scene units */
+} GoniogramTable;
 
 /* Of a tree over emitters (kernels/light_tree.clh), which lie in its order: of a node of n of them the first child has the first n / 2
  * and follows it, the second one comes 2 (n / 2) nodes after it. */

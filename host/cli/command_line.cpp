@@ -7,6 +7,7 @@
 #include "cli/info_command.h"
 #include "cli/merge_command.h"
 #include "cli/options.h"
+#include "cli/photometry_command.h"
 #include "cli/render_command.h"
 #include "util/error.h"
 #include "util/nearest.h"
@@ -52,7 +53,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     const bool unknown =
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
     fail(exitBadInput, unknown     ? unknownArgument(app)
-                       : noCommand ? "no command given, expected render, merge, compare, bench, devices or info"
+                       : noCommand ? "no command given, expected render, merge, compare, photometry, bench, devices or info"
                                    : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
@@ -63,6 +64,7 @@ int runCommand(CLI::App& app, const Options& options) {
     if (app.got_subcommand("merge")) return mergeCommand(options.merge);
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
     if (app.got_subcommand("compare")) return compareCommand(options.compare);
+    if (app.got_subcommand("photometry")) return photometryCommand(options.photometry);
     if (app.got_subcommand("info"))
         infoCommand(options.info);
     else

@@ -330,6 +330,7 @@ void declareOptions(CLI::App& app, Options& options) {
 
     declareMerge(app, options.merge);
     declareCompare(app, options.compare);
+    declarePhotometry(app, options.photometry);
     declareBench(app, options.bench);
 
     CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices");

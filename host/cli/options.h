@@ -5,6 +5,7 @@
 #include "cli/bench_options.h"
 #include "cli/compare_options.h"
 #include "cli/merge_options.h"
+#include "cli/photometry_options.h"
 #include "output/png.h"
 #include "render/settings.h"
 
@@ -62,6 +63,7 @@ struct Options {
     SceneOptions info;
     CompareOptions compare;
     MergeOptions merge;
+    PhotometryOptions photometry;
     BenchOptions bench;
     bool devicesJson = false;
 };

@@ -25,7 +25,7 @@ const char* valueUnit(MeterKind meter, bool photometricUnits) {
 } // namespace
 
 double photometric(const std::array<double, 3>& rgb, bool unitsArePhotometric) {
-    const double y = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    const double y = luminanceOf(rgb[0], rgb[1], rgb[2]);
     return unitsArePhotometric ? y : luminousEfficacy * y;
 }
 

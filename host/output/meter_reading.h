@@ -2,14 +2,12 @@
 #pragma once
 
 #include "output/render_record.h"
+#include "scene/photometric_units.h"
 
 #include <array>
 #include <nlohmann/json.hpp>
 
 namespace quasilux {
-
-/// Maximum luminous efficacy of radiation, lm/W (CIE 1931; SI definition of the candela, rounded).
-inline constexpr double luminousEfficacy = 683;
 
 /// Photometric value of linear sRGB: 683 lm/W times luminance with the weights of sRGB to CIE XYZ (IEC 61966-2-1); the
 /// weights alone where the scene's units are photometric already. Irradiance gives lux, radiance cd/m^2.

@@ -216,6 +216,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
     out.offsets.environment = tables.append(out.emitters.environment);
     out.emitters.environment = {}; // it is large
+    out.offsets.goniograms = tables.append(out.emitters.goniograms);
     out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
     out.offsets.lightTree = tables.append(out.emitters.lightTree);
     out.offsets.lightTreeCount = out.emitters.countInTree();

@@ -20,6 +20,7 @@ struct EmitterTables {
     std::vector<shared::EmitterTriangle> triangles;
     std::vector<shared::LightNode> lightTree; ///< over all but distant ones (light_tree.h); empty: there are few
     std::vector<uint32_t> environment;        ///< a shared::EnvironmentMap with its tables, or empty: there is none
+    std::vector<uint32_t> goniograms;         ///< a shared::GoniogramTable with its tables for each luminaire type
     std::vector<unsigned> emitterOfShape;     ///< by shape, QL_NONE for none
     std::vector<double> power;                ///< W, mean of R, G, B
     std::vector<std::string> ids;

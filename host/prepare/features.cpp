@@ -11,9 +11,9 @@ namespace {
 #define LOBE_NAME(ID, argument) #ID,
 constexpr std::array<const char*, LOBE_TYPES> lobeNames = {LOBE_LIST(LOBE_NAME, )};
 #undef LOBE_NAME
-constexpr std::array<const char*, 10> emitterNames = {"RECTANGLE",   "TRIANGLES",      "SPHERE", "POINT",
-                                                      "DIRECTIONAL", "CONSTANT",       "ENVMAP", "SPOT",
-                                                      "PROJECTOR",   "DIRECTIONALAREA"};
+constexpr std::array<const char*, 11> emitterNames = {"RECTANGLE",   "TRIANGLES",       "SPHERE",   "POINT",
+                                                      "DIRECTIONAL", "CONSTANT",        "ENVMAP",   "SPOT",
+                                                      "PROJECTOR",   "DIRECTIONALAREA", "GONIOGRAM"};
 constexpr std::array<const char*, 4> phaseNames = {"ISOTROPIC", "HG", "RAYLEIGH", "MIXED"}; // in the order of PHASE_*
 
 std::string lower(std::string text) {

@@ -2,6 +2,7 @@
 #include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
 #include "prepare/environment.h"
+#include "prepare/goniogram_table.h"
 #include "prepare/light_tree.h"
 #include "prepare/pack.h"
 #include "prepare/texture_mean.h"
@@ -163,14 +164,28 @@ Rgb meanOfPicture(const PointEmitter& point, const shared::Emitter& emitter,
     return meanOfTexture(texture, [](double x, double y) { return TexturePlace{{x, y}, 1}; });
 }
 
+/// Completes the record and returns the flux over the intensity.
+double setLuminaire(const PointEmitter::Luminaire& luminaire, const GoniogramKind& kind, shared::Emitter& emitter) {
+    emitter.type = EMITTER_GONIOGRAM;
+    emitter.goniogram = kind.first;
+    const glm::dmat3 axes = luminaire.axes * kind.axes;
+    emitter.edgeU = pack(axes[0]);
+    emitter.edgeV = pack(axes[1]);
+    emitter.normal = pack(axes[2]);
+    emitter.radius = static_cast<float>(kind.radius);
+    emitter.cutoffAngle = static_cast<float>(kind.spread);
+    return kind.lumens;
+}
+
 /// A point emitter with its power.
 shared::Emitter pointEmitter(const PointEmitter& point, const std::vector<TextureDescription>& textures,
-                             double* power) {
+                             const std::vector<GoniogramKind>& luminaires, double* power) {
     shared::Emitter emitter{};
     emitter.shape = QL_NONE;
     emitter.radiance = point.intensity;
     emitter.origin = pack(point.position);
-    *power = solidAngleOf(point, emitter);
+    *power = point.luminaire ? setLuminaire(*point.luminaire, luminaires[point.luminaire->type], emitter)
+                             : solidAngleOf(point, emitter);
     *power *= mean(point.intensity * meanOfPicture(point, emitter, textures));
     return emitter;
 }
@@ -269,10 +284,12 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
                                mean(shape.emitter->radiance * meanOfRadiance(shape, scene)));
         tables.ids.push_back(shape.id);
     }
+    std::vector<GoniogramKind> luminaires;
+    for (const LuminaireType& type : scene.luminaireTypes) luminaires.push_back(addGoniogram(type, tables.goniograms));
     for (size_t k = 0; k < scene.pointEmitters.size(); ++k) {
         const auto& point = scene.pointEmitters[k];
         double power = 0;
-        tables.emitters.push_back(pointEmitter(point, scene.textures, &power));
+        tables.emitters.push_back(pointEmitter(point, scene.textures, luminaires, &power));
         tables.emitters.back().medium = placement.pointEmitters[k];
         tables.power.push_back(power);
         tables.ids.push_back(point.id);

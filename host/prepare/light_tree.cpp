@@ -59,6 +59,9 @@ Light lightOf(const shared::Emitter& emitter, const std::vector<shared::EmitterT
         if (emitter.type == EMITTER_PROJECTOR) {
             light.axis = unpack(emitter.normal);
             light.spread = 0;
+        } else if (emitter.type == EMITTER_GONIOGRAM) {
+            light.axis = unpack(emitter.normal);
+            light.spread = emitter.cutoffAngle;
         } else if (emitter.type == EMITTER_SPOT) { // as a surface that looks along the axis
             light.axis = unpack(emitter.normal);
             light.spread = std::max(0.0, emitter.cutoffAngle - std::numbers::pi / 2);

@@ -51,10 +51,12 @@ public:
     std::vector<const Element*> openBsdfs;         ///< being read now, outermost first: a cycle shows here
     std::vector<const Element*> openTextures;      ///< likewise
     std::map<std::tuple<std::string, bool, TextureUse>, Image> images; ///< read already, by path and `raw`
-    std::set<const Element*> usedEmitters;                             ///< that a shape has
-    std::set<const Element*> usedGroups;                               ///< shapegroups that an instance places
-    std::optional<glm::dmat4> placement;                               ///< of the instance whose shapes are being read
-    std::set<std::string> brightAttributes;                            ///< of meshes, warned of
+    std::map<std::tuple<std::string, size_t, double, bool>, unsigned>
+        luminaireTypes; ///< into Scene::luminaireTypes, by path, set of lamps, unit, and whether the shape shines
+    std::set<const Element*> usedEmitters;  ///< that a shape has
+    std::set<const Element*> usedGroups;    ///< shapegroups that an instance places
+    std::optional<glm::dmat4> placement;    ///< of the instance whose shapes are being read
+    std::set<std::string> brightAttributes; ///< of meshes, warned of
     /// Of the files that instances place more than once, by path and options.
     std::map<std::string, std::shared_ptr<const MeshSource>> instancedMeshes;
 

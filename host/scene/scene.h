@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bsdf/lobe_list.h"
+#include "scene/goniograms/goniogram.h"
 #include "shared_types.h"
 #include "util/error.h"
 
@@ -189,10 +190,23 @@ struct PointEmitter {
         glm::vec3 axis{}; ///< unit
         Picture picture;
     };
+    /// Shines as the file of a luminaire says.
+    struct Luminaire {
+        unsigned type = 0;    ///< index into Scene::luminaireTypes; the intensity multiplies its candela
+        glm::dmat3 axes{1.0}; ///< the luminaire's own x, y, z in the world, orthonormal
+    };
+    std::optional<Luminaire> luminaire;
     std::optional<Picture> picture; ///< of a spot
     std::optional<Projector> projector;
     std::optional<Spot> spot;
     std::optional<unsigned> medium; ///< in which it stands, as stated, index into Scene::media
+};
+
+/// What luminaires of one file have in common.
+struct LuminaireType {
+    Goniogram goniogram;
+    double metresPerUnit = 1; ///< of the scene
+    bool fromShape = true;    ///< light leaves through the luminous shape; or else from its centre
 };
 
 /// Parallel light from outside of the scene.
@@ -309,6 +323,7 @@ struct Scene {
     std::vector<VolumeDescription> volumes;
     std::vector<MediumDescription> media;
     std::vector<PointEmitter> pointEmitters;
+    std::vector<LuminaireType> luminaireTypes;
     std::vector<DirectionalEmitter> directionalEmitters;
     std::optional<Surroundings> surroundings;
     Sensor sensor;                       ///< the one that is rendered

@@ -11,7 +11,7 @@ struct Unsupported {
 constexpr std::string_view noPolarisation = "light has no polarisation here; remove it";
 constexpr std::string_view asMesh = "export the shape as a mesh, such as 'ply'";
 constexpr std::string_view ofSky =
-    "use 'envmap' with an image of the sky, or 'constant', and 'directional' for the sun";
+    "use 'quasilux_cie_sky', or 'envmap' with an image of the sky, and 'directional' for the sun";
 
 constexpr std::string_view derivatives = "it is there for derivatives; use 'path', or 'volpath' where there are media";
 

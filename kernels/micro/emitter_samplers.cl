@@ -2,20 +2,23 @@
 #include "emitter.clh"
 #include "micro/numbers.clh"
 
-inline EmitterData dataOf(__global const EmitterTriangle* triangles, __global const uint* environment) {
+inline EmitterData dataOf(__global const EmitterTriangle* triangles, __global const uint* words) {
     EmitterData data;
     data.triangles = triangles;
 #ifdef HAS_EMITTER_ENVMAP
-    data.environment = (__global const EnvironmentMap*)environment;
+    data.environment = (__global const EnvironmentMap*)words;
+#endif
+#ifdef HAS_EMITTER_GONIOGRAM
+    data.goniograms = words;
 #endif
     return data;
 }
 
 __kernel void sampleEmission(__global const Emitter* emitter, __global const EmitterTriangle* triangles,
-                             __global const uint* environment, __global float* sums, const uint count) {
+                             __global const uint* words, __global float* sums, const uint count) {
     const uint item = get_global_id(0);
     if (item >= count) return;
-    const EmitterData data = dataOf(triangles, environment);
+    const EmitterData data = dataOf(triangles, words);
     uint state = firstState(item);
     float3 sum = 0;
     for (uint k = 0; k < SAMPLES_PER_ITEM; ++k) {
@@ -28,10 +31,10 @@ __kernel void sampleEmission(__global const Emitter* emitter, __global const Emi
 }
 
 __kernel void sampleDirection(__global const Emitter* emitter, __global const EmitterTriangle* triangles,
-                              __global const uint* environment, __global float* sums, const uint count) {
+                              __global const uint* words, __global float* sums, const uint count) {
     const uint item = get_global_id(0);
     if (item >= count) return;
-    const EmitterData data = dataOf(triangles, environment);
+    const EmitterData data = dataOf(triangles, words);
     uint state = firstState(item);
     float3 sum = 0;
     for (uint k = 0; k < SAMPLES_PER_ITEM; ++k) {

@@ -1,6 +1,8 @@
 #include "bench/micro/sampler_subjects.h"
 
 #include "bsdf/lobe_list.h"
+#include "prepare/environment.h"
+#include "prepare/goniogram_table.h"
 
 #include <algorithm>
 #include <numbers>
@@ -50,7 +52,7 @@ shared::Emitter makeEmitter(unsigned type) {
         emitter.area = 0.5f;
         emitter.triangleCount = 1;
     } else {
-        if (type == EMITTER_ENVMAP || type == EMITTER_PROJECTOR) {
+        if (type == EMITTER_ENVMAP || type == EMITTER_PROJECTOR || type == EMITTER_GONIOGRAM) {
             emitter.edgeU = {1, 0, 0};
             emitter.edgeV = {0, 1, 0};
         }
@@ -59,6 +61,27 @@ shared::Emitter makeEmitter(unsigned type) {
         emitter.area = type == EMITTER_SPHERE ? 4 * pi * radius * radius : pi * radius * radius;
     }
     return emitter;
+}
+
+std::vector<uint32_t> speckledSky() {
+    EnvironmentImage image{1024, 512, {}, glm::dmat3(1)};
+    for (unsigned k = 0; k < image.width * image.height; ++k)
+        image.pixels.push_back(k % 101 == 0 ? shared::Rgb{100, 100, 100} : shared::Rgb{1, 1, 1});
+    return makeEnvironmentTable(image).words;
+}
+
+/// Every 5 degrees from the pole, every 15 about it.
+std::vector<uint32_t> lobedLuminaire() {
+    LuminaireType type;
+    Goniogram& goniogram = type.goniogram;
+    for (int k = 0; k <= 36; ++k) goniogram.polar.push_back(5 * k);
+    for (int k = 0; k <= 24; ++k) goniogram.azimuth.push_back(15 * k);
+    for (int column = 0; column <= 24; ++column)
+        for (int row = 0; row <= 36; ++row) goniogram.candela.push_back(1 + (row * (column % 24)) % 7);
+    goniogram.shape = {LuminousShape::Kind::box, 0.6, 0.6, 0};
+    std::vector<uint32_t> words;
+    addGoniogram(type, words);
+    return words;
 }
 
 } // namespace
@@ -82,16 +105,16 @@ std::vector<SamplerSubject<shared::Emitter>> emitterSubjects() {
             {"emitter constant", "-DHAS_EMITTER_CONSTANT", makeEmitter(EMITTER_CONSTANT)},
             {"emitter spot", "-DHAS_EMITTER_SPOT", makeEmitter(EMITTER_SPOT)},
             {"emitter projector", "-DHAS_EMITTER_PROJECTOR", makeEmitter(EMITTER_PROJECTOR)},
+            {"emitter goniogram", "-DHAS_EMITTER_GONIOGRAM", makeEmitter(EMITTER_GONIOGRAM)},
             {"emitter envmap", "-DHAS_EMITTER_ENVMAP", makeEmitter(EMITTER_ENVMAP)}};
 }
 
 shared::EmitterTriangle emitterTriangle() { return {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1}; }
 
-EnvironmentTable emitterEnvironment() {
-    EnvironmentImage image{1024, 512, {}, glm::dmat3(1)};
-    for (unsigned k = 0; k < image.width * image.height; ++k)
-        image.pixels.push_back(k % 101 == 0 ? shared::Rgb{100, 100, 100} : shared::Rgb{1, 1, 1});
-    return makeEnvironmentTable(image);
+std::vector<uint32_t> emitterTables(unsigned type) {
+    if (type == EMITTER_ENVMAP) return speckledSky();
+    if (type == EMITTER_GONIOGRAM) return lobedLuminaire();
+    return {0};
 }
 
 std::vector<SamplerSubject<shared::Medium>> phaseSubjects() {

@@ -1,8 +1,9 @@
 // A typical lobe, emitter and phase function of every kind.
 #pragma once
 
-#include "prepare/environment.h"
+#include "shared_types.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,12 @@ struct SamplerSubject {
 };
 
 std::vector<SamplerSubject<shared::Lobe>> lobeSubjects();
-/// They shine on what lies below z = 0. A mesh's triangle is that of emitterTriangle(), an environment map's tables those of
-/// emitterEnvironment().
+/// They shine on what lies below z = 0. A mesh's triangle is that of emitterTriangle(), the tables of a map or a luminaire those of
+/// emitterTables().
 std::vector<SamplerSubject<shared::Emitter>> emitterSubjects();
 shared::EmitterTriangle emitterTriangle();
-EnvironmentTable emitterEnvironment();
+/// What an emitter of this type reads beside its record; of most a single word.
+std::vector<uint32_t> emitterTables(unsigned type);
 std::vector<SamplerSubject<shared::Medium>> phaseSubjects();
 
 } // namespace quasilux

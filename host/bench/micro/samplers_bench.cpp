@@ -65,14 +65,14 @@ void benchSamplers(const MicroRun& run) {
         timer.report(subject.name);
     }
     const Buffer<shared::EmitterTriangle> triangles(device, {emitterTriangle()}, "triangles");
-    const Buffer<uint32_t> environment(device, emitterEnvironment().words, "environment");
     for (const auto& subject : emitterSubjects()) {
         if (run.interrupted) return;
         run.progress("samplers: " + subject.name);
         Program program(device, "micro/emitter_samplers.cl", subject.options);
         const Buffer<shared::Emitter> emitter(device, {subject.value}, "emitter");
-        timer.add(program, "sample", "sampleEmission", emitter, triangles, environment);
-        timer.add(program, "sample direction", "sampleDirection", emitter, triangles, environment);
+        const Buffer<uint32_t> tables(device, emitterTables(subject.value.type), "tables");
+        timer.add(program, "sample", "sampleEmission", emitter, triangles, tables);
+        timer.add(program, "sample direction", "sampleDirection", emitter, triangles, tables);
         timer.report(subject.name);
     }
     for (const auto& subject : phaseSubjects()) {

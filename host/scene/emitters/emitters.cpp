@@ -24,8 +24,14 @@ struct SceneEmitterPlugin {
     void (*read)(Properties&);
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
-    {"point", readPoint},       {"spot", readSpot},     {"directional", readDirectional},
-    {"constant", readConstant}, {"envmap", readEnvmap}, {"projector", readProjector},
+    {"point", readPoint},
+    {"spot", readSpot},
+    {"directional", readDirectional},
+    {"constant", readConstant},
+    {"envmap", readEnvmap},
+    {"projector", readProjector},
+    {"quasilux_ies", readLuminaire},
+    {"quasilux_cie_sky", readCieSky},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {

@@ -16,17 +16,25 @@ void readSceneEmitter(const Element& element, LoadContext& context);
 
 /// The scene's surroundings, still without radiance. Throws InputError where it has some already.
 Surroundings& addSurroundings(Properties& properties);
+/// Of their `to_world`, the nearest axes at right angles. Throws InputError where they are not nearly so, or scaled.
+glm::dmat3 axesOfSurroundings(Properties& properties);
 
 /// A point in the medium that is stated, without an intensity; and one that shines with `intensity`.
 PointEmitter darkPointAt(const glm::dvec3& position, Properties& properties);
 PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties);
 /// Without a shear or different scales a cone stays a cone. Throws InputError where `to_world` has them.
 glm::dmat4 roundPlacement(Properties& properties);
+/// Of `tint` or `colour_temperature`, with luminance 1; white where neither is given.
+Rgb readLightColour(Properties& properties);
+/// Radiant units by photometric ones: 1 / (683 lm/W), or 1 where the scene's units are photometric.
+double radiantFactor(const Properties& properties);
 
 AreaEmitter readArea(Properties& properties);
 AreaEmitter readDirectionalArea(Properties& properties);
 void readConstant(Properties& properties);
 void readEnvmap(Properties& properties);
+void readLuminaire(Properties& properties);
+void readCieSky(Properties& properties);
 void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
 void readProjector(Properties& properties);

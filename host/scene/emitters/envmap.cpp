@@ -14,19 +14,20 @@ constexpr unsigned longestSide = 32768;
 // Of a matrix from a turn or a mirroring: digits that a file leaves out.
 constexpr double looseness = 1e-3;
 
-// The nearest axes at right angles, or InputError where they are not nearly.
-glm::dmat3 readAxes(Properties& properties) {
+} // namespace
+
+glm::dmat3 axesOfSurroundings(Properties& properties) {
     const glm::dmat3 given(properties.transform("to_world"));
     if (!keepsAngles(given, 1, looseness))
-        throw InputError(properties.where("to_world"),
-                         "the to_world of an emitter 'envmap' may turn and mirror it, not scale or shear it: the "
-                         "surroundings are infinitely far away. Remove <scale> from it.");
+        throw InputError(
+            properties.where("to_world"),
+            fmt::format("the to_world of an emitter '{}' may turn and mirror it, not scale or shear it: the "
+                        "surroundings are infinitely far away. Remove <scale> from it.",
+                        properties.plugin()));
     const glm::dvec3 x = glm::normalize(given[0]), y = glm::normalize(given[1] - glm::dot(given[1], x) * x);
     const glm::dvec3 z = glm::cross(x, y);
     return {x, y, glm::dot(z, given[2]) < 0 ? -z : z};
 }
-
-} // namespace
 
 void readEnvmap(Properties& properties) {
     Surroundings& surroundings = addSurroundings(properties);
@@ -38,7 +39,7 @@ void readEnvmap(Properties& properties) {
     const auto scale = static_cast<float>(properties.numberAbove("scale", 1, 0, true));
     properties.accept({"mis_compensation"});
     EnvironmentImage image;
-    image.axes = readAxes(properties);
+    image.axes = axesOfSurroundings(properties);
 
     const std::string path = properties.context().files.resolve(name, where);
     const Image read = readRadianceImage(path, false, where);

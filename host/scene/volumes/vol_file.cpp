@@ -13,7 +13,7 @@ namespace {
 
 // "VOL", version, five integers (encoding, size, channels), the box as six floats; all little-endian.
 constexpr size_t headerBytes = 48;
-constexpr unsigned version = 3, encodingFloat32 = 1;
+constexpr unsigned volVersion = 3, encodingFloat32 = 1;
 constexpr unsigned longestSide = 1 << 16;
 
 class VolReader {
@@ -52,7 +52,7 @@ private:
     void checkStart() const {
         if (content_.size() < headerBytes || content_.compare(0, 3, "VOL") != 0)
             fail("it is no .vol file: these begin with 'VOL' and a header of 48 bytes.");
-        if (const unsigned found = static_cast<unsigned char>(content_[3]); found != version)
+        if (const unsigned found = static_cast<unsigned char>(content_[3]); found != volVersion)
             fail(fmt::format("it is of version {}; expected version 3.", found));
         if (const auto encoding = at<uint32_t>(4); encoding != encodingFloat32)
             fail(fmt::format("its values are of encoding {}; expected 1, 32-bit floating point.", encoding));

@@ -1,0 +1,49 @@
+// Numbers of a text file one after the other, whatever the lines, with the line of each for messages.
+#pragma once
+
+#include "util/error.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace quasilux {
+
+/// Lines without their ends: LF, CR LF, or CR alone.
+std::vector<std::string_view> splitLines(std::string_view text);
+
+/// Every query names what is read, for messages, and throws InputError at its line.
+class FileNumbers {
+public:
+    /// Of lines[first …]; line numbers count from 1.
+    FileNumbers(std::string path, const std::vector<std::string_view>& lines, size_t first);
+
+    double number(const std::string& what);
+    double numberFrom(const std::string& what, double lowest);
+    /// Greater than 0.
+    double positive(const std::string& what);
+    unsigned integer(const std::string& what, unsigned lowest, unsigned highest);
+    /// Each greater than the one before, within [lowest, highest].
+    std::vector<double> increasing(const std::string& what, unsigned count, double lowest, double highest);
+    /// How many are left.
+    size_t left() const { return pieces_.size() - next_; }
+    /// Throws InputError where there are more.
+    void finish(const std::string& what) const;
+    /// Of the number that was read last.
+    SourceLocation where() const;
+    [[noreturn]] void fail(const std::string& message) const;
+
+private:
+    struct Piece {
+        std::string_view text;
+        int line;
+    };
+    const Piece& take(const std::string& what);
+
+    std::string path_;
+    std::vector<Piece> pieces_;
+    size_t next_ = 0;
+    int lastLine_;
+};
+
+} // namespace quasilux

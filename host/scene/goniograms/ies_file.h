@@ -1,0 +1,14 @@
+// IES LM-63 files (.ies), of 1986, 1991, 1995, 2002 and 2019.
+#pragma once
+
+#include "scene/goniograms/goniogram.h"
+
+namespace quasilux {
+
+/// `content` is that of the file `path`; a table that TILT names is looked for beside it.
+Goniogram readIes(const std::string& path, const std::string& content);
+
+/// The shape that width (along C90), length (along C0) and height stand for, signs included, in units of `metres`.
+LuminousShape shapeOfLm63(double width, double length, double height, double metres);
+
+} // namespace quasilux

@@ -1,0 +1,437 @@
+// Luminaire files: IES LM-63 of every edition, type and symmetry, EULUMDAT of every symmetry, and what is refused.
+#include "scene/goniograms/ies_file.h"
+#include "support/luminaire_files.h"
+#include "support/scene_files.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <numbers>
+#include <random>
+
+namespace quasilux {
+namespace {
+
+using std::numbers::pi;
+using test::IesText;
+using test::LdtText;
+using testing::HasSubstr;
+constexpr double degree = pi / 180;
+
+Goniogram read(const std::string& path, size_t lampSet = 1) { return readGoniogram(path, {}, lampSet); }
+Goniogram readText(const std::string& text, const std::string& name = "lamp.ies", size_t lampSet = 1) {
+    test::SceneFiles files;
+    return read(files.write(name, text), lampSet);
+}
+Goniogram readText(const IesText& ies) { return readText(ies.text()); }
+Goniogram readText(const LdtText& ldt, size_t lampSet = 1) { return readText(ldt.text(), "lamp.ldt", lampSet); }
+
+/// By the midpoint rule over all directions.
+double integral(const Goniogram& goniogram) {
+    constexpr int rows = 900, columns = 720;
+    double sum = 0;
+    for (int i = 0; i < rows; ++i) {
+        const double gamma = 180 * (i + 0.5) / rows;
+        for (int k = 0; k < columns; ++k)
+            sum += goniogram.intensity(directionAt(360 * (k + 0.5) / columns, gamma)) * std::sin(gamma * degree);
+    }
+    return sum * (pi / rows) * (2 * pi / columns);
+}
+
+TEST(Goniogram, FilesOfAClosedFormHaveItsIntensitiesAndLumens) {
+    const auto cosine = [](double gamma) { return std::max(std::cos(gamma * degree), 0.0); };
+    const struct {
+        std::string name;
+        double lumens;
+        double bend, step; ///< integral of the second derivative over that of the intensity; degrees between angles
+        std::function<double(double c, double gamma)> candela;
+    } cases[] = {{"isotropic100", 400 * pi, 0, 5, [](double, double) { return 100.0; }},
+                 {"lambert1000", 1000 * pi, -1, 2.5, [&](double, double gamma) { return 1000 * cosine(gamma); }},
+                 {"spot_cos40", 10000 * pi / 41, 40, 1,
+                  [&](double, double gamma) { return 5000 * std::pow(cosine(gamma), 40); }},
+                 {"asym_cosphi", 1000 * pi, -1, 2.5,
+                  [&](double c, double gamma) { return 500 * (2 + std::cos(c * degree)) * cosine(gamma); }},
+                 {"quadrant", 1500 * pi, -1, 2.5, [&](double c, double gamma) {
+                      const double folded = c > 180 ? 360 - c : c;
+                      return 2000 * (1 - std::min(folded, 180 - folded) / 180) * cosine(gamma);
+                  }}};
+    for (const auto& expected : cases) {
+        const Goniogram goniogram = read(test::luminaireFolder + expected.name + ".ies");
+        EXPECT_EQ(goniogram.format, "IES LM-63-2002");
+        EXPECT_TRUE(goniogram.absolute);
+        EXPECT_NEAR(goniogram.lumens() / integral(goniogram), 1, 1e-4) << expected.name;
+        // What chords add to a curve: h^2 / 12 of the integral of its second derivative over the sphere. Of cos^n it is n times that
+        // of the curve, and -1 times for n = 1, which ends with a slope.
+        const double chords = 1 + expected.bend * std::pow(expected.step * degree, 2) / 12;
+        EXPECT_NEAR(goniogram.lumens() / (chords * expected.lumens), 1, 1e-5) << expected.name;
+        for (const double c : {0.0, 45.0, 90.0, 135.0, 180.0, 270.0, 315.0})
+            for (const double gamma : {5.0, 30.0, 60.0, 85.0, 100.0}) {
+                if (expected.name == "quadrant" && std::fmod(c, 90) != 0) continue;
+                EXPECT_NEAR(goniogram.intensity(directionAt(c, gamma)), expected.candela(c, gamma), 2e-3)
+                    << expected.name << ", C " << c << ", gamma " << gamma;
+            }
+        // Between 90 degrees and a listed plane: linear in C.
+        if (expected.name == "quadrant") {
+            EXPECT_NEAR(goniogram.intensity(directionAt(225, 60)), expected.candela(225, 60), 1e-3);
+            EXPECT_NEAR(goniogram.intensity(directionAt(225, 60)), 750, 1e-3);
+        }
+    }
+}
+
+TEST(Goniogram, IsLinearInBothAnglesBetweenTheValuesOfTheFile) {
+    IesText ies;
+    ies.horizontal = {0, 90, 180, 270, 360};
+    ies.candela = [](double v, double h) { return 10 + v + std::fmod(h, 360); };
+    const Goniogram goniogram = readText(ies);
+    EXPECT_NEAR(goniogram.intensity(directionAt(120, 20)), 10 + 20 + 120, 1e-9);
+    EXPECT_NEAR(goniogram.intensity(directionAt(315, 70)), 10 + 70 + 135, 1e-9) << "between 270 and 0";
+    EXPECT_NEAR(goniogram.intensity(directionAt(100, 90 - 1e-9)), 10 + 90 + 100, 1e-6);
+    EXPECT_EQ(goniogram.intensity(directionAt(100, 90 + 1e-9)), 0) << "nothing beyond the last angle";
+    EXPECT_NEAR(goniogram.lumens() / integral(goniogram), 1, 1e-5);
+}
+
+TEST(Goniogram, CRunsAsLm63HasIt) {
+    // Seen from above, C0 to the right: counter-clockwise. Seen along the light (+z away from the eye, +x to the right) +y is down.
+    EXPECT_LT(glm::length(directionAt(0, 90) - glm::dvec3(1, 0, 0)), 1e-15);
+    EXPECT_LT(glm::length(directionAt(90, 90) - glm::dvec3(0, -1, 0)), 1e-15);
+    EXPECT_LT(glm::length(directionAt(33, 0) - glm::dvec3(0, 0, 1)), 1e-15);
+}
+
+TEST(Goniogram, EverySymmetryOfTypeCIsTheWholeSphere) {
+    const struct {
+        std::vector<double> horizontal;
+        std::function<double(double)> folded; ///< the azimuth of the file that a direction has the value of
+    } cases[] = {{{0}, [](double) { return 0.0; }},
+                 {{0, 45, 90}, [](double c) { return std::min(std::fmod(c, 180), 180 - std::fmod(c, 180)); }},
+                 {{0, 45, 90, 135, 180}, [](double c) { return std::min(c, 360 - c); }},
+                 {{90, 135, 180, 225, 270}, [](double c) { return c < 90    ? 180 - c
+                                                                  : c > 270 ? 540 - c
+                                                                            : c; }},
+                 {{0, 45, 90, 135, 180, 225, 270, 315, 360}, [](double c) { return c; }}};
+    for (const auto& expected : cases) {
+        IesText ies;
+        ies.vertical = {0, 30, 60, 90, 120, 180};
+        ies.horizontal = expected.horizontal;
+        ies.candela = [](double v, double h) { return 1 + v + 2 * std::fmod(h, 360); };
+        const Goniogram goniogram = readText(ies);
+        for (double c = 0; c < 360; c += 45)
+            EXPECT_NEAR(goniogram.intensity(directionAt(c, 60)), 61 + 2 * expected.folded(c), 1e-9)
+                << fmt::format("{}", fmt::join(expected.horizontal, " ")) << ": " << c;
+        EXPECT_NEAR(goniogram.lumens() / integral(goniogram), 1, 1e-5);
+    }
+    IesText upwards;
+    upwards.vertical = {90, 135, 180};
+    const Goniogram goniogram = readText(upwards);
+    EXPECT_NEAR(goniogram.lumens(), 200 * pi, 1e-9);
+    EXPECT_EQ(goniogram.intensity(directionAt(10, 80)), 0);
+    EXPECT_EQ(goniogram.intensity(directionAt(10, 100)), 100);
+}
+
+/// A direction of a luminaire that looks along +z, up +y: `right` and `up` are components across.
+TEST(Goniogram, TypesAAndBTurnAboutAVerticalAndAHorizontalPole) {
+    for (const bool isTypeA : {true, false})
+        for (const bool isSymmetric : {true, false}) {
+            IesText ies;
+            ies.type = isTypeA ? 3 : 2;
+            ies.vertical = {-90, -45, 0, 10, 90};
+            ies.horizontal = isSymmetric ? std::vector<double>{0, 30, 90} : std::vector<double>{-90, 0, 30, 90};
+            ies.candela = [](double v, double h) { return v == 10 && h == 30 ? 500 : v == -45 && h == 30 ? 100 : 1; };
+            const Goniogram goniogram = readText(ies);
+            const auto along = [&](double h, double v) {
+                const double right = isTypeA ? std::cos(v * degree) * std::sin(h * degree) : std::sin(h * degree);
+                const double up = isTypeA ? std::sin(v * degree) : std::cos(h * degree) * std::sin(v * degree);
+                return goniogram.intensity({-right, up, std::cos(h * degree) * std::cos(v * degree)});
+            };
+            EXPECT_NEAR(along(30, 10), 500, 1e-6) << isTypeA << isSymmetric;
+            EXPECT_NEAR(along(30, -45), 100, 1e-6) << isTypeA << isSymmetric;
+            EXPECT_NEAR(along(-30, 10), isSymmetric ? 500 : 1, 1e-6);
+            EXPECT_NEAR(along(15, 10), 250.5, 1e-6) << "linear in H";
+            EXPECT_NEAR(along(30, 50), 250.5, 1e-6) << "linear in V";
+            EXPECT_EQ(goniogram.intensity({0, 0, -1}), 0) << "backwards it is dark";
+            EXPECT_NEAR(goniogram.lumens() / integral(goniogram), 1, 2e-3);
+        }
+}
+
+TEST(Goniogram, FactorsAreThoseOfTheEdition) {
+    for (const auto& [header, format, factor] : {std::tuple{"any first line", "IES LM-63-1986", 3 * 0.9 * 0.8},
+                                                 {"IESNA91", "IES LM-63-1991", 3 * 0.9 * 0.8},
+                                                 {"IESNA:LM-63-1995", "IES LM-63-1995", 3 * 0.9 * 0.8},
+                                                 {"IESNA:LM-63-2002", "IES LM-63-2002", 3 * 0.9},
+                                                 {"IES:LM-63-2019", "IES LM-63-2019", 3 * 0.9}}) {
+        IesText ies;
+        ies.header = header;
+        ies.lamps = "2 1500 3";
+        ies.factors = "0.9 0.8 36";
+        const Goniogram goniogram = readText(ies);
+        EXPECT_EQ(goniogram.format, format);
+        EXPECT_NEAR(goniogram.largest(), 100 * factor, 1e-9) << header;
+        EXPECT_FALSE(goniogram.absolute);
+        EXPECT_EQ(goniogram.lampSets.at(0).lumens, 3000);
+        EXPECT_EQ(goniogram.lampSets[0].watts, 36);
+        EXPECT_EQ(goniogram.luminaire, "of a test");
+        EXPECT_EQ(goniogram.warnings.size(), goniogram.format == "IES LM-63-2002" ? 1u : 0u);
+    }
+}
+
+TEST(Goniogram, NamesAreUtf8WhateverTheFileHas) {
+    for (const char* name : {"L\xfc"
+                             "ster",
+                             "L\xc3\xbc"
+                             "ster",
+                             "L\xfc"
+                             "s\x01ter"}) {
+        const std::string text = IesText{}.text();
+        EXPECT_EQ(readText(std::string(text).replace(text.find("of a test"), 9, name)).luminaire, "L\xc3\xbc"
+                                                                                                  "ster");
+    }
+}
+
+TEST(Goniogram, NumbersMayStandOnAnyLines) {
+    std::string text = IesText{}.text();
+    const size_t first = text.find("1 -1 1");
+    for (size_t k = first; k < text.size(); ++k)
+        if (text[k] == ' ' || text[k] == '\n') text[k] = k % 3 == 0 ? ',' : k % 3 == 1 ? '\n' : '\t';
+    EXPECT_EQ(readText(text + "\r\n\x1a").largest(), 100);
+    std::string carriageReturns = IesText{}.text();
+    std::replace(carriageReturns.begin(), carriageReturns.end(), '\n', '\r');
+    EXPECT_EQ(readText(carriageReturns).largest(), 100);
+}
+
+TEST(Goniogram, TiltMultipliesByAngle) {
+    IesText ies;
+    ies.tilt = "INCLUDE\n1\n3\n0 30 90\n1 0.9 0.6\n";
+    const Goniogram included = readText(ies);
+    EXPECT_EQ(included.tiltFactor(0, {}), 1);
+    EXPECT_NEAR(included.tiltFactor(60, {}), 0.75, 1e-12);
+    EXPECT_THROW(included.tiltFactor(91, {}), InputError);
+    test::SceneFiles files;
+    files.write("lamp.tlt", "1\n3\n0 30 90\n1 0.9 0.6\n");
+    ies.tilt = "lamp.tlt\n";
+    EXPECT_NEAR(read(files.write("lamp.IES", ies.text())).tiltFactor(60, {}), 0.75, 1e-12);
+    EXPECT_EQ(readText(IesText{}).tiltFactor(12, {}), 1);
+}
+
+TEST(Goniogram, ShapesAreThoseOfTheStandard) {
+    using Kind = LuminousShape::Kind;
+    const struct {
+        double width, length, height;
+        Kind kind;
+        double alongX, alongY, alongZ; ///< area seen along C0, C90 and the axis, by hand
+    } cases[] = {{0, 0, 0, Kind::point, 0, 0, 0},           {2, 3, 0, Kind::box, 0, 0, 6},
+                 {2, 3, 0.5, Kind::box, 1, 1.5, 6},         {-2, 0, 0, Kind::uprightRod, 0, 0, pi},
+                 {-2, -2, 0, Kind::uprightRod, 0, 0, pi},   {-2, -4, 0, Kind::uprightRod, 0, 0, 2 * pi},
+                 {-2, 0, 3, Kind::uprightRod, 6, 6, pi},    {-2, -4, 3, Kind::uprightRod, 6, 12, 2 * pi},
+                 {-2, -2, -2, Kind::ellipsoid, pi, pi, pi}, {-2, -4, -6, Kind::ellipsoid, 3 * pi, 6 * pi, 2 * pi},
+                 {-2, 5, -2, Kind::rodAlongC0, pi, 10, 10}, {5, -2, -2, Kind::rodAlongC90, 10, pi, 10},
+                 {-2, 0, -2, Kind::rodAlongC0, pi, 0, 0},   {-2, 0, -4, Kind::rodAlongC0, 2 * pi, 0, 0}};
+    for (const auto& expected : cases) {
+        SCOPED_TRACE(fmt::format("{} {} {}", expected.width, expected.length, expected.height));
+        const LuminousShape shape = shapeOfLm63(expected.width, expected.length, expected.height, 1);
+        EXPECT_EQ(shape.kind, expected.kind);
+        EXPECT_NEAR(shape.projectedArea({1, 0, 0}), expected.alongX, 1e-12);
+        EXPECT_NEAR(shape.projectedArea({0, 1, 0}), expected.alongY, 1e-12);
+        EXPECT_NEAR(shape.projectedArea({0, 0, 1}), expected.alongZ, 1e-12);
+        EXPECT_FALSE(shape.text().empty());
+    }
+    // A sphere and a cube from aslant.
+    const glm::dvec3 aslant = glm::normalize(glm::dvec3(1, 1, 1));
+    EXPECT_NEAR(shapeOfLm63(-2, -2, -2, 1).projectedArea(aslant), pi, 1e-12);
+    EXPECT_NEAR(shapeOfLm63(1, 1, 1, 1).projectedArea(aslant), std::sqrt(3.0), 1e-12);
+    IesText ies;
+    ies.units = 1;
+    ies.size = "2 4 0";
+    EXPECT_NEAR(readText(ies).shape.sizeC0, 4 * 0.3048, 1e-12) << "feet";
+}
+
+TEST(Goniogram, EverySymmetryOfEulumdatIsTheWholeSphere) {
+    const struct {
+        unsigned symmetry;
+        std::vector<double> listed;
+        std::function<double(double)> folded;
+    } cases[] = {{0, {0, 45, 90, 135, 180, 225, 270, 315}, [](double c) { return c; }},
+                 {1, {0}, [](double) { return 0.0; }},
+                 {2, {0, 45, 90, 135, 180}, [](double c) { return std::min(c, 360 - c); }},
+                 {3,
+                  {270, 315, 0, 45, 90},
+                  [](double c) { return c > 90 && c <= 180   ? 180 - c
+                                        : c > 180 && c < 270 ? 540 - c
+                                                             : c; }},
+                 {4, {0, 45, 90}, [](double c) { return std::min(std::fmod(c, 180), 180 - std::fmod(c, 180)); }}};
+    for (const auto& expected : cases) {
+        LdtText ldt;
+        ldt.symmetry = expected.symmetry;
+        ldt.planes = 8;
+        ldt.listed = expected.listed;
+        ldt.intensity = [](double c, double gamma) { return 1 + c + gamma; };
+        const Goniogram goniogram = readText(ldt);
+        for (double c = 0; c < 360; c += 45)
+            EXPECT_NEAR(goniogram.intensity(directionAt(c, 45)), 46 + expected.folded(c), 1e-9)
+                << expected.symmetry << ": " << c;
+        EXPECT_NEAR(goniogram.lumens() / integral(goniogram), 1, 1e-5);
+        EXPECT_EQ(goniogram.format, "EULUMDAT");
+        EXPECT_EQ(goniogram.directRatios[9], 1);
+    }
+}
+
+TEST(Goniogram, EulumdatScalesByFactorAndSetOfLamps) {
+    LdtText ldt;
+    ldt.factor = "1,5";
+    ldt.lampSets = "2\n1\nfirst\n1000\nwhite\n1A\n20\n-2\nsecond\n3000\nwhite\n1A\n40\n";
+    EXPECT_NEAR(readText(ldt).largest(), 150, 1e-9);
+    EXPECT_FALSE(readText(ldt).absolute);
+    const Goniogram second = readText(ldt, 2);
+    EXPECT_NEAR(second.largest(), 450, 1e-9);
+    EXPECT_TRUE(second.absolute) << "a negative number of lamps";
+    EXPECT_EQ(second.lampSets.at(second.lampSet).watts, 40);
+    ldt.area = "1200\n300\n10\n20\n30\n40\n";
+    EXPECT_NEAR(readText(ldt).shape.sizeC90, 1.2, 1e-12);
+    EXPECT_NEAR(readText(ldt).shape.sizeC0, 0.3, 1e-12);
+    EXPECT_NEAR(readText(ldt).shape.height, 0.025, 1e-12);
+    ldt.area = "400\n0\n0\n0\n0\n0\n";
+    EXPECT_NEAR(readText(ldt).shape.projectedArea({0, 0, 1}), 0.04 * pi, 1e-12) << "a disc";
+}
+
+// --- what is refused ---
+
+std::string errorOf(const std::string& name, const std::string& text, size_t lampSet = 1) {
+    try {
+        readText(text, name, lampSet);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "read without an error:\n" << text;
+    return {};
+}
+
+std::string withNumbers(const std::function<void(IesText&)>& change) {
+    IesText ies;
+    change(ies);
+    return ies.text();
+}
+std::string withLines(const std::function<void(LdtText&)>& change) {
+    LdtText ldt;
+    change(ldt);
+    return ldt.text();
+}
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(GoniogramErrors, OfIesFilesSayLineAndWhatToDo) {
+    const std::string plain = IesText{}.text();
+    const std::pair<std::string, std::vector<std::string>> cases[] = {
+        {"", {"lamp.ies", "no line TILT=NONE"}},
+        {"IES:LM-63-2044\nTILT=NONE\n", {"lamp.ies:1: 'IES:LM-63-2044' is no known edition", "IES:LM-63-2019"}},
+        {"IESNA:LM-63-2002\n[TEST] x\n", {"lamp.ies:2: the file has no line TILT=NONE"}},
+        {"IESNA91\nTILT=\n", {"lamp.ies:2: TILT= says nothing", "INCLUDE"}},
+        {"IESNA91\nTILT=nowhere.tlt\n", {"lamp.ies:2: cannot read the tilt file", "nowhere.tlt"}},
+        {"IESNA91\nTILT=NONE\n", {"lamp.ies:2: the file ends where a number is expected: number of lamps", "cut off"}},
+        {replaced(plain, "1 -1 1", "0 -1 1"), {"lamp.ies:4: number of lamps: '0'", "from 1"}},
+        {replaced(plain, "1 -1 1", "1 -2 1"), {"lamp.ies:4: lumens per lamp: -2", "-1 for absolute"}},
+        {replaced(plain, "1 -1 1", "1 -1 0"), {"lamp.ies:4: candela multiplier: 0", "above 0"}},
+        {replaced(plain, "1 -1 1 3", "1 -1 1 4000000000"), {"lamp.ies:4: number of vertical angles", "2 to 3601"}},
+        {replaced(plain, "1 -1 1 3 1", "1 -1 1 3 3600"),
+         {"lamp.ies:5: 3 vertical and 3600 horizontal angles need 14403"}},
+        {replaced(plain, "1 -1 1 3 1 1", "1 -1 1 3 1 4"), {"lamp.ies:4: photometric type", "1 to 3"}},
+        {replaced(plain, "1 -1 1 3 1 1 2", "1 -1 1 3 1 1 3"), {"lamp.ies:4: units type"}},
+        {replaced(plain, "0 45 90", "0 45 80"), {"lamp.ies:6: vertical angles from 0 to 80", "0 to 90"}},
+        {replaced(plain, "0 45 90", "0 95 90"), {"lamp.ies:6: vertical angles", "90 follows 95"}},
+        {replaced(plain, "0 45 90", "0 45 190"), {"lamp.ies:6: vertical angles", "from 0 to 180"}},
+        {replaced(plain, "100 ", "nan "), {"lamp.ies:8: candela value: 'nan' is not finite"}},
+        {replaced(plain, "100 ", "1e999 "), {"lamp.ies:8: candela value: '1e999'", "range"}},
+        {replaced(plain, "100 ", "-1 "), {"lamp.ies:8: candela value: -1", "at least 0"}},
+        {replaced(plain, "100 ", "x1 "), {"lamp.ies:8: candela value: 'x1' is not a number"}},
+        {plain + "7\n", {"lamp.ies:5: 3 vertical and 1 horizontal", "need 7", "has 8"}},
+        {withNumbers([](IesText& t) { t.candela = [](double, double) { return 0; }; }), {"every candela value is 0"}},
+        {withNumbers([](IesText& t) { t.lamps = "1 -1 1e300"; }),
+         {"lamp.ies: intensities up to 1e+302 cd", "at most 1e+12"}},
+        {withNumbers([](IesText& t) { t.size = "1e9 1 0"; }), {"lamp.ies: a luminous shape of 1e+09 m"}},
+        {withNumbers([](IesText& t) { t.lamps = "1 -1 1e-300"; }), {"lamp.ies: a luminous flux of 6.28e-298 lm"}},
+        {withNumbers([](IesText& t) {
+             t.horizontal = {0, 100};
+         }),
+         {"lamp.ies:7: horizontal angles from 0 to 100"}},
+        {withNumbers([](IesText& t) { t.factors = "0 1 5"; }), {"lamp.ies:5: ballast factor: 0"}},
+        {withNumbers([](IesText& t) { t.factors = "1 1 -5"; }), {"lamp.ies:5: input watts: -5"}},
+        {withNumbers([](IesText& t) { t.type = 2; }), {"horizontal angles: one; expected at least two"}},
+        {withNumbers([](IesText& t) { t.tilt = "INCLUDE\n1\n2000000000\n"; }), {"lamp.ies:5: number of tilt angles"}},
+        {withNumbers([](IesText& t) { t.tilt = "INCLUDE\n4\n"; }), {"lamp.ies:4: lamp to luminaire geometry"}}};
+    for (const auto& [text, messages] : cases)
+        for (const std::string error = errorOf("lamp.ies", text); const auto& message : messages)
+            EXPECT_THAT(error, HasSubstr(message));
+}
+
+TEST(GoniogramErrors, OfEulumdatFilesSayLineAndWhatToDo) {
+    const std::pair<std::string, std::vector<std::string>> cases[] = {
+        {"", {"the file ends where a line is expected: company"}},
+        {withLines([](LdtText& t) { t.symmetry = 5; }), {"lamp.ldt:3: symmetry indicator Isym: 5"}},
+        {withLines([](LdtText& t) {
+             t.symmetry = 4;
+             t.planes = 6;
+         }),
+         {"lamp.ldt:4: number of C-planes Mc: 6", "multiple of 4"}},
+        {replaced(LdtText{}.text(), "1\n1\n4\n", "1\n1\n4000000000\n"), {"lamp.ldt:4: number of C-planes"}},
+        {replaced(LdtText{}.text(), "90\n3\n45", "90\n1800\n45"), {"lamp.ldt:51: gamma angles: 100 follows 100"}},
+        {withLines([](LdtText& t) { t.factor = "0"; }), {"lamp.ldt:24: conversion factor", "above 0"}},
+        {withLines([](LdtText& t) { t.factor = "inf"; }), {"lamp.ldt:24: conversion factor", "not finite"}},
+        {withLines([](LdtText& t) { t.lampSets = "0\n"; }), {"lamp.ldt:26: number of sets of lamps: 0"}},
+        {withLines([](LdtText& t) { t.lampSets = "1\n0\nx\n5\nx\nx\n5\n"; }), {"lamp.ldt:27: number of lamps: 0"}},
+        {withLines([](LdtText& t) { t.lampSets = "1\n1\nx\n0\nx\nx\n5\n"; }), {"lamp.ldt:29: total luminous flux"}},
+        {withLines([](LdtText& t) {
+             t.gamma = {0, 200};
+         }),
+         {"lamp.ldt:48: gamma angles: 200", "at most 180"}},
+        {withLines([](LdtText& t) { t.intensity = [](double, double) { return -1; }; }), {"luminous intensity: -1"}},
+        {withLines([](LdtText& t) { t.intensity = [](double, double) { return 0; }; }),
+         {"every luminous intensity is 0"}},
+        {LdtText{}.text() + "7\n", {"a line follows the last intensity"}}};
+    for (const auto& [text, messages] : cases)
+        for (const std::string error = errorOf("lamp.ldt", text); const auto& message : messages)
+            EXPECT_THAT(error, HasSubstr(message));
+    EXPECT_THAT(errorOf("lamp.ldt", LdtText{}.text(), 2), HasSubstr("no set of lamps number 2"));
+    EXPECT_THAT(errorOf("lamp.ies", IesText{}.text(), 2), HasSubstr("IES LM-63 files have one"));
+    EXPECT_THAT(errorOf("lamp.txt", "x"), HasSubstr("expected a luminaire's file, .ies"));
+}
+
+TEST(GoniogramErrors, AFileThatIsCutOffAnywhereIsRefused) {
+    for (const auto& [name, text] : {std::pair{"lamp.ies", IesText{}.text()}, {"lamp.ldt", LdtText{}.text()}}) {
+        test::SceneFiles files;
+        const size_t last =
+            text.find_last_not_of(" \n"); // of "100"; without one or two of its digits it is a number still
+        for (size_t length = 0; length < last - 1; ++length)
+            EXPECT_THROW(read(files.write(name, text.substr(0, length))), InputError) << name << " " << length;
+    }
+}
+
+// Bytes and whole numbers are changed at random: nothing crashes, and what is read is finite.
+TEST(GoniogramErrors, AFileThatIsDamagedIsRefusedOrReadAsNumbers) {
+    IesText ies;
+    ies.tilt = "INCLUDE\n1\n2\n0 90\n1 0.5\n";
+    ies.horizontal = {0, 45, 90};
+    const std::pair<std::string, std::string> files[] = {{"lamp.ies", ies.text()}, {"lamp.ldt", LdtText{}.text()}};
+    const std::string pieces[] = {"0", "-1", "1e308", "nan",    "inf",  "4294967296", "",
+                                  " ", "\n", "90",    "180",    "360",  "3",          "2",
+                                  "1", ".",  "-",     "1e-320", "\x80", "TILT=NONE"};
+    std::mt19937 random(7);
+    test::SceneFiles folder;
+    size_t refused = 0, read = 0;
+    for (int k = 0; k < 4000; ++k) {
+        auto [name, text] = files[k % 2];
+        for (unsigned changes = 1 + random() % 3; changes > 0; --changes)
+            text.replace(random() % text.size(), random() % 4, pieces[random() % std::size(pieces)]);
+        try {
+            const Goniogram goniogram = quasilux::readGoniogram(folder.write(name, text), {});
+            const double lumens = goniogram.lumens();
+            ASSERT_TRUE(lumens > 0 && lumens < 1e14) << text;
+            ASSERT_EQ(goniogram.candela.size(), goniogram.polar.size() * goniogram.azimuth.size());
+            ASSERT_GE(goniogram.intensity(directionAt(33, 44)), 0) << text;
+            ++read;
+        } catch (const InputError&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 1000u);
+    EXPECT_GT(read, 100u);
+}
+
+} // namespace
+} // namespace quasilux
