@@ -57,7 +57,7 @@ const BadBody badBodies[] = {
      {"scene.xml:4:1: bsdf 'hair' is not supported: fibres are not modelled; use 'principled'"}},
     {"EmitterOfMitsuba",
      "<emitter type=\"sunsky\"/>",
-     {"scene.xml:4:1: emitter 'sunsky' is not supported: use 'envmap'"}},
+     {"scene.xml:4:1: emitter 'sunsky' is not supported: use 'quasilux_cie_sky'"}},
     {"ShapeOfMitsuba",
      "<shape type=\"sdfgrid\"/>",
      {"scene.xml:4:1: shape 'sdfgrid' is not supported: export the shape as a mesh"}},
