@@ -414,10 +414,7 @@ TEST(EnvmapReader, SaysWhatIsWrong) {
         {"<emitter type=\"constant\"/>\n" + envmap(skyFile),
          {"scene.xml:5:1", "a second emitter all around the scene, after the emitter 'constant' of line 4"}},
         {"<shape type=\"cube\">\n" + envmap(skyFile) + "</shape>", {"scene.xml:5:1", "put it directly into <scene>"}}};
-    for (const auto& [body, messages] : cases) {
-        const std::string error = test::errorOf(files.write("scene.xml", test::sceneWith(body)));
-        for (const auto& message : messages) EXPECT_THAT(error, HasSubstr(message));
-    }
+    test::expectErrors(files, cases);
 }
 
 } // namespace

@@ -14,16 +14,11 @@ namespace {
 using std::numbers::pi;
 using test::IesText;
 using test::LdtText;
+using test::luminaireOf;
 using testing::HasSubstr;
 constexpr double degree = pi / 180;
 
 Goniogram read(const std::string& path, size_t lampSet = 1) { return readGoniogram(path, {}, lampSet); }
-Goniogram readText(const std::string& text, const std::string& name = "lamp.ies", size_t lampSet = 1) {
-    test::SceneFiles files;
-    return read(files.write(name, text), lampSet);
-}
-Goniogram readText(const IesText& ies) { return readText(ies.text()); }
-Goniogram readText(const LdtText& ldt, size_t lampSet = 1) { return readText(ldt.text(), "lamp.ldt", lampSet); }
 
 /// By the midpoint rule over all directions.
 double integral(const Goniogram& goniogram) {
@@ -81,7 +76,7 @@ TEST(Goniogram, IsLinearInBothAnglesBetweenTheValuesOfTheFile) {
     IesText ies;
     ies.horizontal = {0, 90, 180, 270, 360};
     ies.candela = [](double v, double h) { return 10 + v + std::fmod(h, 360); };
-    const Goniogram goniogram = readText(ies);
+    const Goniogram goniogram = luminaireOf(ies);
     EXPECT_NEAR(goniogram.intensity(directionAt(120, 20)), 10 + 20 + 120, 1e-9);
     EXPECT_NEAR(goniogram.intensity(directionAt(315, 70)), 10 + 70 + 135, 1e-9) << "between 270 and 0";
     EXPECT_NEAR(goniogram.intensity(directionAt(100, 90 - 1e-9)), 10 + 90 + 100, 1e-6);
@@ -112,7 +107,7 @@ TEST(Goniogram, EverySymmetryOfTypeCIsTheWholeSphere) {
         ies.vertical = {0, 30, 60, 90, 120, 180};
         ies.horizontal = expected.horizontal;
         ies.candela = [](double v, double h) { return 1 + v + 2 * std::fmod(h, 360); };
-        const Goniogram goniogram = readText(ies);
+        const Goniogram goniogram = luminaireOf(ies);
         for (double c = 0; c < 360; c += 45)
             EXPECT_NEAR(goniogram.intensity(directionAt(c, 60)), 61 + 2 * expected.folded(c), 1e-9)
                 << fmt::format("{}", fmt::join(expected.horizontal, " ")) << ": " << c;
@@ -120,7 +115,7 @@ TEST(Goniogram, EverySymmetryOfTypeCIsTheWholeSphere) {
     }
     IesText upwards;
     upwards.vertical = {90, 135, 180};
-    const Goniogram goniogram = readText(upwards);
+    const Goniogram goniogram = luminaireOf(upwards);
     EXPECT_NEAR(goniogram.lumens(), 200 * pi, 1e-9);
     EXPECT_EQ(goniogram.intensity(directionAt(10, 80)), 0);
     EXPECT_EQ(goniogram.intensity(directionAt(10, 100)), 100);
@@ -135,7 +130,7 @@ TEST(Goniogram, TypesAAndBTurnAboutAVerticalAndAHorizontalPole) {
             ies.vertical = {-90, -45, 0, 10, 90};
             ies.horizontal = isSymmetric ? std::vector<double>{0, 30, 90} : std::vector<double>{-90, 0, 30, 90};
             ies.candela = [](double v, double h) { return v == 10 && h == 30 ? 500 : v == -45 && h == 30 ? 100 : 1; };
-            const Goniogram goniogram = readText(ies);
+            const Goniogram goniogram = luminaireOf(ies);
             const auto along = [&](double h, double v) {
                 const double right = isTypeA ? std::cos(v * degree) * std::sin(h * degree) : std::sin(h * degree);
                 const double up = isTypeA ? std::sin(v * degree) : std::cos(h * degree) * std::sin(v * degree);
@@ -161,7 +156,7 @@ TEST(Goniogram, FactorsAreThoseOfTheEdition) {
         ies.header = header;
         ies.lamps = "2 1500 3";
         ies.factors = "0.9 0.8 36";
-        const Goniogram goniogram = readText(ies);
+        const Goniogram goniogram = luminaireOf(ies);
         EXPECT_EQ(goniogram.format, format);
         EXPECT_NEAR(goniogram.largest(), 100 * factor, 1e-9) << header;
         EXPECT_FALSE(goniogram.absolute);
@@ -180,8 +175,8 @@ TEST(Goniogram, NamesAreUtf8WhateverTheFileHas) {
                              "L\xfc"
                              "s\x01ter"}) {
         const std::string text = IesText{}.text();
-        EXPECT_EQ(readText(std::string(text).replace(text.find("of a test"), 9, name)).luminaire, "L\xc3\xbc"
-                                                                                                  "ster");
+        EXPECT_EQ(luminaireOf(std::string(text).replace(text.find("of a test"), 9, name)).luminaire, "L\xc3\xbc"
+                                                                                                     "ster");
     }
 }
 
@@ -190,16 +185,16 @@ TEST(Goniogram, NumbersMayStandOnAnyLines) {
     const size_t first = text.find("1 -1 1");
     for (size_t k = first; k < text.size(); ++k)
         if (text[k] == ' ' || text[k] == '\n') text[k] = k % 3 == 0 ? ',' : k % 3 == 1 ? '\n' : '\t';
-    EXPECT_EQ(readText(text + "\r\n\x1a").largest(), 100);
+    EXPECT_EQ(luminaireOf(text + "\r\n\x1a").largest(), 100);
     std::string carriageReturns = IesText{}.text();
     std::replace(carriageReturns.begin(), carriageReturns.end(), '\n', '\r');
-    EXPECT_EQ(readText(carriageReturns).largest(), 100);
+    EXPECT_EQ(luminaireOf(carriageReturns).largest(), 100);
 }
 
 TEST(Goniogram, TiltMultipliesByAngle) {
     IesText ies;
     ies.tilt = "INCLUDE\n1\n3\n0 30 90\n1 0.9 0.6\n";
-    const Goniogram included = readText(ies);
+    const Goniogram included = luminaireOf(ies);
     EXPECT_EQ(included.tiltFactor(0, {}), 1);
     EXPECT_NEAR(included.tiltFactor(60, {}), 0.75, 1e-12);
     EXPECT_THROW(included.tiltFactor(91, {}), InputError);
@@ -207,7 +202,7 @@ TEST(Goniogram, TiltMultipliesByAngle) {
     files.write("lamp.tlt", "1\n3\n0 30 90\n1 0.9 0.6\n");
     ies.tilt = "lamp.tlt\n";
     EXPECT_NEAR(read(files.write("lamp.IES", ies.text())).tiltFactor(60, {}), 0.75, 1e-12);
-    EXPECT_EQ(readText(IesText{}).tiltFactor(12, {}), 1);
+    EXPECT_EQ(luminaireOf(IesText{}).tiltFactor(12, {}), 1);
 }
 
 TEST(Goniogram, ShapesAreThoseOfTheStandard) {
@@ -239,7 +234,7 @@ TEST(Goniogram, ShapesAreThoseOfTheStandard) {
     IesText ies;
     ies.units = 1;
     ies.size = "2 4 0";
-    EXPECT_NEAR(readText(ies).shape.sizeC0, 4 * 0.3048, 1e-12) << "feet";
+    EXPECT_NEAR(luminaireOf(ies).shape.sizeC0, 4 * 0.3048, 1e-12) << "feet";
 }
 
 TEST(Goniogram, EverySymmetryOfEulumdatIsTheWholeSphere) {
@@ -262,7 +257,7 @@ TEST(Goniogram, EverySymmetryOfEulumdatIsTheWholeSphere) {
         ldt.planes = 8;
         ldt.listed = expected.listed;
         ldt.intensity = [](double c, double gamma) { return 1 + c + gamma; };
-        const Goniogram goniogram = readText(ldt);
+        const Goniogram goniogram = luminaireOf(ldt);
         for (double c = 0; c < 360; c += 45)
             EXPECT_NEAR(goniogram.intensity(directionAt(c, 45)), 46 + expected.folded(c), 1e-9)
                 << expected.symmetry << ": " << c;
@@ -276,25 +271,25 @@ TEST(Goniogram, EulumdatScalesByFactorAndSetOfLamps) {
     LdtText ldt;
     ldt.factor = "1,5";
     ldt.lampSets = "2\n1\nfirst\n1000\nwhite\n1A\n20\n-2\nsecond\n3000\nwhite\n1A\n40\n";
-    EXPECT_NEAR(readText(ldt).largest(), 150, 1e-9);
-    EXPECT_FALSE(readText(ldt).absolute);
-    const Goniogram second = readText(ldt, 2);
+    EXPECT_NEAR(luminaireOf(ldt).largest(), 150, 1e-9);
+    EXPECT_FALSE(luminaireOf(ldt).absolute);
+    const Goniogram second = luminaireOf(ldt, 2);
     EXPECT_NEAR(second.largest(), 450, 1e-9);
     EXPECT_TRUE(second.absolute) << "a negative number of lamps";
     EXPECT_EQ(second.lampSets.at(second.lampSet).watts, 40);
     ldt.area = "1200\n300\n10\n20\n30\n40\n";
-    EXPECT_NEAR(readText(ldt).shape.sizeC90, 1.2, 1e-12);
-    EXPECT_NEAR(readText(ldt).shape.sizeC0, 0.3, 1e-12);
-    EXPECT_NEAR(readText(ldt).shape.height, 0.025, 1e-12);
+    EXPECT_NEAR(luminaireOf(ldt).shape.sizeC90, 1.2, 1e-12);
+    EXPECT_NEAR(luminaireOf(ldt).shape.sizeC0, 0.3, 1e-12);
+    EXPECT_NEAR(luminaireOf(ldt).shape.height, 0.025, 1e-12);
     ldt.area = "400\n0\n0\n0\n0\n0\n";
-    EXPECT_NEAR(readText(ldt).shape.projectedArea({0, 0, 1}), 0.04 * pi, 1e-12) << "a disc";
+    EXPECT_NEAR(luminaireOf(ldt).shape.projectedArea({0, 0, 1}), 0.04 * pi, 1e-12) << "a disc";
 }
 
 // --- what is refused ---
 
 std::string errorOf(const std::string& name, const std::string& text, size_t lampSet = 1) {
     try {
-        readText(text, name, lampSet);
+        luminaireOf(text, name, lampSet);
     } catch (const InputError& error) {
         return error.what();
     }

@@ -15,15 +15,12 @@ namespace {
 
 using std::numbers::pi;
 using test::IesText;
+using test::luminaireOf;
 using testing::HasSubstr;
 using testing::Not;
 constexpr double degree = pi / 180;
 
 Goniogram readFile(const std::string& name) { return readGoniogram(test::luminaireFolder + name, {}); }
-Goniogram readIesText(const IesText& ies) {
-    test::SceneFiles files;
-    return readGoniogram(files.write("lamp.ies", ies.text()), {});
-}
 
 std::vector<double> everyDegree(double first, double last) {
     std::vector<double> angles;
@@ -36,7 +33,7 @@ TEST(Photometry, OfALambertianRectangleIsThatOfItsLuminance) {
     ies.vertical = everyDegree(0, 90);
     ies.size = "0.6 1.2 0";
     ies.candela = [](double v, double) { return 500 * std::cos(v * degree); };
-    const Photometry figures = photometryOf(readIesText(ies));
+    const Photometry figures = photometryOf(luminaireOf(ies));
     EXPECT_NEAR(figures.lumens, 500 * pi, 0.1);
     EXPECT_EQ(figures.upwardLumens, 0);
     EXPECT_NEAR(figures.efficacy(), 10 * pi, 0.01);
@@ -67,7 +64,7 @@ TEST(Photometry, AnglesAreThoseOfTheCurve) {
     ies.vertical = everyDegree(0, 90);
     ies.horizontal = {0, 45, 90, 135, 180};
     ies.candela = [](double v, double h) { return h == 90 ? std::max(1000 - 50 * std::abs(v - 50), 0.0) : 0.0; };
-    const Photometry tent = photometryOf(readIesText(ies));
+    const Photometry tent = photometryOf(luminaireOf(ies));
     EXPECT_NEAR(tent.planes[1].beam, 20, 1e-3);
     EXPECT_NEAR(tent.planes[1].field, 36, 1e-3);
     EXPECT_NEAR(tent.largestC, 90, 1e-9);
@@ -84,7 +81,7 @@ TEST(Photometry, UpwardsIsWhatLeavesAboveTheHorizon) {
         // Type C: uplight of half the intensity, though 90 degrees is no angle of the file; the others look along the axis only.
         if (type == 1) ies.vertical.erase(ies.vertical.begin() + 90);
         ies.candela = [&](double v, double) { return type == 1 && v > 90 ? 50 : 100; };
-        const Photometry figures = photometryOf(readIesText(ies));
+        const Photometry figures = photometryOf(luminaireOf(ies));
         EXPECT_NEAR(figures.upwardLumens, type == 1 ? 100 * pi * (1 + degree / 4) : 0, 1) << type;
         EXPECT_NEAR(figures.lumens, type == 1 ? 300 * pi : 200 * pi, 1) << type;
     }

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <numbers>
 
 namespace quasilux {
@@ -16,7 +16,6 @@ namespace {
 
 using glm::dvec3;
 using std::numbers::pi;
-using testing::HasSubstr;
 
 constexpr int statisticalTests = 6;
 constexpr size_t sampleCount = 100000;
@@ -155,10 +154,7 @@ TEST(ProjectorReader, SaysWhatIsWrong) {
         {projectorWith("<transform name=\"to_world\"><scale x=\"2\"/></transform>"),
          {"scene.xml:5:1", "emitter 'projector'", "scales directions differently"}},
         {projectorWith("<float name=\"intensity\" value=\"1\"/>"), {"scene.xml:5:1", "unknown parameter 'intensity'"}}};
-    for (const auto& [body, messages] : cases) {
-        const std::string error = test::errorOf(files.write("scene.xml", test::sceneWith(body)));
-        for (const auto& message : messages) EXPECT_THAT(error, HasSubstr(message));
-    }
+    test::expectErrors(files, cases);
 }
 
 } // namespace

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <numbers>
 
 namespace quasilux {
@@ -19,7 +19,6 @@ namespace {
 
 using glm::dvec3;
 using std::numbers::pi;
-using testing::HasSubstr;
 
 constexpr int statisticalTests = 10;
 constexpr size_t sampleCount = 100000;
@@ -300,10 +299,7 @@ TEST(SpotReader, SaysWhatIsWrong) {
          {"scene.xml:5:1", "gives what is emitted"}},
         {spot("<texture type=\"bitmap\" name=\"texture\"/>"), {"scene.xml:5:1", "needs <string name=\"filename\""}},
         {spot("<float name=\"cutof_angle\" value=\"1\"/>"), {"scene.xml:5:1", "Did you mean 'cutoff_angle'"}}};
-    for (const auto& [body, messages] : cases) {
-        const std::string error = test::errorOf(files.write("scene.xml", test::sceneWith(body)));
-        for (const auto& message : messages) EXPECT_THAT(error, HasSubstr(message));
-    }
+    test::expectErrors(files, cases);
 }
 
 } // namespace

@@ -111,7 +111,8 @@ struct Common {
 // More camera paths than this leave too few passes for the estimate of the error, whatever else they do.
 constexpr unsigned fewestPassesOfImage = 64, mostCameraPaths = 64;
 
-// Of the total noise; all of it where the film does not tell. Classes of light that photons carry have noise of camera paths too, which counts as the photons' here.
+// Of the total noise; all of it where the film keeps no components. Classes of light that photons carry have noise of camera paths too,
+// which counts as the photons' here.
 double shareOfPhotons(const ErrorEstimate& error, bool hasComponents) {
     if (!hasComponents) return 1;
     double ofPhotons = 0;

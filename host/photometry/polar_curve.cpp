@@ -66,7 +66,7 @@ std::string legend(double y, const char* style, const char* text) {
 } // namespace
 
 std::string polarCurveSvg(const Goniogram& goniogram) {
-    // Told apart by dashes as well as by colour.
+    // The two differ in dashes as well as in colour.
     constexpr const char* along = "stroke=\"#0072b2\" stroke-width=\"2\"";
     constexpr const char* across = "stroke=\"#d55e00\" stroke-width=\"2\" stroke-dasharray=\"7 4\"";
     double largest = 0;

@@ -61,7 +61,7 @@ size_t scaleCount(const shared::Camera& pilot, unsigned classes) {
 
 AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes)
     : block_(blockSize(camera)), camera_(coarseCamera(camera, block_)),
-      film_(std::in_place, device, camera_.width, camera_.height, FilmLayout{}, pilotOwner),
+      film_(std::in_place, device, camera_.width, camera_.height, FilmLayout{}, Film::inOneBuffer, pilotOwner),
       measureRadii_(pass.kernel("measureRadii")), chooseRadii_(pass.kernel("chooseRadii")),
       pilotScales_(device, scaleCount(camera_, classes), "pilot's radii"),
       measures_(device, pilotScales_.size(), "pilot's measures") {
@@ -70,11 +70,10 @@ AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared
     pilotScales_.fill(largestAdaptiveRadius);
 }
 
-std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes,
-                                                     const DeviceInfo& device) {
+std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
     const shared::Camera pilot = coarseCamera(camera, blockSize(camera));
     const uint64_t scales = scaleCount(pilot, classes);
-    auto bytes = Film::plan(size_t(pilot.width) * pilot.height, FilmLayout{}, device, pilotOwner);
+    auto bytes = Film::plan(size_t(pilot.width) * pilot.height, FilmLayout{}, Film::inOneBuffer, pilotOwner);
     bytes["pilot's radii"] = scales * sizeof(float);
     bytes["pilot's measures"] = scales * sizeof(shared::RadiusMeasure);
     for (size_t choice = 0; choice <= choices.size(); ++choice) bytes[scalesLabel(choice)] = scales * sizeof(float);

@@ -24,8 +24,7 @@ public:
     AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes);
 
     /// Bytes of its buffers by label, as Device::allocations() has them.
-    static std::map<std::string, uint64_t> plan(const shared::Camera& camera, unsigned classes,
-                                                const DeviceInfo& device);
+    static std::map<std::string, uint64_t> plan(const shared::Camera& camera, unsigned classes);
     /// Has the runtime compile the kernels.
     void compile();
 

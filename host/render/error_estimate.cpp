@@ -20,26 +20,26 @@ double meanAbout(const FilmImage& image, const std::vector<float>& radiance, siz
     return sum / count;
 }
 
-// Root of 1 / (value^2 + 0.01 m^2) of each channel of each pixel, a third of it: squares of errors are averaged over channels. Roots, since
-// squares of faint images leave the range of a float.
+// 1 / sqrt(3 (value^2 + 0.01 m^2)) of each channel of each pixel: times an error, its share of the relative one; the squares of three
+// channels add up. Not squared themselves: those of faint images leave the range of a float.
 // After few passes a pixel that is too bright has a large standard error, too, and would divide it by too much: so the
 // value is that of the neighbourhood.
-std::vector<float> channelWeights(const FilmImage& image, const std::vector<float>& radiance) {
+std::vector<float> relativeScales(const FilmImage& image, const std::vector<float>& radiance) {
     double sum = 0;
     for (const float value : radiance) sum += value;
     const double mean = sum / static_cast<double>(radiance.size());
-    std::vector<float> weights(radiance.size());
-    for (size_t k = 0; k < weights.size(); ++k) {
+    std::vector<float> scales(radiance.size());
+    for (size_t k = 0; k < scales.size(); ++k) {
         const double value = meanAbout(image, radiance, k / 3, k % 3), scale = value * value + 0.01 * mean * mean;
-        weights[k] = scale > 0 ? static_cast<float>(1 / std::sqrt(3 * scale)) : 0;
+        scales[k] = scale > 0 ? static_cast<float>(1 / std::sqrt(3 * scale)) : 0;
     }
-    return weights;
+    return scales;
 }
 
-std::vector<double> squaredByPixel(const std::vector<float>& errors, const std::vector<float>& weights) {
-    std::vector<double> squares(weights.size() / 3);
+std::vector<double> squaredByPixel(const std::vector<float>& errors, const std::vector<float>& scales) {
+    std::vector<double> squares(scales.size() / 3);
     for (size_t k = 0; k < errors.size(); ++k) {
-        const double relative = double(weights[k]) * errors[k];
+        const double relative = double(scales[k]) * errors[k];
         squares[k / 3] += relative * relative;
     }
     return squares;
@@ -101,16 +101,16 @@ double percentile95(std::vector<double> variances, double n) {
 }
 
 ErrorPart partOf(const std::vector<float>& noise, const std::vector<float>& bias, const std::vector<float>& biasNoise,
-                 const std::vector<float>& weights, double passes) {
+                 const std::vector<float>& scales, double passes) {
     ErrorPart part;
-    std::vector<double> squares = squaredByPixel(noise, weights);
+    std::vector<double> squares = squaredByPixel(noise, scales);
     part.noiseRms = std::sqrt(mean(squares));
     double roots = 0;
     for (const double square : squares) roots += std::sqrt(square);
     part.noiseMean = roots / static_cast<double>(squares.size()) / meanOfSampleDeviation(passes);
     part.noisePercentile95 = std::sqrt(percentile95(std::move(squares), passes));
-    const double noiseOfBias = mean(squaredByPixel(biasNoise, weights));
-    part.biasRms = std::sqrt(std::max(0.0, mean(squaredByPixel(bias, weights)) - noiseOfBias));
+    const double noiseOfBias = mean(squaredByPixel(biasNoise, scales));
+    part.biasRms = std::sqrt(std::max(0.0, mean(squaredByPixel(bias, scales)) - noiseOfBias));
     part.biasNoiseRms = std::sqrt(noiseOfBias);
     return part;
 }
@@ -130,19 +130,19 @@ ErrorEstimate estimateError(const FilmImage& image) {
         estimate.components.fill(unknownPart());
         return estimate;
     }
-    const auto weights = channelWeights(image, image.radiance);
-    estimate.total = partOf(image.standardError, image.bias, image.biasError, weights, image.passes);
+    const auto scales = relativeScales(image, image.radiance);
+    estimate.total = partOf(image.standardError, image.bias, image.biasError, scales, image.passes);
     for (size_t c = 0; c < LIGHT_CLASSES; ++c)
         if (!image.componentError[c].empty())
             estimate.components[c] = partOf(image.componentError[c], image.componentBias[c],
-                                            image.componentBiasError[c], weights, image.passes);
+                                            image.componentBiasError[c], scales, image.passes);
     return estimate;
 }
 
 TileErrors errorByTile(const FilmImage& image, unsigned perSide, const std::vector<float>& brightness) {
-    const auto weights = channelWeights(image, brightness.empty() ? image.radiance : brightness);
-    const auto noise = squaredByPixel(image.standardError, weights);
-    const auto bias = squaredByPixel(image.bias, weights), biasNoise = squaredByPixel(image.biasError, weights);
+    const auto scales = relativeScales(image, brightness.empty() ? image.radiance : brightness);
+    const auto noise = squaredByPixel(image.standardError, scales);
+    const auto bias = squaredByPixel(image.bias, scales), biasNoise = squaredByPixel(image.biasError, scales);
     const unsigned columns = std::min(perSide, image.width), rows = std::min(perSide, image.height);
     TileErrors tiles;
     tiles.noise.resize(size_t(columns) * rows);

@@ -27,9 +27,8 @@ std::string partLabel(const std::string& owner, size_t part) {
 }
 
 // Pixels of each part.
-std::vector<size_t> partsOf(size_t pixels, const FilmLayout& layout, const DeviceInfo& device) {
-    const size_t most =
-        std::max<size_t>(device.maximumAllocation / (layout.floatsPerPixel() * sizeof(float)) / 64, 1) * 64;
+std::vector<size_t> partsOf(size_t pixels, const FilmLayout& layout, uint64_t largestBuffer) {
+    const size_t most = std::max<size_t>(largestBuffer / (layout.floatsPerPixel() * sizeof(float)) / 64, 1) * 64;
     std::vector<size_t> parts;
     do {
         parts.push_back(std::min(most, pixels));
@@ -102,10 +101,11 @@ bool isBlack(const std::vector<float>& values) {
 
 } // namespace
 
-Film::Film(Device& device, unsigned width, unsigned height, FilmLayout layout, const std::string& owner)
+Film::Film(Device& device, unsigned width, unsigned height, FilmLayout layout, uint64_t largestBuffer,
+           const std::string& owner)
     : width_(width), height_(height), layout_(layout), counters_(device, 1, owner + "camera counters") {
     size_t first = 0;
-    for (const size_t pixels : partsOf(size_t(width) * height, layout, device.info())) {
+    for (const size_t pixels : partsOf(size_t(width) * height, layout, largestBuffer)) {
         parts_.push_back(
             {first, pixels, Buffer<float>(device, pixels * layout.floatsPerPixel(), partLabel(owner, parts_.size()))});
         parts_.back().sums.fill(0);
@@ -114,11 +114,11 @@ Film::Film(Device& device, unsigned width, unsigned height, FilmLayout layout, c
     counters_.write({shared::CameraCounters{0, 0, 0}});
 }
 
-std::map<std::string, uint64_t> Film::plan(size_t pixels, FilmLayout layout, const DeviceInfo& device,
+std::map<std::string, uint64_t> Film::plan(size_t pixels, FilmLayout layout, uint64_t largestBuffer,
                                            const std::string& owner) {
     std::map<std::string, uint64_t> bytes{{owner + "camera counters", sizeof(shared::CameraCounters)}};
     size_t part = 0;
-    for (const size_t ofPart : partsOf(pixels, layout, device))
+    for (const size_t ofPart : partsOf(pixels, layout, largestBuffer))
         bytes[partLabel(owner, part++)] = ofPart * layout.floatsPerPixel() * sizeof(float);
     return bytes;
 }

@@ -49,15 +49,18 @@ private:
 class Film {
 public:
     /// `layout.bias`: the kernels were compiled with ESTIMATE_BIAS. `owner` goes before the buffers' labels.
-    Film(Device& device, unsigned width, unsigned height, FilmLayout layout, const std::string& owner = "");
+    Film(Device& device, unsigned width, unsigned height, FilmLayout layout, uint64_t largestBuffer = inOneBuffer,
+         const std::string& owner = "");
 
-    /// Rows one after the other; as many pixels as a device allows in one buffer.
+    static constexpr uint64_t inOneBuffer = UINT64_MAX;
+
+    /// Rows one after the other; as many pixels as `largestBuffer` bytes hold.
     struct Part {
         size_t firstPixel = 0, pixels = 0;
         Buffer<float> sums;
     };
     /// Labels and bytes of the buffers that it has.
-    static std::map<std::string, uint64_t> plan(size_t pixels, FilmLayout layout, const DeviceInfo& device,
+    static std::map<std::string, uint64_t> plan(size_t pixels, FilmLayout layout, uint64_t largestBuffer = inOneBuffer,
                                                 const std::string& owner = "");
 
     /// What the kernels are to know of a pass that adds to the film.
@@ -85,7 +88,7 @@ public:
 
     size_t pixels() const { return size_t(width_) * height_; }
     std::vector<Part>& parts() { return parts_; }
-    /// Of a film in one part: kernels that add to all of it at once need that (memory_plan.h refuses others).
+    /// Of a film that was made to be in one buffer: kernels that add to all of it at once need that.
     Buffer<float>& sums();
     const FilmLayout& layout() const { return layout_; }
     Buffer<shared::CameraCounters>& counterBuffer() { return counters_; }

@@ -59,12 +59,8 @@ BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, 
     BufferSizes sizes{{"tree nodes", bytesOf(scene.bvh.nodes)},
                       {"primitives", bytesOf(scene.bvh.blocks)},
                       {"scene tables", bytesOf(scene.tables)}};
-    const FilmLayout layout = filmLayout(scene.features, settings);
-    // Kernels of the other stages add to all of the film at once.
-    DeviceInfo ofFilm = device;
-    if (settings.map != MapOrder::photons || scene.offsets.meter.kind != METER_NONE)
-        ofFilm.maximumAllocation = UINT64_MAX;
-    sizes.merge(Film::plan(pixelsOf(scene), layout, ofFilm));
+    sizes.merge(Film::plan(pixelsOf(scene), filmLayout(scene.features, settings),
+                           largestFilmBuffer(scene.features, settings, device)));
     return sizes;
 }
 
@@ -75,7 +71,7 @@ BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, u
     const unsigned regions = PhotonStage::regionCount(photonsPerPass(settings, scene.camera));
     sizes["photon regions"] = regions * sizeof(shared::RegionCount);
     sizes.merge(PhotonArrays::plan(classes, photons, regions, compiledFeatures(scene, settings).depthLimit, device));
-    if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes, device));
+    if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes));
     if (const shared::Meter& meter = scene.offsets.meter; meter.kind != METER_NONE) {
         sizes["meter"] = splatWords(classes) * pixelsOf(scene) * sizeof(uint32_t);
         sizes["meter samples"] = MeterStage::sampleBytes(pixelsOf(scene) * meter.samples);

@@ -1,5 +1,7 @@
 #include "render/method.h"
 
+#include "render/film.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -83,6 +85,11 @@ bool estimatesBias(const Features& features, const RenderSettings& settings) {
 
 FilmLayout filmLayout(const Features& features, const RenderSettings& settings) {
     return {settings.film.bias && estimatesBias(features, settings), settings.film.components};
+}
+
+uint64_t largestFilmBuffer(const Features& features, const RenderSettings& settings, const DeviceInfo& device) {
+    const bool isInParts = settings.map == MapOrder::photons && !isMeter(features);
+    return isInParts ? device.maximumAllocation : Film::inOneBuffer;
 }
 
 bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings) {

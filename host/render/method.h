@@ -1,6 +1,7 @@
 // From the scene's features and the settings to what the kernels are compiled for: classes of photons and options.
 #pragma once
 
+#include "device/device.h"
 #include "prepare/device_scene.h"
 #include "render/settings.h"
 
@@ -19,6 +20,8 @@ unsigned compiledClasses(const Features& features, const RenderSettings& setting
 bool estimatesBias(const Features& features, const RenderSettings& settings);
 /// Of the image's film: what the settings ask it to keep, as far as there is such a thing.
 FilmLayout filmLayout(const Features& features, const RenderSettings& settings);
+/// Bytes that one of its buffers may have. Only camera paths of the photon map add to a part of the film at a time.
+uint64_t largestFilmBuffer(const Features& features, const RenderSettings& settings, const DeviceInfo& device);
 /// Whether the density radius may be chosen by pixel, so that borders must be known for the largest one: known before the
 /// scene is flattened.
 bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);

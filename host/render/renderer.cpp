@@ -48,7 +48,8 @@ struct Renderer::Stages {
           program(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                   kernelOptions(flat, settings)),
           geometry(device, flat), learned(std::move(known)), learning(learned ? nullptr : followPilots()),
-          film(device, flat.camera.width, flat.camera.height, filmLayout(flat.features, settings)),
+          film(device, flat.camera.width, flat.camera.height, filmLayout(flat.features, settings),
+               largestFilmBuffer(flat.features, settings, device.info())),
           report(describeScene(scene, flat, settings)) {
         const auto start = Clock::now();
         auto timingsBefore = device.timings();

@@ -1,6 +1,9 @@
 // Luminaire files for tests: the text of IES and EULUMDAT files from a few numbers.
 #pragma once
 
+#include "scene/goniograms/goniogram.h"
+#include "support/scene_files.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
@@ -56,5 +59,16 @@ struct LdtText {
         return out;
     }
 };
+
+/// Such a text, as the loader reads it from a file of this name.
+inline Goniogram luminaireOf(const std::string& text, const std::string& name = "lamp.ies",
+                             size_t lampSet = firstLampSet) {
+    const SceneFiles files;
+    return readGoniogram(files.write(name, text), {}, lampSet);
+}
+inline Goniogram luminaireOf(const IesText& ies) { return luminaireOf(ies.text()); }
+inline Goniogram luminaireOf(const LdtText& ldt, size_t lampSet = firstLampSet) {
+    return luminaireOf(ldt.text(), "lamp.ldt", lampSet);
+}
 
 } // namespace quasilux::test

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string>
 #include <unistd.h>
@@ -57,6 +58,15 @@ inline const char* const minimalLight = "<emitter type=\"point\"/>\n";
 /// A complete scene; `body` starts in column 1 of line 4.
 inline std::string sceneWith(const std::string& body) {
     return std::string("<scene version=\"3.0.0\">\n") + minimalSensor + minimalLight + body + "\n</scene>\n";
+}
+
+/// Each body makes a scene that is refused, with a message that has all these parts.
+template <typename Cases>
+void expectErrors(const SceneFiles& files, const Cases& cases) {
+    for (const auto& [body, messages] : cases) {
+        const std::string error = errorOf(files.write("scene.xml", sceneWith(body)));
+        for (const auto& message : messages) EXPECT_THAT(error, ::testing::HasSubstr(message));
+    }
 }
 
 /// A complete scene, loaded.

@@ -18,7 +18,7 @@ constexpr double metresPerMillimetre = 1e-3;
 enum EulumdatSymmetry : unsigned { asymmetric, aboutAxis, aboutC0, aboutC90, aboutBoth };
 
 /// One value a line, in a fixed order.
-class EulumdatLines {
+class EulumdatLines : public NumberReader {
 public:
     EulumdatLines(const std::string& path, const std::string& content) : path_(path), lines_(splitLines(content)) {}
 
@@ -31,16 +31,10 @@ public:
         return lines_[next_++];
     }
 
-    double number(const std::string& what) {
+    double number(const std::string& what) override {
         std::string line(text(what));
         std::replace(line.begin(), line.end(), ',', '.'); // decimal commas: no line has two numbers
         return parseNumber(line, where(), what);
-    }
-
-    double numberFrom(const std::string& what, double lowest) {
-        const double value = number(what);
-        if (value < lowest) fail(fmt::format("{}: {}; expected at least {}.", what, value, lowest));
-        return value;
     }
 
     unsigned integer(const std::string& what, unsigned lowest, unsigned highest) {
@@ -55,10 +49,7 @@ public:
         for (unsigned k = 0; k < count; ++k) {
             const double value = numberFrom(fmt::format("{}, number {} of {}", what, k + 1, count), 0);
             if (value > highest) fail(fmt::format("{}: {}; expected at most {} degrees.", what, value, highest));
-            if (k > 0 && !(value > values.back()))
-                fail(fmt::format("{}: {} follows {}; expected each to be larger than the one before.", what, value,
-                                 values.back()));
-            values.push_back(value);
+            addLarger(values, value, what);
         }
         return values;
     }
@@ -75,8 +66,7 @@ public:
     }
 
     /// Of the line that was read last.
-    SourceLocation where() const { return {path_, static_cast<int>(next_), 0}; }
-    [[noreturn]] void fail(const std::string& message) const { throw InputError(where(), message); }
+    SourceLocation where() const override { return {path_, static_cast<int>(next_), 0}; }
 
 private:
     std::string path_;

@@ -18,6 +18,19 @@ std::vector<std::string_view> splitLines(std::string_view text) {
     return lines;
 }
 
+double NumberReader::numberFrom(const std::string& what, double lowest) {
+    const double value = number(what);
+    if (value < lowest) fail(fmt::format("{}: {}; expected at least {}.", what, value, lowest));
+    return value;
+}
+
+void NumberReader::addLarger(std::vector<double>& values, double value, const std::string& what) const {
+    if (!values.empty() && !(value > values.back()))
+        fail(fmt::format("{}: {} follows {}; expected each to be larger than the one before.", what, value,
+                         values.back()));
+    values.push_back(value);
+}
+
 FileNumbers::FileNumbers(std::string path, const std::vector<std::string_view>& lines, size_t first)
     : path_(std::move(path)), lastLine_(static_cast<int>(lines.size())) {
     for (size_t k = first; k < lines.size(); ++k)
@@ -31,8 +44,6 @@ SourceLocation FileNumbers::where() const {
     return {path_, pieces_[next_ > 0 ? next_ - 1 : 0].line, 0};
 }
 
-void FileNumbers::fail(const std::string& message) const { throw InputError(where(), message); }
-
 const FileNumbers::Piece& FileNumbers::take(const std::string& what) {
     if (next_ == pieces_.size())
         throw InputError(
@@ -44,12 +55,6 @@ const FileNumbers::Piece& FileNumbers::take(const std::string& what) {
 double FileNumbers::number(const std::string& what) {
     const Piece& piece = take(what);
     return parseNumber(piece.text, where(), what);
-}
-
-double FileNumbers::numberFrom(const std::string& what, double lowest) {
-    const double value = number(what);
-    if (value < lowest) fail(fmt::format("{}: {}; expected at least {}.", what, value, lowest));
-    return value;
 }
 
 double FileNumbers::positive(const std::string& what) {
@@ -69,10 +74,7 @@ std::vector<double> FileNumbers::increasing(const std::string& what, unsigned co
         const double value = number(fmt::format("{}, number {} of {}", what, k + 1, count));
         if (!(value >= lowest && value <= highest))
             fail(fmt::format("{}: {}; expected degrees from {} to {}.", what, value, lowest, highest));
-        if (k > 0 && !(value > values.back()))
-            fail(fmt::format("{}: {} follows {}; expected each to be larger than the one before.", what, value,
-                             values.back()));
-        values.push_back(value);
+        addLarger(values, value, what);
     }
     return values;
 }

@@ -13,13 +13,28 @@ namespace quasilux {
 std::vector<std::string_view> splitLines(std::string_view text);
 
 /// Every query names what is read, for messages, and throws InputError at its line.
-class FileNumbers {
+class NumberReader {
+public:
+    virtual ~NumberReader() = default;
+    virtual double number(const std::string& what) = 0;
+    /// Of the number that was read last.
+    virtual SourceLocation where() const = 0;
+
+    double numberFrom(const std::string& what, double lowest);
+    [[noreturn]] void fail(const std::string& message) const { throw InputError(where(), message); }
+
+protected:
+    /// Adds one that is greater than the last of `values`.
+    void addLarger(std::vector<double>& values, double value, const std::string& what) const;
+};
+
+/// Numbers one after the other, however they are spread over lines.
+class FileNumbers : public NumberReader {
 public:
     /// Of lines[first …]; line numbers count from 1.
     FileNumbers(std::string path, const std::vector<std::string_view>& lines, size_t first);
 
-    double number(const std::string& what);
-    double numberFrom(const std::string& what, double lowest);
+    double number(const std::string& what) override;
     /// Greater than 0.
     double positive(const std::string& what);
     unsigned integer(const std::string& what, unsigned lowest, unsigned highest);
@@ -29,9 +44,7 @@ public:
     size_t left() const { return pieces_.size() - next_; }
     /// Throws InputError where there are more.
     void finish(const std::string& what) const;
-    /// Of the number that was read last.
-    SourceLocation where() const;
-    [[noreturn]] void fail(const std::string& message) const;
+    SourceLocation where() const override;
 
 private:
     struct Piece {
