@@ -97,37 +97,58 @@ inline float3 pilotDirectLight(const Surface* s, const Frame* frame, float3 wo, 
     return sum;
 }
 
-inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* state, const Surface* s,
-                             const Frame* frame, float3 wo, __global const Lobe* lobes, const LobeChoice* choice) {
+/* A sample of an emitter for a point, chosen as if nothing were known. */
+typedef struct {
+    EmitterSample light;
+    float probability;
+    uint emitter, element;
+} PilotLight;
+
+inline PilotLight samplePilotLight(const World* world, float3 position, Rng* rng) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
     const EmitterData data = emitterData(world->tables, scene);
-    float uSelect = rngNext(&state->rng), probability;
-    const uint index = unlearnedLight(world->tables, scene, s->position, &uSelect, &probability);
-    EmitterSample light = emitterSampleDirection(emitters + index, &data, s->position, uSelect, rngNext2(&state->rng));
-    if (!light.valid) return;
-    uint element = 0;
+    float uSelect = rngNext(rng);
+    PilotLight s;
+    s.element = 0;
+    s.emitter = unlearnedLight(world->tables, scene, position, &uSelect, &s.probability);
+    s.light = emitterSampleDirection(emitters + s.emitter, &data, position, uSelect, rngNext2(rng));
+    if (!s.light.valid) return s;
 #ifdef HAS_EMITTING_TRIANGLES
-    if (EMITS_BY_TRIANGLE(emitters[index].type))
-        element = trianglesSelect(emitters + index, data.triangles, uSelect) - emitters[index].firstTriangle;
+    if (EMITS_BY_TRIANGLE(emitters[s.emitter].type))
+        s.element = trianglesSelect(emitters + s.emitter, data.triangles, uSelect) - emitters[s.emitter].firstTriangle;
 #endif
-    light.radianceOverPdf /= probability;
-    light.pdfSolidAngle *= probability;
+    s.light.radianceOverPdf /= s.probability;
+    s.light.pdfSolidAngle *= s.probability;
+    return s;
+}
+
+/* Notes what the sample brings to `position` along the ray `shadow`, where photons might bring `wanted` and cannot bring `other`. */
+inline void foundBySample(const World* world, PilotPath* path, PilotState* state, const PilotLight* s, float3 position,
+                          float positionError, Ray shadow, float3 wanted, float3 other) {
+    if (!any(wanted + other > 0)) return;
+    shadow.tMax = shadowReach(&s->light, positionError);
+    const float3 visible =
+        visibility(shadow, state->medium, world->nodes, world->blocks, world->tables, &world->params->scene);
+    if (!any(visible > 0)) return;
+    const float3 end = isinf(s->light.distance) ? position : position + s->light.distance * s->light.direction;
+    const float found = meanOf(state->throughput * (wanted + other) * visible);
+    foundEmission(path, state, !state->gathers, found, meanOf(state->throughput * wanted * visible) / found,
+                  s->probability, s->emitter, s->element, end, s->light.direction, &state->rng);
+}
+
+inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* state, const Surface* s,
+                             const Frame* frame, float3 wo, __global const Lobe* lobes, const LobeChoice* choice) {
+    const PilotLight sample = samplePilotLight(world, s->position, &state->rng);
+    if (!sample.light.valid) return;
     const int gathersHere = !state->gathers && state->d == world->params->bdd;
     uint mask = 0; /* of lobes whose light photons might bring */
     for (uint k = 0; k < s->lobeCount; ++k)
         mask |= (state->gathers || (gathersHere && lobes[k].scattering == SCATTER_GENUINE_DIFFUSE)) << k;
     float3 other;
-    const float3 wanted = pilotDirectLight(s, frame, wo, lobes, choice, &light, mask, &other);
-    if (!any(wanted + other > 0)) return;
-    Ray shadow = leavingRay(s, light.direction);
-    shadow.tMax = shadowReach(&light, s->positionError);
-    const float3 visible = visibility(shadow, state->medium, world->nodes, world->blocks, world->tables, scene);
-    if (!any(visible > 0)) return;
-    const float3 end = isinf(light.distance) ? s->position : s->position + light.distance * light.direction;
-    const float found = meanOf(state->throughput * (wanted + other) * visible);
-    foundEmission(path, state, !state->gathers, found, meanOf(state->throughput * wanted * visible) / found,
-                  probability, index, element, end, light.direction, &state->rng);
+    const float3 wanted = pilotDirectLight(s, frame, wo, lobes, choice, &sample.light, mask, &other);
+    foundBySample(world, path, state, &sample, s->position, s->positionError, leavingRay(s, sample.light.direction),
+                  wanted, other);
 }
 
 /* Emission that the path runs into. */
@@ -238,6 +259,23 @@ inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* sta
 }
 
 #ifdef HAS_MEDIA
+/* As sampleEmitterFor, at a collision; the path goes on with this probability. */
+inline void sampleEmitterAtCollision(const World* world, PilotPath* path, PilotState* state,
+                                     __global const Medium* medium, float3 position, float survival) {
+    const PilotLight sample = samplePilotLight(world, position, &state->rng);
+    if (!sample.light.valid) return;
+    const float p = phaseValue(medium, dot(state->ray.direction, sample.light.direction));
+    const float share = sample.light.pdfSolidAngle > 0 ? shareOf(sample.light.pdfSolidAngle, survival * p) : 1.f;
+    float ofPhotons = 0; /* part of the phase function whose light photons might bring */
+    if (state->gathers)
+        ofPhotons = p;
+    else if (state->d == world->params->bdd)
+        ofPhotons = phasePart(medium, SCATTER_GENUINE_DIFFUSE, p);
+    const Ray shadow = {.origin = position, .tMin = 0, .direction = sample.light.direction};
+    foundBySample(world, path, state, &sample, position, 0, shadow, share * ofPhotons * sample.light.radianceOverPdf,
+                  share * (p - ofPhotons) * sample.light.radianceOverPdf);
+}
+
 /* A collision; 0 where the path ends. */
 inline int collidePilot(const World* world, PilotPath* path, PilotState* state, const FreeFlight* flight,
                         __global const Medium* medium) {
@@ -247,13 +285,20 @@ inline int collidePilot(const World* world, PilotPath* path, PilotState* state, 
     if (state->gathers || (medium->level > 0 && state->d == world->params->bdd))
         storeVertex(path, state, position, IMPORTANCE_FACE_MEDIUM);
     const float survival = min(PILOT_SURVIVAL_MAX, maxComponent(state->throughput) / before);
+#ifdef HAS_DIRECT_IN_MEDIA
+    sampleEmitterAtCollision(world, path, state, medium, position, survival);
+#endif
     if (rngNext(&state->rng) >= survival) return 0;
     state->throughput /= survival;
     const PhaseSample sample = phaseSample(medium, state->ray.direction, 0, &state->rng);
     if (!sample.valid) return 0;
     state->throughput *= sample.weight;
     noteScattering(state, sample.scattering, world->params->bdd);
+#ifdef HAS_DIRECT_IN_MEDIA
+    state->lobePdf = survival * sample.p;
+#else
     state->lobePdf = 0; /* no emitter is sampled at collisions */
+#endif
     state->hasScattered = 1;
     state->ray.origin = state->from = position;
     state->ray.direction = sample.direction;

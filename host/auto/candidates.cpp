@@ -96,12 +96,12 @@ std::vector<std::string> singleLobes(const Scene& scene) {
     return names;
 }
 
-// In the order in which they are tried, as short renders have no time for all: those that follow as much as possible, then those that follow
+// In the order in which they are tried, as short renders have no time for all: what follows everything, by the alternative variant plain
+// path tracing, which a short render in open light should never miss; those that follow as much as possible; then those that follow
 // little, which seldom win.
 std::vector<std::string> firstSplits(const Scene& scene, const RenderSettings& start) {
-    std::vector<std::string> splits{start.quasiSpecular, "auto"};
+    std::vector<std::string> splits{start.quasiSpecular, "all", "auto"};
     if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.3", "level:0.03"});
-    splits.push_back("all");
     return splits;
 }
 
