@@ -29,3 +29,14 @@ __kernel void chooseEvenly(uint shift, __global float* result, uint passes) {
     const uint i = get_global_id(0);
     if (i < passes) result[i] = evenChoice(shift, i);
 }
+
+/* All that one path of a pixel draws from sequences over the passes: its place, first choice, roulette, lens and emitter. */
+__kernel void drawSequences(__global float* result, uint passes) {
+    const uint i = get_global_id(0);
+    if (i >= passes) return;
+    const float4 pixel = latticePoint4(i, (float4)(0.1f, 0.7f, 0.3f, 0.5f));
+    const float2 lens = latticeLens(i, (float2)(0.9f, 0.2f));
+    vstore4(pixel, 0, result + 7 * i);
+    vstore2(lens, 0, result + 7 * i + 4);
+    result[7 * i + 6] = evenChoice(123456789u, i);
+}
