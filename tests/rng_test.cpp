@@ -155,7 +155,8 @@ double largestWave(const std::vector<float>& numbers, size_t a, size_t b) {
         for (int k = -mostWaves; k <= mostWaves; ++k) {
             std::complex<double> sum = 0;
             for (size_t i = 0; i < count; ++i)
-                sum += std::polar(1.0, 2 * std::numbers::pi * (h * numbers[sequences * i + a] + k * numbers[sequences * i + b]));
+                sum += std::polar(1.0, 2 * std::numbers::pi *
+                                           (h * numbers[sequences * i + a] + k * numbers[sequences * i + b]));
             largest = std::max(largest, std::abs(sum) / static_cast<double>(count));
         }
     return largest;
