@@ -1,5 +1,6 @@
 /* Stage 3 of a pass: trace camera paths, one or several per pixel, by the law and take light at its hits.
  * From: camera rays, photon map. To: film.
+ * With SHARES_SAMPLES: to samples, from which filterSamples makes pixels.
  * With MAP_CAMERA it is stage 1: where light would be taken from the photon map, camera points are stored for the photons
  * that come later. To: camera points, samples; at the end of the pass addSamples adds these and the splats to the film.
  *
@@ -9,6 +10,7 @@
 #include "camera.clh"
 #include "camera_medium.clh"
 #include "camera_surface.clh"
+#include "shared_samples.clh"
 #ifdef HAS_METER
 #include "meter.clh"
 #endif
@@ -90,17 +92,40 @@ inline uint pathCount(const CameraParams* params) {
     return params->camera.width * params->camera.height * pathsPerPixel(params);
 }
 
+typedef struct {
+    uint pixel;         /* of the image, or the nearest one */
+    FilterPlace inside; /* from its centre */
+} PathPlace;
+
+/* Where path `index` begins; `even` in [0,1)^2. */
+inline PathPlace pathPlace(const World* world, uint index, float2 even) {
+    const CameraParams* params = world->params;
+    PathPlace place;
+#ifdef SHARES_SAMPLES
+    const int columns = gridColumns(&params->camera);
+    const int2 at = (int2)(index % columns, index / columns) - gridBorder(&params->camera);
+    const int2 nearest = clamp(at, 0, (int2)(params->camera.width, params->camera.height) - 1);
+    place.pixel = nearest.y * params->camera.width + nearest.x;
+    place.inside.offset = gridPlace(params) - 0.5f + convert_float2(at - nearest);
+    place.inside.weight = 1;
+#else
+    place.pixel = index / pathsPerPixel(params);
+    place.inside = filterPlace(&params->camera, world->tables, place.pixel, even);
+#endif
+    return place;
+}
+
 /* Light that a path takes, by component, and its bias; paths of a pixel follow each other in `index`. `number`: of the path among all that
  * have the same index, over the passes. Returns the throughput, mean of R, G, B, with which it was cut, or -1 where it ended by itself. */
 inline float traceCameraPath(const World* world, uint index, uint number, float3* components) {
     const CameraParams* params = world->params;
-    const uint pixel = index / pathsPerPixel(params);
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, number, STREAM_CAMERA, index);
     CameraPath path;
     const float4 even = pixelNumbers(index, number, seed);
-    const FilterPlace place = filterPlace(&params->camera, world->tables, pixel, even.xy);
-    path.ray = cameraRay(&params->camera, pixel, place.offset, lensNumbers(index, number, seed));
+    const PathPlace place = pathPlace(world, index, even.xy);
+    const uint pixel = place.pixel;
+    path.ray = cameraRay(&params->camera, pixel, place.inside.offset, lensNumbers(index, number, seed));
     path.firstChoice = even.z;
     path.lightChoice = evenChoice(pixelChoiceShift(index, seed), number * params->directSamples);
     path.strata = strataOfPath(seed, number, index);
@@ -135,12 +160,12 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     leaveMeter(world, &path, &sequence, pixel, &rng, components);
 #endif
 #if defined(HAS_FILTER_TABLE) && defined(MAP_CAMERA)
-    world->store->filterWeight = place.weight;
+    world->store->filterWeight = place.inside.weight;
 #endif
     uint event = 0;
     while (event < PATH_EVENTS_MAX && followCameraPath(world, &path, &rng, components)) ++event;
 #ifdef HAS_FILTER_TABLE
-    for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] *= place.weight;
+    for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] *= place.inside.weight;
 #endif
     return event < PATH_EVENTS_MAX ? -1 : (path.throughput.x + path.throughput.y + path.throughput.z) / 3;
 }
@@ -152,27 +177,31 @@ inline void countCut(__global CameraCounters* counters, float cut) {
     atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
 }
 
-/* The mean of a pixel's paths in this pass. They look up the same photons, so photons, which cost more, are traced once for all. */
-inline void tracePixel(const World* world, uint pixel, __global CameraCounters* counters, float3* mean) {
+/* The mean of the paths of a pixel, or place of the grid, in this pass. They look up the same photons, so photons, which cost more, are traced once for all. */
+inline void tracePixel(const World* world, uint index, __global CameraCounters* counters, float3* mean) {
     const uint paths = world->params->cameraPaths;
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] = 0;
     for (uint path = 0; path < paths; ++path) {
         float3 components[FILM_SAMPLES];
-        countCut(counters, traceCameraPath(world, pixel, world->params->pass * paths + path, components));
+        countCut(counters, traceCameraPath(world, index, world->params->pass * paths + path, components));
         for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] += components[k];
     }
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] /= paths;
 }
 
-/* A sample that is not finite counts as none, but the batch of passes that it may end is closed all the same. */
-inline void addFiniteSample(__global float* film, uint layout, __global CameraCounters* counters, uint pixel,
-                            float3* components, float batchWeight) {
+/* A sample that is not finite counts as none. */
+inline void dropNonFinite(__global CameraCounters* counters, float3* components) {
     float3 total = 0;
     for (uint k = 0; k < FILM_COMPONENTS; ++k) total += components[k];
-    if (!all(isfinite(total))) {
-        atomic_inc(&counters->nonFinite);
-        for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
-    }
+    if (all(isfinite(total))) return;
+    atomic_inc(&counters->nonFinite);
+    for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
+}
+
+/* The batch of passes that a sample may end is closed whether it is finite or not. */
+inline void addFiniteSample(__global float* film, uint layout, __global CameraCounters* counters, uint pixel,
+                            float3* components, float batchWeight) {
+    dropNonFinite(counters, components);
     addSample(film, layout, pixel, components, batchWeight);
 }
 
@@ -224,13 +253,13 @@ __kernel void addMeterSamples(__global const float* samples, __global uint* sums
 #elif !defined(MAP_CAMERA)
 __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                                __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
-                               __global float* film, __global CameraCounters* counters, const CameraParams params
+                               __global float* result, __global CameraCounters* counters, const CameraParams params
 #ifdef ADAPTIVE_RADIUS
                                ,
                                __global const float* radiusScales
 #endif
 ) {
-    const uint place = get_global_id(0); /* in this part of the film */
+    const uint place = get_global_id(0); /* in this part of the film, or of the grid of samples */
     if (place >= params.pixels) return;
     const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map},
 #ifdef ADAPTIVE_RADIUS
@@ -238,8 +267,16 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
 #endif
                          &params};
     float3 components[FILM_SAMPLES];
-    tracePixel(&world, params.firstPixel + place, counters, components);
-    addFiniteSample(film, params.filmLayout, counters, place, components, params.batchWeight);
+    const uint index = params.firstPixel + place;
+    tracePixel(&world, index, counters, components);
+#ifdef SHARES_SAMPLES
+    dropNonFinite(counters, components);
+    const int columns = gridColumns(&params.camera);
+    __global float* sample = result + gridSlot(&params, index % columns, index / columns);
+    for (uint k = 0; k < FILM_SAMPLES; ++k) vstore3(components[k], k, sample);
+#else
+    addFiniteSample(result, params.filmLayout, counters, place, components, params.batchWeight);
+#endif
 }
 #else
 /* Light that needs no photons is of these components only. */

@@ -130,8 +130,10 @@ typedef struct {
     unsigned int directSamples; /* of emitters, where a path takes direct light first */
     unsigned int radiusBlock;   /* pixels of a row and column that share a density radius */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
-    unsigned int filmLayout;         /* film_sums.h */
-    unsigned int firstPixel, pixels; /* of the part of the film that the launch adds to */
+    unsigned int filmLayout; /* film_sums.h */
+    unsigned int firstPixel,
+        pixels; /* of the part of the film, or grid of samples (shared_samples.clh), that the launch traces */
+    unsigned int sampleRows; /* of that grid, which are kept at a time */
     Camera camera;
     MapParams map;
     SceneTables scene;

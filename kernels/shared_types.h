@@ -321,9 +321,7 @@ typedef struct {
 /* ---- sensor ---------------------------------------------------------------------------------------------------- */
 
 #define FILTER_BOX 0u
-#define FILTER_TENT 1u
-#define FILTER_GAUSSIAN 2u
-#define FILTER_TABLE 3u /* any other, and those that end at the edge of the image: FilterStep records */
+#define FILTER_TABLE 1u /* any other: FilterStep records */
 #define FILTER_CELLS 64 /* of the table, in a pixel */
 
 /* Sums of a filter f along one axis up to the lower end of a cell, in units of the integral of |f| (kernels/filter_table.clh). */
@@ -343,8 +341,7 @@ typedef struct {
     float focusDistance;  /* of a thin lens: depth of the plane that is sharp */
     unsigned int width, height;
     unsigned int filter;      /* FILTER_* */
-    float filterRadius;       /* pixels */
-    float filterStddev;       /* pixels, Gaussian only */
+    float filterRadius;       /* pixels, box only */
     unsigned int filterSteps; /* FILTER_TABLE: word offset of its FilterStep records into the scene tables */
     unsigned int filterReach; /* and cells on either side of the pixel's centre */
     unsigned int filterEnds;  /* and 1: it ends at the edge of the image */

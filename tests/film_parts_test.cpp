@@ -48,6 +48,7 @@ struct Rendered {
     FilmImage image;
     size_t buffers = 0; ///< of the film
     Memory state;
+    uint64_t sampleBytes = 0; ///< of the buffer of samples that pixels share
 };
 
 RenderCounters countersAfter(unsigned rendered) {
@@ -56,18 +57,30 @@ RenderCounters countersAfter(unsigned rendered) {
     return counters;
 }
 
-Rendered render(Device& device, FilmLayout film, uint64_t seed = 1, const Memory* from = nullptr) {
+/// With a filter in which pixels share samples.
+Scene smoothScene() {
+    Scene scene = projectScene("cornell_phong.xml");
+    scene.sensor.filter = FILTER_TABLE;
+    scene.sensor.filterRadius = 1.7;
+    scene.sensor.filterShape = [](double x) { return 1.7 - x; };
+    return scene;
+}
+
+Rendered render(Device& device, FilmLayout film, uint64_t seed = 1, const Memory* from = nullptr,
+                const Scene& scene = projectScene("cornell_phong.xml")) {
     RenderSettings settings = settingsOf(film);
     settings.seed = seed;
-    Renderer renderer(device, projectScene("cornell_phong.xml"), settings);
+    Renderer renderer(device, scene, settings);
     if (from)
         renderer.restoreState(*from, countersAfter(passes), passes);
     else
         for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
-    Rendered rendered{renderer.develop(), 0, {}};
+    Rendered rendered{renderer.develop(), 0, {}, 0};
     renderer.saveState(rendered.state);
-    for (const auto& [label, bytes] : renderer.report().bufferBytes)
+    for (const auto& [label, bytes] : renderer.report().bufferBytes) {
         rendered.buffers += label.compare(0, 4, "film") == 0;
+        if (label == "samples") rendered.sampleBytes = bytes;
+    }
     return rendered;
 }
 
@@ -85,6 +98,16 @@ TEST(FilmParts, HaveTheSameBits) {
     EXPECT_EQ(parts.image.bias, usual().image.bias);
     EXPECT_EQ(parts.image.components, usual().image.components);
     EXPECT_NE(render(smallDevice(), {}, 2).image.radiance, usual().image.radiance) << "negative control: another seed";
+}
+
+// They are traced in bands of rows where the device allows little in a buffer.
+TEST(FilmParts, OfSharedSamplesHaveTheSameBits) {
+    const Rendered whole = render(testDevice(), {}, 1, nullptr, smoothScene()),
+                   parts = render(smallDevice(), {}, 1, nullptr, smoothScene());
+    EXPECT_GT(whole.sampleBytes, 2 * parts.sampleBytes);
+    EXPECT_EQ(parts.image.radiance, whole.image.radiance);
+    EXPECT_EQ(parts.image.standardError, whole.image.standardError);
+    EXPECT_NE(whole.image.radiance, usual().image.radiance) << "negative control: another filter";
 }
 
 TEST(FilmParts, AreSavedAsOne) {

@@ -1,5 +1,5 @@
-// Reconstruction filters that are sampled by a table: places follow the filter's magnitude, weighted means are those of the
-// filter itself, also where it ends at the edge of the image; an image seen through each is what the filter makes of it.
+// Reconstruction filters as tables: places follow the filter's magnitude, weighted means are those of the filter itself, also where it
+// ends at the edge of the image; an image seen through each is what the filter makes of it, whether pixels share samples or not.
 //
 // False alarms: all chi-squared and z tests together raise one with probability 1e-4 (support/chi_squared.h).
 #include "prepare/device_scene.h"
@@ -186,9 +186,9 @@ FilmImage imageOf(const Scene& scene, MapOrder map) {
 // Of 128 pixels: the level of the worst one. Batches make the error of a pixel's mean less sure than that of a normal
 // deviate; a wrong filter is off by hundreds of standard errors.
 TEST(FilterTable, AnImageIsWhatTheFilterMakesOfIt) {
-    const double level = significanceLevel(tests * 128 * 4);
+    const double level = significanceLevel(tests * 128 * 6);
     for (const MapOrder map : {MapOrder::photons, MapOrder::camera})
-        for (const Case& c : {Case{lanczos, "", 0}, Case{mitchell, ends, 0}}) {
+        for (const Case& c : {Case{lanczos, "", 0}, Case{mitchell, ends, 0}, Case{gaussian, "", 0}}) {
             const Scene scene = sceneSeenBy(c.filter, c.film);
             EXPECT_GT(worstPValue(scene.sensor, imageOf(scene, map)), level) << c.filter << c.film;
         }

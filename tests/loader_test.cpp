@@ -124,8 +124,8 @@ TEST(PerspectiveSensor, DefaultsAreThoseOfMitsuba) {
     EXPECT_EQ(sensor.fovX, loadSensor(R"(<string name="focal_length" value="50mm"/>)").fovX);
     EXPECT_EQ(sensor.width, 768u);
     EXPECT_EQ(sensor.height, 576u);
-    EXPECT_EQ(sensor.filter, FILTER_GAUSSIAN);
-    EXPECT_EQ(sensor.filterStddev, 0.5);
+    EXPECT_EQ(sensor.filter, FILTER_TABLE);
+    EXPECT_NEAR(sensor.filterShape(0.5), std::exp(-0.5), 1e-12); // Gaussian, standard deviation 0.5
     EXPECT_EQ(sensor.filterRadius, 2.0);
     EXPECT_EQ(sensor.nearClip, 1e-2);
     EXPECT_EQ(sensor.farClip, 1e4);
@@ -138,7 +138,7 @@ TEST(Film, Filters) {
     EXPECT_EQ(withFilter(R"(<rfilter type="box"/>)").filterRadius, 0.5);
     EXPECT_EQ(withFilter(R"(<rfilter type="tent"><float name="radius" value="1.5"/></rfilter>)").filterRadius, 1.5);
     const Sensor gaussian = withFilter(R"(<rfilter type="gaussian"><float name="stddev" value="0.7"/></rfilter>)");
-    EXPECT_EQ(gaussian.filterStddev, 0.7);
+    EXPECT_NEAR(gaussian.filterShape(0.7), std::exp(-0.5), 1e-12);
     EXPECT_NEAR(gaussian.filterRadius, 2.8, 1e-12);
 }
 
@@ -230,7 +230,7 @@ TEST(Sensors, OfABatchHaveEqualPartsOfItsFilm) {
         EXPECT_EQ(scene.sensor.width, 32u);
         EXPECT_EQ(scene.sensor.filmWidth, 32u);
         EXPECT_EQ(scene.sensor.height, 48u);
-        EXPECT_EQ(scene.sensor.filter, unsigned(FILTER_TENT));
+        EXPECT_EQ(scene.sensor.filter, unsigned(FILTER_TABLE));
         EXPECT_EQ(scene.sensor.orthographic, *wanted == 'r' || *wanted == '1');
     }
     EXPECT_EQ(loadScene(path, {}, {"2"}).sensor.width, 768u);

@@ -22,7 +22,7 @@ double meanOverCell(const Sensor& sensor, double lower) {
 
 bool needsFilterTable(const Sensor& sensor) {
     if (sensor.meter != MeterKind::none) return false; // its place in the pixel does not matter
-    return sensor.filter == FILTER_TABLE || (sensor.filterEnds && sensor.filterRadius > 0.5);
+    return sensor.filter == FILTER_TABLE;
 }
 
 unsigned filterReach(const Sensor& sensor) {

@@ -1,4 +1,4 @@
-// Reconstruction filters that the kernels sample by a table (kernels/filter_table.clh).
+// Reconstruction filters wider than a pixel, as a table (kernels/filter_table.clh).
 #pragma once
 
 #include "scene/scene.h"
@@ -7,7 +7,7 @@
 
 namespace quasilux {
 
-/// Whether the sensor's filter is not one of those that are sampled by formula, or ends at the edge of the image.
+/// Any but the box of a pixel, of cameras.
 bool needsFilterTable(const Sensor& sensor);
 
 /// Cells on either side of the pixel's centre.

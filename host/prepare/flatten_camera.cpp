@@ -66,9 +66,8 @@ shared::Camera flattenCamera(const Sensor& sensor, unsigned medium) {
     camera.farClip = static_cast<float>(sensor.farClip);
     camera.width = sensor.width;
     camera.height = sensor.height;
-    camera.filter = needsFilterTable(sensor) ? FILTER_TABLE : sensor.filter;
+    camera.filter = needsFilterTable(sensor) ? FILTER_TABLE : FILTER_BOX;
     camera.filterRadius = static_cast<float>(sensor.filterRadius);
-    camera.filterStddev = static_cast<float>(sensor.filterStddev);
     camera.filterReach = filterReach(sensor);
     camera.filterEnds = sensor.filterEnds ? 1 : 0;
     return camera;

@@ -1,27 +1,44 @@
 #include "render/camera_stage.h"
 
+#include <algorithm>
+
 namespace quasilux {
 
 CameraStage::CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params,
-                         AdaptiveRadius* radii)
-    : geometry_(geometry), film_(film), radii_(radii), traceCameraPaths_(pass.kernel(cameraKernel)), params_(params) {}
+                         AdaptiveRadius* radii, SharedSamples* shared)
+    : geometry_(geometry), film_(film), radii_(radii), shared_(shared), traceCameraPaths_(pass.kernel(cameraKernel)),
+      params_(params) {}
 
 void CameraStage::compile(const PhotonStage& photons) {
-    Film::Part& part = film_.parts().front();
-    launch(film_, part, 0, params_, radii_ ? &radii_->scales(0) : nullptr, photons);
+    const Buffer<float>* scales = radii_ ? &radii_->scales(0) : nullptr;
+    if (shared_)
+        shared_->compile(film_, params_, geometry_, tracer(film_, scales, photons));
+    else
+        tracePart(film_, film_.parts().front(), 0, scales, photons);
     traceCameraPaths_.forgetPace();
     if (radii_) radii_->compile();
 }
 
 // Traces the paths of the first `pixels` of a part of the film; of none, so that the runtime compiles the kernel.
-void CameraStage::launch(Film& film, Film::Part& part, size_t pixels, shared::CameraParams params,
-                         const Buffer<float>* radiusScales, const PhotonStage& photons) {
-    params.filmLayout = film.layout().bits();
+void CameraStage::tracePart(Film& film, Film::Part& part, size_t pixels, const Buffer<float>* radiusScales,
+                            const PhotonStage& photons) {
+    shared::CameraParams params = params_;
     params.firstPixel = static_cast<unsigned>(part.firstPixel);
     params.pixels = static_cast<unsigned>(pixels);
+    launch(part.pixels, part.sums, film, params, radiusScales, photons);
+}
+
+SharedSamples::Trace CameraStage::tracer(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons) {
+    return [this, &film, radiusScales, &photons](Buffer<float>& samples, const shared::CameraParams& params) {
+        launch(std::max(params.pixels, 1u), samples, film, params, radiusScales, photons);
+    };
+}
+
+void CameraStage::launch(size_t workItems, Buffer<float>& result, Film& film, const shared::CameraParams& params,
+                         const Buffer<float>* radiusScales, const PhotonStage& photons) {
     const auto run = [&](const auto&... more) {
-        traceCameraPaths_.launch(part.pixels, geometry_.nodes, geometry_.blocks, geometry_.tables,
-                                 photons.table().cellStart(), photons.sorted(), part.sums, film.counterBuffer(), params,
+        traceCameraPaths_.launch(workItems, geometry_.nodes, geometry_.blocks, geometry_.tables,
+                                 photons.table().cellStart(), photons.sorted(), result, film.counterBuffer(), params,
                                  more...);
     };
     if (radiusScales)
@@ -34,7 +51,11 @@ void CameraStage::runOn(Film& film, const Buffer<float>* radiusScales, const Pho
     const Film::Pass onFilm = film.beginPass(params_.pass);
     params_.batchWeight = onFilm.batchWeight;
     params_.map.biasWeight = onFilm.biasWeight;
-    for (Film::Part& part : film.parts()) launch(film, part, part.pixels, params_, radiusScales, photons);
+    params_.filmLayout = film.layout().bits();
+    if (shared_)
+        shared_->addPass(film, params_, geometry_, tracer(film, radiusScales, photons));
+    else
+        for (Film::Part& part : film.parts()) tracePart(film, part, part.pixels, radiusScales, photons);
 }
 
 const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage& photons) {

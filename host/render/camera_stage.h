@@ -3,6 +3,7 @@
 
 #include "render/adaptive_radius.h"
 #include "render/photon_stage.h"
+#include "render/shared_samples.h"
 
 namespace quasilux {
 
@@ -11,9 +12,10 @@ inline constexpr const char* cameraKernel = "traceCameraPaths";
 
 class CameraStage {
 public:
-    /// `radii`: of the pixels, or null where they are one radius (then the options do not say ADAPTIVE_RADIUS).
+    /// `radii`: of the pixels, or null where they are one radius (then the options do not say ADAPTIVE_RADIUS). `shared`: what pixels share,
+    /// or null where each has samples of its own.
     CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params,
-                AdaptiveRadius* radii);
+                AdaptiveRadius* radii, SharedSamples* shared);
 
     /// Has the runtime compile the kernels, by a launch of as many work-items as a pass has, which do nothing.
     void compile(const PhotonStage& photons);
@@ -30,13 +32,17 @@ public:
     size_t chooseRadius(unsigned pass, const PhotonStage& photons);
 
 private:
-    void launch(Film& film, Film::Part& part, size_t pixels, shared::CameraParams params,
+    void tracePart(Film& film, Film::Part& part, size_t pixels, const Buffer<float>* radiusScales,
+                   const PhotonStage& photons);
+    SharedSamples::Trace tracer(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
+    void launch(size_t workItems, Buffer<float>& result, Film& film, const shared::CameraParams& params,
                 const Buffer<float>* radiusScales, const PhotonStage& photons);
     void runOn(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
 
     const GeometryBuffers& geometry_;
     Film& film_;
     AdaptiveRadius* radii_;
+    SharedSamples* shared_;
     Kernel traceCameraPaths_;
     shared::CameraParams params_;
 };

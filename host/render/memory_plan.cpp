@@ -6,6 +6,7 @@
 #include "render/meter_sums.h"
 #include "render/method.h"
 #include "render/photon_stage.h"
+#include "render/shared_samples.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -71,6 +72,8 @@ BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, u
     const unsigned regions = PhotonStage::regionCount(photonsPerPass(settings, scene.camera));
     sizes["photon regions"] = regions * sizeof(shared::RegionCount);
     sizes.merge(PhotonArrays::plan(classes, photons, regions, compiledFeatures(scene, settings).depthLimit, device));
+    if (const unsigned floats = SharedSamples::floatsPerSample(scene, settings))
+        sizes.merge(SharedSamples::plan(scene.camera, floats, device));
     if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes));
     if (const shared::Meter& meter = scene.offsets.meter; meter.kind != METER_NONE) {
         sizes["meter"] = splatWords(classes) * pixelsOf(scene) * sizeof(uint32_t);

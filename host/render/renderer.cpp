@@ -179,7 +179,9 @@ struct Renderer::Stages {
 
     void prepareCamera(const shared::CameraParams& path, unsigned classes) {
         if (adaptsRadius(flat.features, settings)) adaptive.emplace(device, program, flat.camera, classes);
-        camera.emplace(program, geometry, film, path, adaptive ? &*adaptive : nullptr);
+        if (const unsigned floats = SharedSamples::floatsPerSample(flat, settings))
+            samples.emplace(device, program, flat.camera, floats);
+        camera.emplace(program, geometry, film, path, adaptive ? &*adaptive : nullptr, samples ? &*samples : nullptr);
     }
 
     void prepareCameraMap(const shared::CameraParams& path, const shared::PhotonParams& photon, unsigned classes) {
@@ -355,6 +357,7 @@ struct Renderer::Stages {
     std::optional<PhotonStage> photons;     // this and one of the next two, or
     bool mapIsEmpty = false;                // and stays so
     std::optional<AdaptiveRadius> adaptive; // where the camera stage has it
+    std::optional<SharedSamples> samples;   ///< of a filter wider than a pixel
     std::optional<CameraStage> camera;
     std::optional<MeterStage> meter;
     std::optional<CameraMapStage> cameraMap; // this

@@ -273,10 +273,10 @@ struct Sensor {
     unsigned width = 768, height = 576;         ///< pixels of the image: the film's, or those of its crop window
     unsigned filmWidth = 768, filmHeight = 576; ///< of the whole film, which the view is laid over
     unsigned cropX = 0, cropY = 0;              ///< of the film's pixels, where the image begins
-    unsigned filter = FILTER_GAUSSIAN;
-    double filterRadius = 2.0, filterStddev = 0.5; ///< pixels
-    std::function<double(double)> filterShape;     ///< along one axis, not normalised; FILTER_TABLE needs it
-    bool filterEnds = false;                       ///< at the edge of the image: sample_border is false
+    unsigned filter = FILTER_BOX;
+    double filterRadius = 0.5;                 ///< pixels
+    std::function<double(double)> filterShape; ///< along one axis, not normalised; FILTER_TABLE needs it
+    bool filterEnds = false;                   ///< at the edge of the image: sample_border is false
     PixelFormat pixelFormat;
     std::optional<unsigned> medium; ///< as stated, index into Scene::media
 };

@@ -40,12 +40,6 @@ __kernel void latticePoints(__global float2* points, const uint count, const uin
                           : latticePoint2(&lattice, mode == 1 ? i : 12345, first);
 }
 
-__kernel void filterOffsets(__global const float2* numbers, __global float2* offsets, const Camera camera,
-                            const uint count) {
-    const uint i = get_global_id(0);
-    if (i < count) offsets[i] = filterOffset(&camera, numbers[i]);
-}
-
 #ifdef HAS_FILTER_TABLE
 /* Offset and weight in pixel `pixel`. */
 __kernel void filterPlaces(__global const float2* numbers, __global float4* places, __global const uint* tables,

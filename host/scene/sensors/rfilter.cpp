@@ -16,14 +16,13 @@ void readBox(Properties&, Sensor& sensor) {
 }
 
 void readTent(Properties& properties, Sensor& sensor) {
-    sensor.filter = FILTER_TENT;
+    sensor.filter = FILTER_TABLE;
     const double radius = sensor.filterRadius = properties.numberAbove("radius", 1, 0, true);
     sensor.filterShape = [radius](double x) { return 1 - x / radius; };
 }
 
 void useGaussian(Sensor& sensor, double stddev) {
-    sensor.filter = FILTER_GAUSSIAN;
-    sensor.filterStddev = stddev;
+    sensor.filter = FILTER_TABLE;
     sensor.filterRadius = 4 * stddev;
     sensor.filterShape = [stddev](double x) { return std::exp(-x * x / (2 * stddev * stddev)); };
 }

@@ -49,6 +49,7 @@ Sensor readSensor(const PlacedSensor& placed, LoadContext& context) {
     sensor.where = element.where;
     sensor.plugin = plugin.name;
     sensor.meterShape = placed.shape.value_or(0);
+    readFilter(nullptr, context, sensor); // for a sensor without film
     const Element* film = properties.object("film");
     if (placed.film) // instead of its own, as in Mitsuba
         takeShareOfFilm(*placed.film, context, sensor);
