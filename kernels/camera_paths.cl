@@ -126,9 +126,7 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     const uint pixel = place.pixel;
     path.ray = cameraRay(&params->camera, pixel, place.inside.offset, lensNumbers(index, number, seed));
     path.net = netOfPath(seed, number, params->cameraPaths, index);
-    const float2 even = pixelChoices(index, path.net.number, seed);
-    path.lightChoice = netChoice(&path.net, NET_EMITTER, even.x);
-    path.firstChoice = netChoice(&path.net, NET_LOBE, even.y);
+    path.firstChoice = netChoice(&path.net, NET_LOBE);
 #ifdef ADAPTIVE_RADIUS
     path.radiusBlock = radiusBlock(params, pixel);
 #endif

@@ -29,7 +29,7 @@ __kernel void chooseEvenly(uint shift, __global float* result, uint passes) {
     const uint i = get_global_id(0);
     if (i >= passes) return;
     const Net net = netOfPath(shift, i, 1, 0);
-    result[i] = netChoice(&net, NET_EMITTER, latticeChoices(net.number, (uint2)(shift)).x);
+    result[i] = netChoice(&net, NET_EMITTER);
 }
 
 /* Both pairs and choices of the nets of a pixel with `paths` paths a pass: six numbers a point. */
@@ -39,7 +39,7 @@ __kernel void drawNets(ulong seed, uint paths, uint place, __global float* resul
     const Net net = netOfPath(seed, i, paths, place);
     for (uint use = 0; use < 2; ++use) {
         vstore2(netPair(&net, use), 0, result + 6 * i + 3 * use);
-        result[6 * i + 3 * use + 2] = netChoice(&net, use, 0.5f);
+        result[6 * i + 3 * use + 2] = netChoice(&net, use);
     }
 }
 
