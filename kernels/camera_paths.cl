@@ -126,7 +126,9 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     const uint pixel = place.pixel;
     path.ray = cameraRay(&params->camera, pixel, place.inside.offset, lensNumbers(index, number, seed));
     path.net = netOfPath(seed, number, params->cameraPaths, index);
-    path.firstChoice = netChoice(&path.net, NET_LOBE);
+    const float3 ofLobe = netNumbers(&path.net, NET_LOBE);
+    path.firstChoice = ofLobe.x;
+    path.firstPair = ofLobe.yz;
 #ifdef ADAPTIVE_RADIUS
     path.radiusBlock = radiusBlock(params, pixel);
 #endif

@@ -136,12 +136,13 @@ double largestExcess(const std::vector<float>& numbers, unsigned passes) {
     return largest;
 }
 
-// An emitter that is chosen with probability 0.05 has its share of the passes, not a binomial number of them. Nothing is left to chance.
+// An emitter that is chosen with probability 0.05 has its share of the passes, not a binomial number of them: whole nets by the golden ratio
+// to less than 3, and the passes may begin and end within one. Nothing is left to chance.
 TEST(Rng, ChoicesOfEmittersAreEvenOverThePasses) {
     Buffer<float> result(testDevice(), 1000, "numbers");
     for (const unsigned shift : {0u, 123456789u, 4000000000u}) {
         program().kernel("chooseEvenly").launch(1000, cl_uint(shift), result, cl_uint(1000));
-        for (const unsigned passes : {10u, 100u, 600u}) EXPECT_LT(largestExcess(result.read(), passes), 3);
+        for (const unsigned passes : {10u, 100u, 600u}) EXPECT_LT(largestExcess(result.read(), passes), 4);
     }
     EXPECT_GT(largestExcess(draw(7, 0, 0, 0, 1, 1000), 600), 10)
         << "negative control: numbers that know nothing of each other";

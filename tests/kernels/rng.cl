@@ -29,7 +29,7 @@ __kernel void chooseEvenly(uint shift, __global float* result, uint passes) {
     const uint i = get_global_id(0);
     if (i >= passes) return;
     const Net net = netOfPath(shift, i, 1, 0);
-    result[i] = netChoice(&net, NET_EMITTER);
+    result[i] = netNumbers(&net, NET_EMITTER).x;
 }
 
 /* Both pairs and choices of the nets of a pixel with `paths` paths a pass: six numbers a point. */
@@ -37,10 +37,7 @@ __kernel void drawNets(ulong seed, uint paths, uint place, __global float* resul
     const uint i = get_global_id(0);
     if (i >= points) return;
     const Net net = netOfPath(seed, i, paths, place);
-    for (uint use = 0; use < 2; ++use) {
-        vstore2(netPair(&net, use), 0, result + 6 * i + 3 * use);
-        result[6 * i + 3 * use + 2] = netChoice(&net, use);
-    }
+    for (uint use = 0; use < 2; ++use) vstore3(netNumbers(&net, use).yzx, 0, result + 6 * i + 3 * use);
 }
 
 /* All that one path of a pixel draws from sequences over the passes: its place, lens, choices and roulette. */
