@@ -32,6 +32,7 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"projector", readProjector},
     {"quasilux_ies", readLuminaire},
     {"quasilux_cie_sky", readCieSky},
+    {"sunsky", readSunSky},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {

@@ -39,5 +39,6 @@ void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
 void readProjector(Properties& properties);
 void readSpot(Properties& properties);
+void readSunSky(Properties& properties);
 
 } // namespace quasilux

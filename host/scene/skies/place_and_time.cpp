@@ -1,0 +1,67 @@
+#include "scene/skies/place_and_time.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace quasilux {
+
+namespace {
+
+constexpr std::array<const char*, 9> names = {"latitude", "longitude", "timezone", "year",  "month",
+                                              "day",      "hour",      "minute",   "second"};
+
+double numberWithin(Properties& properties, const std::string& name, double missing, double lowest, double highest) {
+    const double value = properties.number(name, missing);
+    if (!(value >= lowest && value <= highest))
+        throw InputError(properties.where(name),
+                         fmt::format("parameter '{}' is {}; expected {} to {}.", name, value, lowest, highest));
+    return value;
+}
+
+int integerWithin(Properties& properties, const std::string& name, int64_t missing, int64_t lowest, int64_t highest) {
+    const int64_t value = properties.integer(name, missing);
+    if (value < lowest || value > highest)
+        throw InputError(properties.where(name),
+                         fmt::format("parameter '{}' is {}; expected {} to {}.", name, value, lowest, highest));
+    return static_cast<int>(value);
+}
+
+int daysOf(int month, int year) {
+    constexpr std::array<int, 12> days = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    const bool isLeap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+    return days.at(static_cast<size_t>(month) - 1) + (month == 2 && isLeap ? 1 : 0);
+}
+
+} // namespace
+
+std::string givenPlaceOrTime(Properties& properties) {
+    for (const char* name : names)
+        if (properties.has(name)) return name;
+    return {};
+}
+
+SunPosition readSunPosition(Properties& properties) {
+    Place place;
+    place.latitude = numberWithin(properties, "latitude", 35.6894, -90, 90);
+    place.longitude = numberWithin(properties, "longitude", 139.6917, -180, 180);
+    LocalTime time;
+    time.zone = numberWithin(properties, "timezone", 9, -14, 14);
+    time.year = integerWithin(properties, "year", 2010, 1950, 2100);
+    time.month = integerWithin(properties, "month", 7, 1, 12);
+    time.day = integerWithin(properties, "day", 10, 1, daysOf(time.month, time.year));
+    time.hour = numberWithin(properties, "hour", 15, 0, 24) + numberWithin(properties, "minute", 0, 0, 60) / 60 +
+                numberWithin(properties, "second", 0, 0, 60) / 3600;
+    return sunPosition(place, time);
+}
+
+void checkSunIsUp(Properties& properties, double elevation) {
+    if (elevation >= 0) return;
+    const std::string name = properties.has("sun_direction") ? "sun_direction" : givenPlaceOrTime(properties);
+    throw InputError(name.empty() ? properties.element().where : properties.where(name),
+                     fmt::format("{}: the sun is {:.4g} degrees below the horizon, where the sky has no model. Choose "
+                                 "another time or direction, or remove the emitter.",
+                                 properties.describe(), -elevation * 180 / std::numbers::pi));
+}
+
+} // namespace quasilux
