@@ -32,6 +32,7 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"projector", readProjector},
     {"quasilux_ies", readLuminaire},
     {"quasilux_cie_sky", readCieSky},
+    {"quasilux_perez_sky", readPerezSky},
     {"sunsky", readSunSky},
 };
 

@@ -35,6 +35,7 @@ void readConstant(Properties& properties);
 void readEnvmap(Properties& properties);
 void readLuminaire(Properties& properties);
 void readCieSky(Properties& properties);
+void readPerezSky(Properties& properties);
 void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
 void readProjector(Properties& properties);

@@ -1,16 +1,14 @@
 // <emitter type="quasilux_cie_sky">: one of the CIE's standard skies as surroundings, with or without the sun's own light.
 #include "scene/emitters/cie_sky.h"
 #include "scene/emitters/emitters.h"
-#include "scene/skies/sky_image.h"
+#include "scene/skies/daylight.h"
+#include "scene/skies/place_and_time.h"
 
 #include <fmt/format.h>
-#include <numbers>
 
 namespace quasilux {
 
 namespace {
-
-constexpr unsigned skyHeight = 721; // rows: a quarter of a degree each
 
 int readSkyType(Properties& properties) {
     const int64_t type = properties.integer("sky_type", cieSkyTypes);
@@ -21,16 +19,6 @@ int readSkyType(Properties& properties) {
                         "overcast sky.",
                         type));
     return static_cast<int>(type);
-}
-
-/// Towards it, up is +z.
-glm::dvec3 readSun(Properties& properties) {
-    const glm::dvec3 sun = properties.direction("sun_direction", {0, 0, 1});
-    if (sun.z < 0)
-        throw InputError(
-            properties.where("sun_direction"),
-            "the sun is below the horizon (z < 0); CIE S 011 has no such sky. Point sun_direction upwards.");
-    return sun;
 }
 
 /// cd/m² at the zenith.
@@ -45,39 +33,20 @@ double readZenith(Properties& properties, int type, const glm::dvec3& sun) {
     return properties.numberAbove("illuminance", 10000, 0, true) / cieSkyIlluminance(type, sun);
 }
 
-void addSun(Properties& properties, const glm::dvec3& towards, Rgb irradiance) {
-    DirectionalEmitter emitter;
-    emitter.id = idOf(properties.element()) + ".sun";
-    emitter.where = properties.element().where;
-    emitter.direction = glm::vec3(-towards);
-    emitter.irradiance = irradiance;
-    properties.context().scene.directionalEmitters.push_back(emitter);
-}
-
 } // namespace
 
 void readCieSky(Properties& properties) {
     Surroundings& surroundings = addSurroundings(properties);
     const int type = readSkyType(properties);
-    const glm::dvec3 sun = readSun(properties);
-    const double zenith = readZenith(properties, type, sun);
-    const double albedo = properties.share("ground_albedo", 0);
-    const double sunIlluminance = properties.numberAbove("sun_illuminance", 0, 0, false);
-    const glm::dmat3 axes = axesOfSurroundings(properties);
-    const Rgb colour = readLightColour(properties);
-    const double factor = radiantFactor(properties);
-    const SourceLocation& where = properties.element().where;
-    const auto coloured = [&](double amount) {
-        return colour * toFiniteFloat(factor * amount, where, "the luminance");
+    Daylight daylight;
+    daylight.sun = readSunOfMap(properties).towards;
+    const double zenith = readZenith(properties, type, daylight.sun);
+    daylight.luminance = [&](const glm::dvec3& direction) {
+        return zenith * cieSkyLuminance(type, direction, daylight.sun);
     };
-
-    const double onGround = zenith * cieSkyIlluminance(type, sun) + sunIlluminance * sun.z;
-    const Rgb ofZenith = coloured(zenith);
-    surroundings.image =
-        makeSkyImage(skyHeight, axes, coloured(albedo / std::numbers::pi * onGround), [&](const glm::dvec3& direction) {
-            return ofZenith * static_cast<float>(cieSkyLuminance(type, direction, sun));
-        });
-    if (sunIlluminance > 0) addSun(properties, axes * sun, coloured(sunIlluminance));
+    daylight.skyIlluminance = zenith * cieSkyIlluminance(type, daylight.sun);
+    daylight.sunIlluminance = properties.numberAbove("sun_illuminance", 0, 0, false);
+    addDaylight(properties, surroundings, daylight);
 }
 
 } // namespace quasilux

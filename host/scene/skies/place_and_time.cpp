@@ -1,6 +1,8 @@
 #include "scene/skies/place_and_time.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -10,6 +12,7 @@ namespace {
 
 constexpr std::array<const char*, 9> names = {"latitude", "longitude", "timezone", "year",  "month",
                                               "day",      "hour",      "minute",   "second"};
+constexpr size_t wholeNames = 7; // without minute and second
 
 double numberWithin(Properties& properties, const std::string& name, double missing, double lowest, double highest) {
     const double value = properties.number(name, missing);
@@ -33,6 +36,35 @@ int daysOf(int month, int year) {
     return days.at(static_cast<size_t>(month) - 1) + (month == 2 && isLeap ? 1 : 0);
 }
 
+LocalTime readTime(Properties& properties) {
+    LocalTime time;
+    time.zone = numberWithin(properties, "timezone", 9, -14, 14);
+    time.year = integerWithin(properties, "year", 2010, 1950, 2100);
+    time.month = integerWithin(properties, "month", 7, 1, 12);
+    time.day = integerWithin(properties, "day", 10, 1, daysOf(time.month, time.year));
+    time.hour = numberWithin(properties, "hour", 15, 0, 24) + numberWithin(properties, "minute", 0, 0, 60) / 60 +
+                numberWithin(properties, "second", 0, 0, 60) / 3600;
+    return time;
+}
+
+Place readPlace(Properties& properties) {
+    return {numberWithin(properties, "latitude", 35.6894, -90, 90),
+            numberWithin(properties, "longitude", 139.6917, -180, 180)};
+}
+
+void checkPlaceAndTimeAreWhole(Properties& properties, const std::string& given) {
+    if (properties.has("sun_direction"))
+        throw InputError(properties.where(given),
+                         fmt::format("{} has both sun_direction and {}; keep the direction, or place and time.",
+                                     properties.describe(), given));
+    for (size_t k = 0; k < wholeNames; ++k)
+        if (!properties.has(names.at(k)))
+            throw InputError(properties.where(given),
+                             fmt::format("{} has {} but no {}; the sun's place needs latitude, longitude, timezone, "
+                                         "year, month, day and hour.",
+                                         properties.describe(), given, names.at(k)));
+}
+
 } // namespace
 
 std::string givenPlaceOrTime(Properties& properties) {
@@ -42,17 +74,29 @@ std::string givenPlaceOrTime(Properties& properties) {
 }
 
 SunPosition readSunPosition(Properties& properties) {
-    Place place;
-    place.latitude = numberWithin(properties, "latitude", 35.6894, -90, 90);
-    place.longitude = numberWithin(properties, "longitude", 139.6917, -180, 180);
-    LocalTime time;
-    time.zone = numberWithin(properties, "timezone", 9, -14, 14);
-    time.year = integerWithin(properties, "year", 2010, 1950, 2100);
-    time.month = integerWithin(properties, "month", 7, 1, 12);
-    time.day = integerWithin(properties, "day", 10, 1, daysOf(time.month, time.year));
-    time.hour = numberWithin(properties, "hour", 15, 0, 24) + numberWithin(properties, "minute", 0, 0, 60) / 60 +
-                numberWithin(properties, "second", 0, 0, 60) / 3600;
-    return sunPosition(place, time);
+    const Place place = readPlace(properties);
+    return sunPosition(place, readTime(properties));
+}
+
+SunOfMap sunOfMap(const Place& place, const LocalTime& time) {
+    constexpr double pressure = 1010, temperature = 10;
+    SunPosition sun = sunPosition(place, time);
+    sun.elevation += refraction(sun.elevation, pressure, temperature);
+    return {towards(sun), sunNearness(time)};
+}
+
+SunOfMap readSunOfMap(Properties& properties) {
+    const std::string given = givenPlaceOrTime(properties);
+    SunOfMap sun;
+    if (given.empty()) {
+        sun.towards = properties.direction("sun_direction", sun.towards);
+    } else {
+        checkPlaceAndTimeAreWhole(properties, given);
+        const Place place = readPlace(properties);
+        sun = sunOfMap(place, readTime(properties));
+    }
+    checkSunIsUp(properties, std::asin(std::clamp(sun.towards.z, -1.0, 1.0)));
+    return sun;
 }
 
 void checkSunIsUp(Properties& properties, double elevation) {

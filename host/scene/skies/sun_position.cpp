@@ -65,6 +65,13 @@ SunPosition sunPosition(const Place& place, const LocalTime& time) {
     return {std::atan2(east, north), elevation - parallax * std::cos(elevation)};
 }
 
+double sunNearness(const LocalTime& time) {
+    const double days = julianDay(time) - julianDay({time.year, 1, 1, 0, time.zone});
+    const double turn = 2 * std::numbers::pi * days / 365;
+    return 1.000110 + 0.034221 * std::cos(turn) + 0.001280 * std::sin(turn) + 0.000719 * std::cos(2 * turn) +
+           0.000077 * std::sin(2 * turn);
+}
+
 double refraction(double elevation, double pressure, double temperature) {
     const double degrees = elevation / degree;
     constexpr double radius = 0.26667, atHorizon = 0.5667; // of the sun's disc; of light (SPA, section 3.14)

@@ -22,6 +22,9 @@ struct SunPosition {
 
 SunPosition sunPosition(const Place& place, const LocalTime& time);
 
+/// Irradiance by the sun outside the atmosphere over its mean of the year: the inverse square of its distance (Spencer 1971), to 1e-3.
+double sunNearness(const LocalTime& time);
+
 /// By how much air lifts the sun, radians: pressure in hPa, temperature in degrees Celsius (there, eq. 42). 0 where the sun is wholly below the
 /// horizon.
 double refraction(double elevation, double pressure, double temperature);
