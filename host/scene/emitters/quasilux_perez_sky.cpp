@@ -18,7 +18,7 @@ struct Conditions {
     Radiation radiation;
 };
 
-int within(Properties& properties, const std::string& name, int64_t highest) {
+int timeOfWeather(Properties& properties, const std::string& name, int64_t highest) {
     if (!properties.has(name))
         throw InputError(properties.element().where,
                          fmt::format("{} has a weather file; say month, day and hour (1 to 24, the one that ends then) "
@@ -40,8 +40,8 @@ Conditions readFromWeather(Properties& properties) {
                                          properties.describe(), other));
     const SourceLocation where = properties.where("weather");
     const std::string path = properties.context().files.resolve(properties.string("weather", ""), where);
-    const int month = within(properties, "month", 12), day = within(properties, "day", 31),
-              hour = within(properties, "hour", 24);
+    const int month = timeOfWeather(properties, "month", 12), day = timeOfWeather(properties, "day", 31),
+              hour = timeOfWeather(properties, "hour", 24);
     const WeatherHour found = readWeatherHour(path, readFile(path, where, "weather"), month, day, hour, where);
     Conditions conditions{sunOfMap(found.place, found.time), found.radiation};
     checkSunIsUp(properties, std::asin(conditions.sun.towards.z));

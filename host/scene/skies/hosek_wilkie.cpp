@@ -19,12 +19,12 @@ constexpr double responseIntegral = 106.75025939941406;
 // From the unit of the sun's data to that of the sky's (Mitsuba 3).
 constexpr double sunFactor = 467.069280386;
 
-/// Between two entries of a table that belong to whole numbers.
-struct Between {
+/// TablePlace two entries of a table that belong to whole numbers.
+struct TablePlace {
     int below;
     double share; ///< of the entry above
 };
-Between between(double place, int last) {
+TablePlace placeBetween(double place, int last) {
     const int below = std::clamp(static_cast<int>(place), 0, last - 1);
     return {below, std::clamp(place - below, 0.0, 1.0)};
 }
@@ -39,7 +39,7 @@ std::array<double, hosekWilkieControlPoints> controlWeights(double elevation) {
 /// An entry of a table by turbidity, albedo and control point, whose records have `size` numbers.
 double interpolate(const double* table, int size, int entry, double turbidity, double albedo,
                    const std::array<double, hosekWilkieControlPoints>& weights) {
-    const Between t = between(turbidity - 1, hosekWilkieTurbidities - 1);
+    const TablePlace t = placeBetween(turbidity - 1, hosekWilkieTurbidities - 1);
     double sum = 0;
     for (int k = 0; k < 4; ++k) {
         const int bright = k / 2, hazy = k % 2;
@@ -100,8 +100,8 @@ glm::dvec3 HosekWilkieSky::radiance(double cosZenith, double cosSun) const {
 
 glm::dvec3 HosekWilkieSun::radiance(double elevation, double cosSurface) const {
     constexpr int last = hosekWilkieSunElevations - 1, record = 3 * hosekWilkieLimbPowers;
-    const Between t = between(turbidity_ - 1, hosekWilkieTurbidities - 1);
-    const Between e = between(last * std::cbrt(std::max(2 * elevation / pi, 0.0)), last);
+    const TablePlace t = placeBetween(turbidity_ - 1, hosekWilkieTurbidities - 1);
+    const TablePlace e = placeBetween(last * std::cbrt(std::max(2 * elevation / pi, 0.0)), last);
     glm::dvec3 found{0};
     for (int hazy = 0; hazy < 2; ++hazy)
         for (int c = 0; c < 3; ++c) {
@@ -133,7 +133,7 @@ glm::dvec3 HosekWilkieSun::discMean(double elevation) const {
 
 glm::dvec3 HosekWilkieSun::meanRadiance(double elevation) const {
     constexpr double first = 2 * degree, step = 3 * degree;
-    const Between e = between((elevation - first) / step, 29);
+    const TablePlace e = placeBetween((elevation - first) / step, 29);
     return discMean(first + step * e.below) * (1 - e.share) + discMean(first + step * (e.below + 1)) * e.share;
 }
 

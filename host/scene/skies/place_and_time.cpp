@@ -10,9 +10,9 @@ namespace quasilux {
 
 namespace {
 
-constexpr std::array<const char*, 9> names = {"latitude", "longitude", "timezone", "year",  "month",
-                                              "day",      "hour",      "minute",   "second"};
-constexpr size_t wholeNames = 7; // without minute and second
+constexpr std::array<const char*, 9> placeAndTimeNames = {"latitude", "longitude", "timezone", "year",  "month",
+                                                          "day",      "hour",      "minute",   "second"};
+constexpr size_t neededNames = 7; // without minute and second
 
 double numberWithin(Properties& properties, const std::string& name, double missing, double lowest, double highest) {
     const double value = properties.number(name, missing);
@@ -47,7 +47,7 @@ LocalTime readTime(Properties& properties) {
     return time;
 }
 
-Place readPlace(Properties& properties) {
+PlaceOnEarth readPlace(Properties& properties) {
     return {numberWithin(properties, "latitude", 35.6894, -90, 90),
             numberWithin(properties, "longitude", 139.6917, -180, 180)};
 }
@@ -57,28 +57,28 @@ void checkPlaceAndTimeAreWhole(Properties& properties, const std::string& given)
         throw InputError(properties.where(given),
                          fmt::format("{} has both sun_direction and {}; keep the direction, or place and time.",
                                      properties.describe(), given));
-    for (size_t k = 0; k < wholeNames; ++k)
-        if (!properties.has(names.at(k)))
+    for (size_t k = 0; k < neededNames; ++k)
+        if (!properties.has(placeAndTimeNames.at(k)))
             throw InputError(properties.where(given),
                              fmt::format("{} has {} but no {}; the sun's place needs latitude, longitude, timezone, "
                                          "year, month, day and hour.",
-                                         properties.describe(), given, names.at(k)));
+                                         properties.describe(), given, placeAndTimeNames.at(k)));
 }
 
 } // namespace
 
 std::string givenPlaceOrTime(Properties& properties) {
-    for (const char* name : names)
+    for (const char* name : placeAndTimeNames)
         if (properties.has(name)) return name;
     return {};
 }
 
 SunPosition readSunPosition(Properties& properties) {
-    const Place place = readPlace(properties);
+    const PlaceOnEarth place = readPlace(properties);
     return sunPosition(place, readTime(properties));
 }
 
-SunOfMap sunOfMap(const Place& place, const LocalTime& time) {
+SunOfMap sunOfMap(const PlaceOnEarth& place, const LocalTime& time) {
     constexpr double pressure = 1010, temperature = 10;
     SunPosition sun = sunPosition(place, time);
     sun.elevation += refraction(sun.elevation, pressure, temperature);
@@ -92,7 +92,7 @@ SunOfMap readSunOfMap(Properties& properties) {
         sun.towards = properties.direction("sun_direction", sun.towards);
     } else {
         checkPlaceAndTimeAreWhole(properties, given);
-        const Place place = readPlace(properties);
+        const PlaceOnEarth place = readPlace(properties);
         sun = sunOfMap(place, readTime(properties));
     }
     checkSunIsUp(properties, std::asin(std::clamp(sun.towards.z, -1.0, 1.0)));

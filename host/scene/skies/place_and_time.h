@@ -21,7 +21,7 @@ struct SunOfMap {
 /// 1010 hPa. Overhead where neither is given. Throws InputError where it is below the horizon.
 SunOfMap readSunOfMap(Properties& properties);
 /// Likewise, of a time and place that are known.
-SunOfMap sunOfMap(const Place& place, const LocalTime& time);
+SunOfMap sunOfMap(const PlaceOnEarth& place, const LocalTime& time);
 
 /// The sun at this elevation in radians must not be below the horizon: throws InputError.
 void checkSunIsUp(Properties& properties, double elevation);

@@ -13,6 +13,9 @@ namespace quasilux {
 /// those beside it. Sums to 4 pi.
 std::vector<double> solidAnglesOfRows(unsigned height);
 
+/// Irradiance of a plane that looks up, by the upper half of an image alone, as it is looked up: R, G, B.
+glm::dvec3 irradianceOfGround(const EnvironmentImage& image);
+
 /// Unit direction to the middle of a pixel, up is +z: what lies along the image's own x, y, z is that along x, z, -y here. On the row of
 /// the horizon z is 0.
 glm::dvec3 directionOfSkyPixel(unsigned column, unsigned row, unsigned height);

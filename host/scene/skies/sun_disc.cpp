@@ -14,9 +14,9 @@ using std::numbers::pi;
 
 constexpr unsigned coarsestRows = 720, finestRows = 1440; // half a turn
 constexpr double pixelsAcross = 4;
-constexpr int samples = 8; // along each side of a pixel
+constexpr int samplesAcrossPixel = 8; // along each side of a pixel
 
-bool isWithin(const SunDisc& disc, const glm::dvec3& direction) {
+bool isOnDisc(const SunDisc& disc, const glm::dvec3& direction) {
     return direction.z >= 0 && glm::dot(direction, disc.towards) >= std::cos(disc.halfAngle);
 }
 
@@ -44,20 +44,20 @@ glm::dvec3 irradianceOf(const SunDisc& disc) {
 glm::dvec3 meanOverPixel(const SunDisc& disc, unsigned column, unsigned row, unsigned height) {
     glm::dvec3 sum{0};
     double weight = 0;
-    for (int j = 0; j < samples; ++j) {
-        const double polar = pi * (row + (j + 0.5) / samples - 0.5) / (height - 1), across = std::sin(polar);
+    for (int j = 0; j < samplesAcrossPixel; ++j) {
+        const double polar = pi * (row + (j + 0.5) / samplesAcrossPixel - 0.5) / (height - 1), across = std::sin(polar);
         if (across <= 0) continue; // beyond the zenith
-        for (int i = 0; i < samples; ++i) {
-            const double turn = pi * (column + (i + 0.5) / samples) / (height - 1);
+        for (int i = 0; i < samplesAcrossPixel; ++i) {
+            const double turn = pi * (column + (i + 0.5) / samplesAcrossPixel) / (height - 1);
             const glm::dvec3 direction(across * std::sin(turn), across * std::cos(turn), std::cos(polar));
-            if (isWithin(disc, direction)) sum += across * disc.radiance(direction);
+            if (isOnDisc(disc, direction)) sum += across * disc.radiance(direction);
             weight += across;
         }
     }
     return sum / weight;
 }
 
-struct Drawn {
+struct DiscPixel {
     size_t pixel;
     glm::dvec3 radiance;
 };
@@ -74,7 +74,7 @@ unsigned skyHeightFor(double halfAngle) {
 void addSunDisc(EnvironmentImage& sky, const SunDisc& disc) {
     const std::vector<double> solidAngles = solidAnglesOfRows(sky.height);
     const double reach = std::cos(std::min(disc.halfAngle + 2 * pi / (sky.height - 1), pi / 2));
-    std::vector<Drawn> drawn;
+    std::vector<DiscPixel> drawn;
     glm::dvec3 inImage{0};
     for (unsigned row = 0; 2 * row <= sky.height - 1; ++row)
         for (unsigned column = 0; column < sky.width; ++column) {
@@ -85,6 +85,7 @@ void addSunDisc(EnvironmentImage& sky, const SunDisc& disc) {
             drawn.push_back({size_t(row) * sky.width + column, radiance});
             inImage += radiance * (solidAngles[row] / sky.width * cosine);
         }
+    sky.hasSun = true;
     const glm::dvec3 irradiance = irradianceOf(disc);
     for (const auto& [pixel, radiance] : drawn) {
         Rgb& to = sky.pixels[pixel];

@@ -7,13 +7,13 @@ namespace quasilux {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double radiansOfDegree = std::numbers::pi / 180;
 constexpr double epoch2000 = 2451545;       // Julian day of noon on 1 January 2000
 constexpr double daysOfCentury = 36525;     // Julian
 constexpr double clockError = 69.0 / 86400; // days by which the Earth's turn lags behind even time; it was 29 s in 1950
 
-double sinOf(double degrees) { return std::sin(degrees * degree); }
-double cosOf(double degrees) { return std::cos(degrees * degree); }
+double sinOf(double degrees) { return std::sin(degrees * radiansOfDegree); }
+double cosOf(double degrees) { return std::cos(degrees * radiansOfDegree); }
 
 /// Of the Gregorian calendar (Meeus, Astronomical Algorithms, 2nd ed. 1998, chapter 7).
 double julianDay(const LocalTime& time) {
@@ -52,16 +52,16 @@ Equatorial sunAt(double day) {
 
 } // namespace
 
-SunPosition sunPosition(const Place& place, const LocalTime& time) {
+SunPosition sunPosition(const PlaceOnEarth& place, const LocalTime& time) {
     const Equatorial sun = sunAt(julianDay(time));
-    const double hourAngle = (sun.siderealTime + place.longitude) * degree - sun.rightAscension;
+    const double hourAngle = (sun.siderealTime + place.longitude) * radiansOfDegree - sun.rightAscension;
     const double sinDeclination = std::sin(sun.declination), cosDeclination = std::cos(sun.declination);
     const double sinLatitude = sinOf(place.latitude), cosLatitude = cosOf(place.latitude);
     const double east = -cosDeclination * std::sin(hourAngle);
     const double north = cosLatitude * sinDeclination - sinLatitude * cosDeclination * std::cos(hourAngle);
     const double up = sinLatitude * sinDeclination + cosLatitude * cosDeclination * std::cos(hourAngle);
     const double elevation = std::atan2(up, std::hypot(east, north));
-    constexpr double parallax = 8.794 / 3600 * degree;
+    constexpr double parallax = 8.794 / 3600 * radiansOfDegree;
     return {std::atan2(east, north), elevation - parallax * std::cos(elevation)};
 }
 
@@ -73,11 +73,11 @@ double sunNearness(const LocalTime& time) {
 }
 
 double refraction(double elevation, double pressure, double temperature) {
-    const double degrees = elevation / degree;
+    const double degrees = elevation / radiansOfDegree;
     constexpr double radius = 0.26667, atHorizon = 0.5667; // of the sun's disc; of light (SPA, section 3.14)
     if (degrees < -(radius + atHorizon)) return 0;
     return pressure / 1010 * 283 / (273 + temperature) * 1.02 /
-           (60 * std::tan((degrees + 10.3 / (degrees + 5.11)) * degree)) * degree;
+           (60 * std::tan((degrees + 10.3 / (degrees + 5.11)) * radiansOfDegree)) * radiansOfDegree;
 }
 
 glm::dvec3 towards(const SunPosition& sun) {

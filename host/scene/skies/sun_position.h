@@ -5,7 +5,7 @@
 
 namespace quasilux {
 
-struct Place {
+struct PlaceOnEarth {
     double latitude = 0, longitude = 0; ///< degrees, to the north and to the east
 };
 
@@ -20,7 +20,7 @@ struct SunPosition {
     double elevation = 0; ///< radians above the horizon, without refraction
 };
 
-SunPosition sunPosition(const Place& place, const LocalTime& time);
+SunPosition sunPosition(const PlaceOnEarth& place, const LocalTime& time);
 
 /// Irradiance by the sun outside the atmosphere over its mean of the year: the inverse square of its distance (Spencer 1971), to 1e-3.
 double sunNearness(const LocalTime& time);

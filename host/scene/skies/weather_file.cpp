@@ -23,9 +23,9 @@ enum DataField : size_t {
 };
 enum LocationField : size_t { latitudeField = 6, longitudeField, zoneField };
 
-constexpr double missing = 9999, missingDewPoint = 99.9;
+constexpr double missingRadiation = 9999, missingDewPoint = 99.9;
 
-struct Line {
+struct WeatherLine {
     const std::string& path;
     int number;
     std::vector<std::string_view> fields;
@@ -55,9 +55,10 @@ std::vector<std::string_view> splitFields(std::string_view line) {
     }
 }
 
-double radiationAt(const Line& line, size_t field, const char* what) {
-    const double value = line.at(field, what, 0, missing);
-    if (value == missing) throw InputError(line.where(), fmt::format("{} is missing (9999) in this hour.", what));
+double radiationAt(const WeatherLine& line, size_t field, const char* what) {
+    const double value = line.at(field, what, 0, missingRadiation);
+    if (value == missingRadiation)
+        throw InputError(line.where(), fmt::format("{} is missing (9999) in this hour.", what));
     return value;
 }
 
@@ -67,7 +68,7 @@ WeatherHour readWeatherHour(const std::string& path, const std::string& content,
                             const SourceLocation& where) {
     constexpr size_t headLines = 8;
     const std::vector<std::string_view> lines = splitLines(content);
-    const Line location{path, 1, splitFields(lines.empty() ? std::string_view() : lines.front())};
+    const WeatherLine location{path, 1, splitFields(lines.empty() ? std::string_view() : lines.front())};
     if (location.fields.front() != "LOCATION")
         throw InputError(location.where(), "not an EnergyPlus weather file: its first line begins with LOCATION.");
     WeatherHour found;
@@ -76,7 +77,7 @@ WeatherHour readWeatherHour(const std::string& path, const std::string& content,
     found.time.zone = location.at(zoneField, "the time zone", -14, 14);
     for (size_t k = headLines; k < lines.size(); ++k) {
         if (lines[k].empty()) continue;
-        const Line line{path, static_cast<int>(k) + 1, splitFields(lines[k])};
+        const WeatherLine line{path, static_cast<int>(k) + 1, splitFields(lines[k])};
         if (line.wholeAt(monthField, "the month", 1, 12) != month || line.wholeAt(dayField, "the day", 1, 31) != day ||
             line.wholeAt(hourField, "the hour", 1, 24) != hour)
             continue;

@@ -10,7 +10,7 @@
 namespace quasilux {
 
 struct WeatherHour {
-    Place place;
+    PlaceOnEarth place;
     LocalTime time; ///< the middle of the hour
     Radiation radiation;
 };
