@@ -93,6 +93,29 @@ TEST(WeatherFile, GivesTheHourAskedFor) {
     EXPECT_EQ(hour.radiation.dewPoint, 12.5);
 }
 
+// Cut off anywhere, and with bytes changed at random: read, or an error that names the file, and no number that is not finite.
+TEST(WeatherFile, AnyContentIsReadOrRefused) {
+    uint32_t state = 1;
+    const auto random = [&](size_t below) { return (state = state * 1664525 + 1013904223) / 65536 % below; };
+    int readable = 0;
+    for (size_t k = 0; k < 4000; ++k) {
+        std::string content = weather;
+        if (k < weather.size())
+            content.resize(k);
+        else
+            for (int n = 0; n < 3; ++n) content[random(content.size())] = static_cast<char>(random(256));
+        try {
+            const WeatherHour hour = readWeatherHour("w.epw", content, 6, 21, 12, {"scene.xml", 1, 1});
+            EXPECT_TRUE(std::isfinite(hour.radiation.directNormal + hour.radiation.diffuseHorizontal +
+                                      hour.radiation.dewPoint + hour.place.latitude + hour.time.hour));
+            ++readable;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), testing::AnyOf(HasSubstr("w.epw"), HasSubstr("scene.xml:1:1")));
+        }
+    }
+    EXPECT_GT(readable, 1000);
+}
+
 // --- the emitter ---
 
 std::string perez(const std::string& parameters) {
@@ -107,16 +130,8 @@ std::string measured(double direct, double diffuse) {
 
 /// By the sky's image alone.
 double luxOnGround(const Scene& scene) {
-    const EnvironmentImage& image = scene.surroundings.value().image.value();
-    const std::vector<double> solidAngles = solidAnglesOfRows(image.height);
-    double sum = 0;
-    for (unsigned row = 0; 2 * row <= image.height - 1; ++row)
-        for (unsigned column = 0; column < image.width; ++column) {
-            const Rgb& p = image.pixels[size_t(row) * image.width + column];
-            sum += luminanceOf(p.r, p.g, p.b) * solidAngles[row] / image.width *
-                   directionOfSkyPixel(column, row, image.height).z;
-        }
-    return luminousEfficacy * sum;
+    const dvec3 irradiance = irradianceOfGround(scene.surroundings.value().image.value());
+    return luminousEfficacy * luminanceOf(irradiance.x, irradiance.y, irradiance.z);
 }
 
 TEST(PerezSkyEmitter, SkyAndSunHaveTheirIlluminances) {

@@ -116,19 +116,6 @@ Surroundings surroundingsOf(const std::string& emitter) {
     return *loadScene(files.write("scene.xml", test::sceneWith(emitter))).surroundings;
 }
 
-/// Irradiance of a horizontal plane by the image, bilinear within a cell and so summed by the middles of 2 x 2 parts of each.
-dvec3 onGround(const EnvironmentImage& image) {
-    const std::vector<double> solidAngles = solidAnglesOfRows(image.height);
-    dvec3 sum{0};
-    for (unsigned row = 0; 2 * row <= image.height - 1; ++row)
-        for (unsigned column = 0; column < image.width; ++column) {
-            const Rgb& p = image.pixels[size_t(row) * image.width + column];
-            sum += dvec3(p.r, p.g, p.b) *
-                   (solidAngles[row] / image.width * directionOfSkyPixel(column, row, image.height).z);
-        }
-    return sum;
-}
-
 const std::string highSun = "<vector name=\"sun_direction\" value=\"0.3,-0.7,0.6\"/>",
                   noSky = "<float name=\"sky_scale\" value=\"0\"/>", noSun = "<float name=\"sun_scale\" value=\"0\"/>";
 
@@ -143,7 +130,7 @@ TEST(SunSky, SunHasItsIrradianceWhateverItsApertureAndPlace) {
                                                           "name=\"sun_aperture\" value=\"{}\"/>",
                                                           direction.x, direction.y, direction.z, aperture)));
             // Of a wide sun the sine of the elevation varies across it: by the curvature, which is 1e-4 here.
-            expectRadiance(onGround(*surroundings.image), truth, 1e-3, fmt::format("{} degrees", aperture));
+            expectRadiance(irradianceOfGround(*surroundings.image), truth, 1e-3, fmt::format("{} degrees", aperture));
         }
     }
 }

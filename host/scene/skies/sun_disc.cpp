@@ -74,7 +74,7 @@ unsigned skyHeightFor(double halfAngle) {
 void addSunDisc(EnvironmentImage& sky, const SunDisc& disc) {
     const std::vector<double> solidAngles = solidAnglesOfRows(sky.height);
     const double reach = std::cos(std::min(disc.halfAngle + 2 * pi / (sky.height - 1), pi / 2));
-    std::vector<DiscPixel> drawn;
+    std::vector<DiscPixel> pixels;
     glm::dvec3 inImage{0};
     for (unsigned row = 0; 2 * row <= sky.height - 1; ++row)
         for (unsigned column = 0; column < sky.width; ++column) {
@@ -82,19 +82,18 @@ void addSunDisc(EnvironmentImage& sky, const SunDisc& disc) {
             if (cosine < reach) continue;
             const glm::dvec3 radiance = meanOverPixel(disc, column, row, sky.height);
             if (radiance == glm::dvec3(0)) continue;
-            drawn.push_back({size_t(row) * sky.width + column, radiance});
+            pixels.push_back({size_t(row) * sky.width + column, radiance});
             inImage += radiance * (solidAngles[row] / sky.width * cosine);
         }
     sky.hasSun = true;
     const glm::dvec3 irradiance = irradianceOf(disc);
-    for (const auto& [pixel, radiance] : drawn) {
-        Rgb& to = sky.pixels[pixel];
-        const auto add = [&](float& channel, int c) {
-            if (inImage[c] > 0) channel += static_cast<float>(radiance[c] * irradiance[c] / inImage[c]);
-        };
-        add(to.r, 0);
-        add(to.g, 1);
-        add(to.b, 2);
+    glm::dvec3 correction{0}; // the disc against its pixels
+    for (int c = 0; c < 3; ++c) correction[c] = inImage[c] > 0 ? irradiance[c] / inImage[c] : 0;
+    for (const DiscPixel& drawn : pixels) {
+        const glm::dvec3 radiance = drawn.radiance * correction;
+        Rgb& to = sky.pixels[drawn.pixel];
+        to = {to.r + static_cast<float>(radiance.x), to.g + static_cast<float>(radiance.y),
+              to.b + static_cast<float>(radiance.z)};
     }
 }
 
