@@ -62,6 +62,17 @@ TEST(PerezSky, EfficaciesAreThoseOfSkyAndSun) {
     EXPECT_NEAR(skyOf(cases[4]).directEfficacy(), 103, 2);
 }
 
+TEST(PerezSky, IlluminancesHaveTheirRadiation) {
+    for (const Case& c : cases) {
+        const PerezSky sky = skyOf(c);
+        const Radiation found =
+            radiationOfIlluminances(sky.directEfficacy() * c.directNormal, sky.diffuseEfficacy() * c.diffuseHorizontal,
+                                    {0, 0, 11, 1}, at(c.sunZenith));
+        EXPECT_NEAR(found.directNormal, c.directNormal, 0.01 * c.directNormal + 1e-6);
+        EXPECT_NEAR(found.diffuseHorizontal, c.diffuseHorizontal, 0.01 * c.diffuseHorizontal);
+    }
+}
+
 TEST(SunNearness, IsGreatestInJanuary) {
     EXPECT_NEAR(sunNearness({2023, 1, 3, 12, 0}), 1.035, 1e-3);
     EXPECT_NEAR(sunNearness({2023, 7, 4, 12, 0}), 0.9666, 1e-3);
@@ -153,6 +164,13 @@ TEST(PerezSkyEmitter, SkyAndSunHaveTheirIlluminances) {
                                            "name=\"direct_normal_illuminance\" value=\"33000\"/>"))));
     EXPECT_NEAR(luxOnGround(stated), 21000, 10);
     EXPECT_NEAR(luminousEfficacy * stated.directionalEmitters.at(0).irradiance.g, 33000, 1);
+    const Scene byLux = loadScene(files.write(
+        "scene.xml",
+        test::sceneWith(
+            perez("<vector name=\"sun_direction\" value=\"0.4,-0.5,0.7\"/><float name=\"direct_normal_illuminance\" "
+                  "value=\"33000\"/><float name=\"diffuse_horizontal_illuminance\" value=\"21000\"/>"))));
+    EXPECT_NEAR(luxOnGround(byLux), 21000, 10);
+    EXPECT_NEAR(luminousEfficacy * byLux.directionalEmitters.at(0).irradiance.g, 33000, 1);
     const Scene noSun = loadScene(files.write(
         "scene.xml", test::sceneWith(perez(measured(400, 200) + "<boolean name=\"sun\" value=\"false\"/>"))));
     EXPECT_TRUE(noSun.directionalEmitters.empty());

@@ -44,6 +44,7 @@ Conditions readFromWeather(Properties& properties) {
               hour = timeOfWeather(properties, "hour", 24);
     const WeatherHour found = readWeatherHour(path, readFile(path, where, "weather"), month, day, hour, where);
     Conditions conditions{sunOfMap(found.place, found.time), found.radiation};
+    conditions.radiation.sunNearness = conditions.sun.nearness;
     checkSunIsUp(properties, std::asin(conditions.sun.towards.z));
     return conditions;
 }
@@ -53,14 +54,26 @@ Conditions readMeasured(Properties& properties) {
         throw InputError(properties.element().where,
                          fmt::format("{} needs the sun: sun_direction, or place and time, or a weather file.",
                                      properties.describe()));
-    for (const char* needed : {"direct_normal_irradiance", "diffuse_horizontal_irradiance"})
-        if (!properties.has(needed))
-            throw InputError(properties.element().where,
-                             fmt::format("{} needs {} in W/m2, or a weather file.", properties.describe(), needed));
     Conditions conditions{readSunOfMap(properties), {}};
-    conditions.radiation.directNormal = properties.numberAbove("direct_normal_irradiance", 0, 0, false);
-    conditions.radiation.diffuseHorizontal = properties.numberAbove("diffuse_horizontal_irradiance", 0, 0, true);
-    conditions.radiation.dewPoint = properties.number("dew_point", conditions.radiation.dewPoint);
+    Radiation& radiation = conditions.radiation;
+    radiation.sunNearness = conditions.sun.nearness;
+    radiation.dewPoint = properties.number("dew_point", radiation.dewPoint);
+    const auto areGiven = [&](const std::string& unit) {
+        return properties.has("direct_normal_" + unit) && properties.has("diffuse_horizontal_" + unit);
+    };
+    if (areGiven("irradiance")) {
+        radiation.directNormal = properties.numberAbove("direct_normal_irradiance", 0, 0, false);
+        radiation.diffuseHorizontal = properties.numberAbove("diffuse_horizontal_irradiance", 0, 0, true);
+    } else if (areGiven("illuminance")) {
+        radiation = radiationOfIlluminances(properties.numberAbove("direct_normal_illuminance", 0, 0, false),
+                                            properties.numberAbove("diffuse_horizontal_illuminance", 0, 0, true),
+                                            radiation, conditions.sun.towards);
+    } else
+        throw InputError(
+            properties.element().where,
+            fmt::format("{} needs direct_normal_irradiance and diffuse_horizontal_irradiance in W/m2, both "
+                        "illuminances in lx, or a weather file.",
+                        properties.describe()));
     return conditions;
 }
 
@@ -68,8 +81,7 @@ Conditions readMeasured(Properties& properties) {
 
 void readPerezSky(Properties& properties) {
     Surroundings& surroundings = addSurroundings(properties);
-    Conditions conditions = properties.has("weather") ? readFromWeather(properties) : readMeasured(properties);
-    conditions.radiation.sunNearness = conditions.sun.nearness;
+    const Conditions conditions = properties.has("weather") ? readFromWeather(properties) : readMeasured(properties);
     if (!(conditions.radiation.diffuseHorizontal > 0))
         throw InputError(properties.where("weather"), "the sky has no diffuse radiation in this hour; choose another.");
     Daylight daylight;

@@ -125,6 +125,23 @@ PerezSky::PerezSky(const Radiation& radiation, const glm::dvec3& sun) : sun_(sun
     shape_ = shapeOf(category, zenith, brightness_);
 }
 
+Radiation radiationOfIlluminances(double directNormal, double diffuseHorizontal, Radiation about,
+                                  const glm::dvec3& sun) {
+    constexpr int steps = 200;
+    static constexpr double usual = 110, least = 20; // lm/W
+    about.directNormal = directNormal / usual;
+    about.diffuseHorizontal = diffuseHorizontal / usual;
+    for (int step = 0; step < steps; ++step) {
+        const PerezSky sky(about, sun);
+        const auto towardsStated = [](double now, double stated, double efficacy) {
+            return 0.8 * now + 0.2 * stated / std::max(efficacy, least);
+        };
+        about.directNormal = towardsStated(about.directNormal, directNormal, sky.directEfficacy());
+        about.diffuseHorizontal = towardsStated(about.diffuseHorizontal, diffuseHorizontal, sky.diffuseEfficacy());
+    }
+    return about;
+}
+
 double PerezSky::luminance(const glm::dvec3& direction) const {
     if (direction.z < 0) return 0;
     const auto& [a, b, c, d, e] = shape_;

@@ -33,4 +33,9 @@ private:
     std::array<double, 5> shape_; ///< a, b: gradation from the horizon; c, d, e: about the sun
 };
 
+/// The radiation whose illuminances by these efficacies are the stated ones, lx; `about`: dew point and nearness of the sun. Where efficacies jump
+/// between categories so that there is none, one beside the jump.
+Radiation radiationOfIlluminances(double directNormal, double diffuseHorizontal, Radiation about,
+                                  const glm::dvec3& sun);
+
 } // namespace quasilux
