@@ -116,12 +116,37 @@ TEST(CieSkyRender, WallsSeeHalfOfItAndTheGround) {
     EXPECT_GT(south.value, 2 * north.value);
 }
 
+TEST(CieSkyRender, PerezSkyAndSunHaveTheirIlluminances) {
+    expectLux(
+        luxOn("<emitter type=\"quasilux_perez_sky\"><vector name=\"sun_direction\" value=\"0.3,-0.7,0.6\"/><float "
+              "name=\"direct_normal_irradiance\" value=\"600\"/><float name=\"diffuse_horizontal_irradiance\" "
+              "value=\"120\"/><float name=\"diffuse_horizontal_illuminance\" value=\"15000\"/><float "
+              "name=\"direct_normal_illuminance\" value=\"60000\"/></emitter>",
+              upwards),
+        15000 + 60000 * 0.6 / std::sqrt(0.94), "Perez");
+}
+
+// The sun by place and time stands where sun_direction would put it: in the south-west on a map whose +y is the north.
+TEST(CieSkyReader, SunStandsByPlaceAndTime) {
+    test::SceneFiles files;
+    const std::string sun = "<float name=\"sun_illuminance\" value=\"1000\"/>",
+                      place = R"(<float name="latitude" value="39.742476"/><float name="longitude" value="-105.1786"/>
+        <float name="timezone" value="-7"/><integer name="year" value="2003"/><integer name="month" value="10"/>
+        <integer name="day" value="17"/><float name="hour" value="12"/><float name="minute" value="30"/>
+        <float name="second" value="30"/>)";
+    const Scene scene = loadScene(files.write("scene.xml", test::sceneWith(skyXml(sun + place))));
+    const dvec3 from(-scene.directionalEmitters.at(0).direction);
+    EXPECT_NEAR(std::atan2(from.x, from.y) / degree + 360, 194.34024, 0.01);
+    EXPECT_NEAR(std::acos(from.z) / degree, 50.11, 0.01) << "with the refraction of sea level";
+}
+
 TEST(CieSkyReader, SaysWhatIsWrong) {
     test::SceneFiles files;
     const std::pair<std::string, std::vector<std::string>> cases[] = {
         {"<integer name=\"sky_type\" value=\"17\"/>", {"scene.xml:5:1", "expected 1 to 15"}},
         {"<vector name=\"sun_direction\" value=\"0,1,-1\"/>", {"scene.xml:5:1", "below the horizon"}},
         {"<float name=\"illuminance\" value=\"0\"/>", {"scene.xml:5:1", "illuminance"}},
+        {"<integer name=\"year\" value=\"2020\"/>", {"scene.xml:5:1", "has year but no latitude"}},
         {"<float name=\"illuminance\" value=\"1\"/><float name=\"zenith_luminance\" value=\"1\"/>", {"keep one"}},
         {"<float name=\"ground_albedo\" value=\"1.5\"/>", {"scene.xml:5:1", "ground_albedo"}},
         {"<transform name=\"to_world\"><scale value=\"2\"/></transform>", {"scene.xml:5:1", "Remove <scale>"}},

@@ -3,6 +3,7 @@
 // beyond 4 standard errors). Seeds are fixed.
 #include "learn/guide.h"
 #include "scene/color.h"
+#include "scene/skies/sky_image.h"
 #include "support/chi_squared.h"
 #include "support/emitter_cases.h"
 #include "support/render_statistics.h"
@@ -415,6 +416,25 @@ TEST(EnvmapReader, SaysWhatIsWrong) {
          {"scene.xml:5:1", "a second emitter all around the scene, after the emitter 'constant' of line 4"}},
         {"<shape type=\"cube\">\n" + envmap(skyFile) + "</shape>", {"scene.xml:5:1", "put it directly into <scene>"}}};
     test::expectErrors(files, cases);
+}
+
+// A uniform image gives pi, whatever its rows; of one that is bright in its first row alone it is the cone of a hat about the zenith.
+TEST(IrradianceOfGround, IsTheIntegralOfTheUpperHalf) {
+    for (const unsigned height : {2u, 3u, 4u, 9u, 361u}) {
+        const EnvironmentImage even{4, height, std::vector<Rgb>(4 * height, {1, 2, 3})};
+        const glm::dvec3 found = irradianceOfGround(even);
+        EXPECT_NEAR(found.x, pi, 1e-9) << height;
+        EXPECT_NEAR(found.z, 3 * pi, 1e-9);
+    }
+    EnvironmentImage zenith{4, 5, std::vector<Rgb>(20, {0, 0, 0})};
+    for (unsigned column = 0; column < 4; ++column) zenith.pixels[column] = {1, 1, 1};
+    constexpr int steps = 20000;
+    double truth = 0;
+    for (int k = 0; k < steps; ++k) {
+        const double angle = pi / 4 * (k + 0.5) / steps;
+        truth += 2 * pi * (1 - angle / (pi / 4)) * std::sin(angle) * std::cos(angle) * (pi / 4 / steps);
+    }
+    EXPECT_NEAR(irradianceOfGround(zenith).y, truth, 1e-7);
 }
 
 } // namespace

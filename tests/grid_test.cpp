@@ -82,6 +82,48 @@ TEST_F(GridTest, IsRefusedWhereThereIsNone) {
     expectRefused({"render", "both.xml", "--grid", "out.csv", "--without", "bias"}, "--without is of images");
 }
 
+// Of a point light 2 above the grid, irradiances are as 1 / distance^3: 2 (x^2 + y^2 + 4)^-1.5.
+TEST_F(GridTest, StatesWhatNormsAskFor) {
+    write("grid.xml", pointLight + grid);
+    const Outcome outcome = run({"render", "grid.xml", "--grid", "out.csv", "--stats", "s.json", "--passes", "2"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    const auto lux = [](double y) {
+        return 683 * (0.2126 * 2 + 0.7152 + 0.0722 * 4) * 2 / std::pow(0.25 + y * y + 4, 1.5);
+    };
+    const double most = lux(0), least = lux(2 / 3.0), mean = (most + 2 * least) / 3;
+    const auto meter = nlohmann::json::parse(readText(folder / "s.json"))["meter"];
+    EXPECT_NEAR(meter["illuminance"].get<double>(), mean, 1e-4 * mean);
+    EXPECT_EQ(meter["grid"]["points"], 6);
+    EXPECT_NEAR(meter["grid"]["minimum"].get<double>(), least, 1e-4 * least);
+    EXPECT_NEAR(meter["grid"]["maximum"].get<double>(), most, 1e-4 * most);
+    EXPECT_NEAR(meter["grid"]["U0"].get<double>(), least / mean, 1e-4);
+    EXPECT_NEAR(meter["grid"]["Ud"].get<double>(), least / most, 1e-4);
+    EXPECT_LT(meter["grid"]["U0StandardError"].get<double>(), 1e-4);
+    const std::string table = readText(folder / "out.csv");
+    for (const std::string& line : {fmt::format("# U0: {:.3f}", std::floor(1000 * least / mean) / 1000),
+                                    fmt::format("# mean: {:.0f}", std::floor(mean))})
+        EXPECT_THAT(table, HasSubstr(line));
+}
+
+// EN 12464-1: of 4.8 m x 7.2 m the longer side counts, 0.2 * 5^lg 7.2 = 0.794 m; of 2 m x 7.2 m the shorter one, 0.325 m; 10 m at most.
+TEST_F(GridTest, SpacingIsThatOfTheNorm) {
+    const auto sizeOf = [&](const std::string& u, const std::string& v) {
+        const Scene scene = test::meterScene("<?quasilux illuminance-grid origin=\"0,0,0\" edge-u=\"" + u +
+                                             "\" edge-v=\"" + v + "\" spacing=\"en12464\"?>" + pointLight);
+        return std::pair(scene.grid->nx, scene.grid->ny);
+    };
+    EXPECT_EQ(sizeOf("4.8,0,0", "0,7.2,0"), std::pair(6u, 9u));
+    EXPECT_EQ(sizeOf("0,0,2", "0,7.2,0"), std::pair(6u, 22u));
+    EXPECT_EQ(sizeOf("1000,0,0", "0,900,0"), std::pair(100u, 90u));
+    EXPECT_EQ(sizeOf("0.01,0,0", "0,0.01,0"), std::pair(1u, 1u));
+    write("grid.xml", pointLight + grid.substr(0, grid.size() - 2) + " spacing=\"en12464\"?>");
+    expectRefused({"render", "grid.xml", "--grid", "out.csv"}, "both spacing and nx");
+    write("grid.xml",
+          pointLight +
+              "<?quasilux illuminance-grid origin=\"0,0,0\" edge-u=\"1,0,0\" edge-v=\"0,1,0\" spacing=\"1\"?>");
+    expectRefused({"render", "grid.xml", "--grid", "out.csv"}, "expected en12464");
+}
+
 TEST_F(GridTest, AMeterIsPrinted) {
     write("meter.xml", pointLight +
                            "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.001\"/>"

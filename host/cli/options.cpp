@@ -181,6 +181,11 @@ void declareFiles(CLI::App& command, RenderOptions& options) {
                     "An image is written only if --output is given (default: none)")
         ->type_name("FILE")
         ->group(group);
+    command
+        .add_flag("--daylight-factor", options.daylightFactor,
+                  "Of a grid or irradiancemeter also the share of the sky's illuminance of free ground, without the "
+                  "sun and lamps (default: off)")
+        ->group(group);
     command.add_option("--stats", options.stats, "Statistics, .json (default: none)")->type_name("FILE")->group(group);
     auto* stops = command
                       .add_option("--exposure", options.exposure.stops,

@@ -47,8 +47,9 @@ struct SceneOptions {
 
 struct RenderOptions : SceneOptions {
     std::string output, png, stats, grid; ///< paths; empty = not asked for
-    std::string checkpoint, resume;       ///< likewise
-    double every = 60;                    ///< seconds between checkpoints
+    bool daylightFactor = false;
+    std::string checkpoint, resume; ///< likewise
+    double every = 60;              ///< seconds between checkpoints
     StopRule stop;
     ExposureChoice exposure;
 

@@ -10,6 +10,7 @@
 #include "output/meter_reading.h"
 #include "output/progress_line.h"
 #include "output/statistics.h"
+#include "scene/skies/daylight_factor.h"
 #include "util/error.h"
 #include "util/process_memory.h"
 
@@ -197,6 +198,20 @@ RenderRecord makeRecord(const RenderOptions& options, const StopRule& stop, Devi
     return record;
 }
 
+/// Illuminance of free ground, lx, where daylight factors are asked for: then the scene's other lights are left out.
+std::optional<double> skyOfDaylightFactor(const RenderOptions& options, Scene& scene) {
+    if (!options.daylightFactor) return std::nullopt;
+    if (!isIrradiance(scene.sensor.meter))
+        throw InputError(scene.sensor.where,
+                         "--daylight-factor is of points or surfaces: give --grid FILE, or a sensor "
+                         "'irradiancemeter'.");
+    const SkyAlone sky = keepSkyAlone(scene);
+    if (sky.leftOut > 0)
+        warn(options, fmt::format("--daylight-factor: {} emitters besides the sky are left out", sky.leftOut));
+    const glm::dvec3& irradiance = sky.groundIrradiance;
+    return photometric({irradiance.x, irradiance.y, irradiance.z}, options.settings(scene).photometric);
+}
+
 int renderSensor(const RenderOptions& options) {
     exitOnInterrupt();
     checkOutputs(options);
@@ -205,6 +220,7 @@ int renderSensor(const RenderOptions& options) {
     const auto start = Clock::now();
     Scene scene = loadScene(options.scene, options.parameters(), options.choice());
     if (!options.grid.empty()) measureGrid(scene);
+    const auto daylight = skyOfDaylightFactor(options, scene);
     const double loadSeconds = secondsSince(start);
     progress.clear();
     for (const auto& warning : scene.warnings) warn(options, warning);
@@ -236,6 +252,7 @@ int renderSensor(const RenderOptions& options) {
     progress.update({.phase = "writing"});
     RenderRecord record = makeRecord(options, started.stop(), device, render, scene.sensor);
     record.loadSeconds = loadSeconds;
+    record.unobstructedIlluminance = daylight;
     const WrittenFiles written = writeFiles(
         options, scene, image, renderAovs(device, scene, render.settings, samplesOfAovs(image.passes)), record);
     progress.clear();

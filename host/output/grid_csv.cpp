@@ -26,12 +26,29 @@ void writeSettings(std::ostream& out, const RenderRecord& record) {
          settings.photometric ? "lx: 0.2126 R + 0.7152 G + 0.0722 B" : "lx: 683 lm/W (0.2126 R + 0.7152 G + 0.0722 B)");
 }
 
-void writeNames(std::ostream& out) {
+void writeFigures(std::ostream& out, const RenderRecord& record, const FilmImage& image) {
+    const GridFigures figures = gridFigures(image, record.settings.photometric);
+    const auto line = [&](const char* key, double value, double error, const char* unit) {
+        const std::string spread = image.passes > 1 ? fmt::format(" +- {:.2g}", error) : "";
+        fmt::print(out, "# {}: {:.6g}{}{}\n", key, value, spread, unit);
+    };
+    line("mean", figures.mean, figures.meanStandardError, " lx");
+    line("minimum", figures.minimum.photometricValue, figures.minimum.photometricStandardError, " lx");
+    line("maximum", figures.maximum.photometricValue, figures.maximum.photometricStandardError, " lx");
+    line("U0", figures.overall, figures.overallStandardError, " (minimum / mean)");
+    line("Ud", figures.diversity, figures.diversityStandardError, " (minimum / maximum)");
+    if (record.unobstructedIlluminance)
+        fmt::print(out, "# daylightFactor: % of {:.9g} lx, free ground under the sky without sun and lamps\n",
+                   *record.unobstructedIlluminance);
+}
+
+void writeNames(std::ostream& out, bool hasDaylightFactor) {
     out << "i,j,x,y,z,nx,ny,nz,illuminance,illuminance_stderr";
     for (const char* channel : {"R", "G", "B"}) out << ",irradiance_" << channel;
     for (const char* channel : {"R", "G", "B"}) out << ",stderr_" << channel;
     for (unsigned c = 0; c < components; ++c)
         for (const char* channel : {"R", "G", "B"}) out << ',' << componentName(c) << '_' << channel;
+    if (hasDaylightFactor) out << ",daylight_factor,daylight_factor_stderr";
     out << '\n';
 }
 
@@ -40,7 +57,7 @@ void writeTriple(std::ostream& out, const std::array<double, 3>& value) {
 }
 
 void writePoint(std::ostream& out, const IlluminanceGrid& grid, unsigned i, unsigned j, const MeterReading& reading,
-                bool hasError) {
+                bool hasError, const std::optional<double>& unobstructed) {
     const glm::dvec3 p = grid.point(i, j), n = grid.normal();
     fmt::print(out, "{},{}", i, j);
     writeTriple(out, {p.x, p.y, p.z});
@@ -53,6 +70,10 @@ void writePoint(std::ostream& out, const IlluminanceGrid& grid, unsigned i, unsi
     else
         out << ",,,"; // one pass gives no estimate of the error
     for (unsigned c = 0; c < components; ++c) writeTriple(out, reading.components[c]);
+    if (unobstructed) {
+        fmt::print(out, ",{:.9g},", 100 * reading.photometricValue / *unobstructed);
+        if (hasError) fmt::print(out, "{:.9g}", 100 * reading.photometricStandardError / *unobstructed);
+    }
     out << '\n';
 }
 
@@ -63,11 +84,12 @@ void writeGridCsv(const std::string& path, const IlluminanceGrid& grid, const Fi
     AtomicFile file(path);
     std::ofstream out(file.temporary());
     writeSettings(out, record);
-    writeNames(out);
+    writeFigures(out, record, image);
+    writeNames(out, record.unobstructedIlluminance.has_value());
     for (unsigned j = 0; j < grid.ny; ++j)
         for (unsigned i = 0; i < grid.nx; ++i)
             writePoint(out, grid, i, j, readingOf(image, size_t{j} * grid.nx + i, record.settings.photometric),
-                       image.passes > 1);
+                       image.passes > 1, record.unobstructedIlluminance);
     out.close();
     if (!out) throw std::runtime_error("cannot write " + path);
     file.commit();

@@ -1,5 +1,6 @@
 #include "output/meter_reading.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -56,6 +57,52 @@ MeterReading meanReading(const FilmImage& image, bool unitsArePhotometric) {
     return mean;
 }
 
+namespace {
+
+double errorOfRatio(const MeterReading& over, double under, double underError) {
+    if (!(over.photometricValue > 0 && under > 0)) return 0;
+    return over.photometricValue / under *
+           std::hypot(over.photometricStandardError / over.photometricValue, underError / under);
+}
+
+nlohmann::json known(const FilmImage& image, double value) {
+    return image.passes > 1 ? nlohmann::json(value) : nlohmann::json(); // one pass gives no estimate of the error
+}
+
+nlohmann::json gridJson(const FilmImage& image, bool units) {
+    const GridFigures figures = gridFigures(image, units);
+    return {{"points", image.radiance.size() / 3},
+            {"minimum", figures.minimum.photometricValue},
+            {"minimumStandardError", known(image, figures.minimum.photometricStandardError)},
+            {"maximum", figures.maximum.photometricValue},
+            {"maximumStandardError", known(image, figures.maximum.photometricStandardError)},
+            {"U0", figures.overall},
+            {"U0StandardError", known(image, figures.overallStandardError)},
+            {"Ud", figures.diversity},
+            {"UdStandardError", known(image, figures.diversityStandardError)}};
+}
+
+} // namespace
+
+GridFigures gridFigures(const FilmImage& image, bool unitsArePhotometric) {
+    GridFigures found;
+    for (size_t k = 0; k < image.radiance.size() / 3; ++k) {
+        const MeterReading here = readingOf(image, k, unitsArePhotometric);
+        if (k == 0 || here.photometricValue < found.minimum.photometricValue) found.minimum = here;
+        if (k == 0 || here.photometricValue > found.maximum.photometricValue) found.maximum = here;
+    }
+    const MeterReading mean = meanReading(image, unitsArePhotometric);
+    found.mean = mean.photometricValue;
+    found.meanStandardError = mean.photometricStandardError;
+    if (!(found.mean > 0)) return found;
+    found.overall = found.minimum.photometricValue / found.mean;
+    found.overallStandardError = errorOfRatio(found.minimum, found.mean, found.meanStandardError);
+    found.diversity = found.minimum.photometricValue / found.maximum.photometricValue;
+    found.diversityStandardError =
+        errorOfRatio(found.minimum, found.maximum.photometricValue, found.maximum.photometricStandardError);
+    return found;
+}
+
 nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image) {
     const bool units = record.settings.photometric;
     const MeterReading reading = meanReading(image, units);
@@ -74,6 +121,13 @@ nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image) {
         json["standardError"] = reading.standardError;
         json[key + "StandardError"] = reading.photometricStandardError;
     }
+    if (record.unobstructedIlluminance) {
+        const double percent = 100 / *record.unobstructedIlluminance;
+        json["unobstructedIlluminance"] = *record.unobstructedIlluminance;
+        json["daylightFactor"] = percent * reading.photometricValue;
+        json["daylightFactorStandardError"] = known(image, percent * reading.photometricStandardError);
+    }
+    if (record.meter == MeterKind::grid) json["grid"] = gridJson(image, units);
     return json;
 }
 
@@ -93,6 +147,17 @@ std::string meterText(const RenderRecord& record, const FilmImage& image) {
     const bool irradiance = isIrradiance(record.meter);
     text += line(irradiance ? "illuminance" : "luminance", reading.photometricValue, reading.photometricStandardError,
                  irradiance ? "lx" : "cd/m2");
+    if (record.unobstructedIlluminance) {
+        const double percent = 100 / *record.unobstructedIlluminance;
+        text += line("daylight factor", percent * reading.photometricValue, percent * reading.photometricStandardError,
+                     fmt::format("% of {:.6g} lx", *record.unobstructedIlluminance).c_str());
+    }
+    if (record.meter == MeterKind::grid) {
+        const GridFigures figures = gridFigures(image, units);
+        text += line("minimum", figures.minimum.photometricValue, figures.minimum.photometricStandardError, "lx");
+        text += line("uniformity U0", figures.overall, figures.overallStandardError, "(minimum / mean)");
+        text += line("diversity Ud", figures.diversity, figures.diversityStandardError, "(minimum / maximum)");
+    }
     return text;
 }
 

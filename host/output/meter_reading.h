@@ -26,6 +26,16 @@ MeterReading readingOf(const FilmImage& image, size_t pixel, bool unitsArePhotom
 /// Mean over the film; its standard error is the mean of those of the pixels, which share photons: an upper bound.
 MeterReading meanReading(const FilmImage& image, bool unitsArePhotometric);
 
+/// What norms ask of the points of a grid: lx, or percent of daylight factors, which have the same ratios.
+struct GridFigures {
+    MeterReading minimum, maximum; ///< of the points
+    double mean = 0, meanStandardError = 0;
+    double overall = 0, overallStandardError = 0;     ///< U0: minimum over mean (EN 12464-1)
+    double diversity = 0, diversityStandardError = 0; ///< Ud: minimum over maximum
+};
+/// Errors of ratios as though those of their terms were independent. The minimum of noisy values is too low by about their noise.
+GridFigures gridFigures(const FilmImage& image, bool unitsArePhotometric);
+
 /// "irradiance" or "radiance".
 const char* quantityName(MeterKind meter);
 

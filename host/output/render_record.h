@@ -7,6 +7,7 @@
 #include "render/renderer.h"
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace quasilux {
@@ -25,6 +26,7 @@ struct RenderRecord {
     ErrorEstimate error;
     PixelFormat pixelFormat;           ///< what the image holds beside R, G, B
     MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
+    std::optional<double> unobstructedIlluminance; ///< lx, of which illuminances are stated as daylight factors too
     std::map<std::string, KernelTiming> kernels;
     uint64_t peakBufferBytes = 0;             ///< most that were in use at once, of all candidates
     uint64_t peakHostBytes = 0;               ///< of the process, until the images are written

@@ -1,5 +1,7 @@
 #include "prepare/environment.h"
 
+#include "scene/skies/sky_image.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -78,15 +80,7 @@ Probabilities probabilitiesOf(const EnvironmentImage& image) {
 
 // Over the sphere, of the image as it is looked up: linear in the angle between rows.
 Rgb meanRadiance(const EnvironmentImage& image) {
-    const double step = pi / (image.height - 1);
-    std::vector<double> weights(image.height);
-    for (unsigned row = 0; row + 1 < image.height; ++row) {
-        const double a = row * step, b = (row + 1) * step, all = std::cos(a) - std::cos(b);
-        const double lower =
-            (std::sin(b) - std::sin(a)) / step - std::cos(b); // integral of sin weighted by (angle - a) / step
-        weights[row] += all - lower;
-        weights[row + 1] += lower;
-    }
+    const std::vector<double> weights = solidAnglesOfRows(image.height);
     double sum[3] = {0, 0, 0};
     for (unsigned row = 0; row < image.height; ++row) {
         double ofRow[3] = {0, 0, 0};
@@ -96,7 +90,7 @@ Rgb meanRadiance(const EnvironmentImage& image) {
             ofRow[1] += pixel.g;
             ofRow[2] += pixel.b;
         }
-        for (int c = 0; c < 3; ++c) sum[c] += weights[row] * ofRow[c] / (2.0 * image.width);
+        for (int c = 0; c < 3; ++c) sum[c] += weights[row] * ofRow[c] / (4 * pi * image.width);
     }
     return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
 }

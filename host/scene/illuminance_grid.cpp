@@ -4,6 +4,7 @@
 #include "scene/xml/numbers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -11,8 +12,13 @@ namespace quasilux {
 namespace {
 
 constexpr std::string_view kind = "illuminance-grid";
-const Names gridNames = {"origin", "edge-u", "edge-v", "nx", "ny", "normal"};
+const Names gridNames = {"origin", "edge-u", "edge-v", "nx", "ny", "normal", "spacing"};
 constexpr uint64_t maximumPoints = 32768; // along one side, as of a film
+
+bool has(const Instruction& instruction, std::string_view key) {
+    return std::any_of(instruction.entries.begin(), instruction.entries.end(),
+                       [&](const Attribute& entry) { return entry.name == key; });
+}
 
 const std::string& valueOf(const Instruction& instruction, std::string_view key) {
     const auto found = std::find_if(instruction.entries.begin(), instruction.entries.end(),
@@ -38,11 +44,32 @@ unsigned countOf(const Instruction& instruction, std::string_view key) {
     return static_cast<unsigned>(parseUnsigned(valueOf(instruction, key), 1, maximumPoints, instruction.where, key));
 }
 
+/// EN 12464-1:2021, 4.4: at most p = 0.2 * 5^(log10 d) m between points, d being the longer side, or the shorter one where the longer is twice
+/// as long or more; p is at most 10 m. Sides are in metres.
+void countBySpacing(const Instruction& instruction, IlluminanceGrid& grid) {
+    const std::string& rule = valueOf(instruction, "spacing");
+    if (rule != "en12464")
+        throw InputError(
+            instruction.where,
+            fmt::format("illuminance-grid: spacing is '{}'; expected en12464, or nx and ny instead.", rule));
+    for (const char* key : {"nx", "ny"})
+        if (has(instruction, key))
+            throw InputError(
+                instruction.where,
+                fmt::format("illuminance-grid: both spacing and {}; keep the spacing, or nx and ny.", key));
+    const double u = glm::length(grid.edgeU), v = glm::length(grid.edgeV);
+    const double shorter = std::min(u, v), longer = std::max(u, v), d = longer / shorter < 2 ? longer : shorter;
+    const double p = std::min(0.2 * std::pow(5, std::log10(d)), 10.0);
+    const auto count = [&](double side) {
+        return static_cast<unsigned>(std::clamp(std::round(side / p), 1.0, double(maximumPoints)));
+    };
+    grid.nx = count(u);
+    grid.ny = count(v);
+}
+
 /// `normal` only chooses one of the two sides: photons are counted where they cross the grid.
 bool isFlipped(const Instruction& instruction, const IlluminanceGrid& grid) {
-    const bool given = std::any_of(instruction.entries.begin(), instruction.entries.end(),
-                                   [](const Attribute& entry) { return entry.name == "normal"; });
-    if (!given) return false;
+    if (!has(instruction, "normal")) return false;
     const glm::dvec3 normal = vectorOf(instruction, "normal");
     const double cosine = glm::dot(grid.normal(), normal) / glm::length(normal);
     if (!(std::abs(cosine) > 1 - 1e-4))
@@ -72,11 +99,15 @@ IlluminanceGrid parseIlluminanceGrid(const Instruction& instruction) {
     grid.origin = vectorOf(instruction, "origin");
     grid.edgeU = vectorOf(instruction, "edge-u");
     grid.edgeV = vectorOf(instruction, "edge-v");
-    grid.nx = countOf(instruction, "nx");
-    grid.ny = countOf(instruction, "ny");
     const double area = glm::length(glm::cross(grid.edgeU, grid.edgeV));
     if (!(area > 1e-6 * glm::length(grid.edgeU) * glm::length(grid.edgeV)))
         throw InputError(instruction.where, "illuminance-grid: edge-u and edge-v span no area.");
+    if (has(instruction, "spacing")) {
+        countBySpacing(instruction, grid);
+    } else {
+        grid.nx = countOf(instruction, "nx");
+        grid.ny = countOf(instruction, "ny");
+    }
     grid.flipNormals = isFlipped(instruction, grid);
     return grid;
 }

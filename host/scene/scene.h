@@ -222,6 +222,7 @@ struct EnvironmentImage {
     unsigned width = 0, height = 0; ///< pixels, at least 1 × 2
     std::vector<Rgb> pixels;        ///< W sr^-1 m^-2, row by row from +y on
     glm::dmat3 axes{1.0};           ///< its own x, y, z in the world, orthonormal
+    bool hasSun = false;            ///< the sun's disc is a part of it
 };
 
 /// Radiance that comes from everywhere outside of the scene, W sr^-1 m^-2.

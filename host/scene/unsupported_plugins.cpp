@@ -10,8 +10,6 @@ struct Unsupported {
 
 constexpr std::string_view noPolarisation = "light has no polarisation here; remove it";
 constexpr std::string_view asMesh = "export the shape as a mesh, such as 'ply'";
-constexpr std::string_view ofSky =
-    "use 'quasilux_cie_sky', or 'envmap' with an image of the sky, and 'directional' for the sun";
 
 constexpr std::string_view derivatives = "it is there for derivatives; use 'path', or 'volpath' where there are media";
 
@@ -26,8 +24,8 @@ constexpr Unsupported unsupported[] = {
     {"bsdf", "polarizer", noPolarisation},
     {"bsdf", "retarder", noPolarisation},
     {"bsdf", "circular", noPolarisation},
-    {"emitter", "sunsky", ofSky},
-    {"emitter", "timed_sunsky", ofSky},
+    {"emitter", "timed_sunsky",
+     "it moves the sun while the shutter is open; use 'sunsky', which has one place and time"},
     {"sensor", "distant",
      "use sensor 'orthographic', whose rays are parallel too, or 'radiancemeter' for a single ray"},
     {"integrator", "ptracer", "use 'path', or 'volpath' where there are media: photons are traced for either"},

@@ -1,5 +1,7 @@
 #include "scene/emitters/cie_sky.h"
 
+#include "scene/skies/daylight.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,18 +53,7 @@ double cieSkyLuminance(int type, const glm::dvec3& direction, const glm::dvec3& 
 }
 
 double cieSkyIlluminance(int type, const glm::dvec3& sun) {
-    constexpr int rows = 720, columns = 720;
-    double sum = 0;
-    for (int row = 0; row < rows; ++row) {
-        const double zenith = std::numbers::pi / 2 * (row + 0.5) / rows, across = std::sin(zenith);
-        double ofRow = 0;
-        for (int column = 0; column < columns; ++column) {
-            const double turn = 2 * std::numbers::pi * (column + 0.5) / columns;
-            ofRow += cieSkyLuminance(type, {across * std::cos(turn), across * std::sin(turn), std::cos(zenith)}, sun);
-        }
-        sum += ofRow * across * std::cos(zenith);
-    }
-    return sum * (std::numbers::pi / 2 / rows) * (2 * std::numbers::pi / columns);
+    return illuminanceOnGround([&](const glm::dvec3& direction) { return cieSkyLuminance(type, direction, sun); });
 }
 
 } // namespace quasilux

@@ -32,6 +32,8 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"projector", readProjector},
     {"quasilux_ies", readLuminaire},
     {"quasilux_cie_sky", readCieSky},
+    {"quasilux_perez_sky", readPerezSky},
+    {"sunsky", readSunSky},
 };
 
 [[noreturn]] void throwNotHere(const Element& element) {

@@ -35,9 +35,11 @@ void readConstant(Properties& properties);
 void readEnvmap(Properties& properties);
 void readLuminaire(Properties& properties);
 void readCieSky(Properties& properties);
+void readPerezSky(Properties& properties);
 void readDirectional(Properties& properties);
 void readPoint(Properties& properties);
 void readProjector(Properties& properties);
 void readSpot(Properties& properties);
+void readSunSky(Properties& properties);
 
 } // namespace quasilux

@@ -1,17 +1,14 @@
 // <emitter type="quasilux_cie_sky">: one of the CIE's standard skies as surroundings, with or without the sun's own light.
 #include "scene/emitters/cie_sky.h"
 #include "scene/emitters/emitters.h"
+#include "scene/skies/daylight.h"
+#include "scene/skies/place_and_time.h"
 
-#include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace quasilux {
 
 namespace {
-
-// An odd number of rows: one of them is the horizon.
-constexpr unsigned skyHeight = 721, skyWidth = 1440;
 
 int readSkyType(Properties& properties) {
     const int64_t type = properties.integer("sky_type", cieSkyTypes);
@@ -22,16 +19,6 @@ int readSkyType(Properties& properties) {
                         "overcast sky.",
                         type));
     return static_cast<int>(type);
-}
-
-/// Towards it, up is +z.
-glm::dvec3 readSun(Properties& properties) {
-    const glm::dvec3 sun = properties.direction("sun_direction", {0, 0, 1});
-    if (sun.z < 0)
-        throw InputError(
-            properties.where("sun_direction"),
-            "the sun is below the horizon (z < 0); CIE S 011 has no such sky. Point sun_direction upwards.");
-    return sun;
 }
 
 /// cd/m² at the zenith.
@@ -46,62 +33,20 @@ double readZenith(Properties& properties, int type, const glm::dvec3& sun) {
     return properties.numberAbove("illuminance", 10000, 0, true) / cieSkyIlluminance(type, sun);
 }
 
-Rgb middle(Rgb a, Rgb b) { return {(a.r + b.r) / 2, (a.g + b.g) / 2, (a.b + b.b) / 2}; }
-
-/// The row of the horizon is half sky and half ground: between rows the image is linear, and so walls get as much of both as they
-/// should. Rows from the zenith down, columns as kernels/emitters/envmap.clh has them: from -z over +x of the image, whose y is up.
-std::vector<Rgb> skyPixels(int type, const glm::dvec3& sun, Rgb zenith, Rgb ground) {
-    std::vector<Rgb> pixels;
-    pixels.reserve(size_t(skyHeight) * skyWidth);
-    for (unsigned row = 0; row < skyHeight; ++row) {
-        const double polar = std::numbers::pi * row / (skyHeight - 1);
-        const bool isHorizon = 2 * row == skyHeight - 1;
-        const double up = isHorizon ? 0 : std::cos(polar), across = std::sin(polar);
-        for (unsigned column = 0; column < skyWidth; ++column) {
-            const double turn = 2 * std::numbers::pi * (column + 0.5) / skyWidth;
-            // The image's own x is the sky's, its z the sky's -y.
-            const glm::dvec3 direction(across * std::sin(turn), across * std::cos(turn), up);
-            const Rgb seen = zenith * static_cast<float>(cieSkyLuminance(type, direction, sun));
-            pixels.push_back(isHorizon ? middle(seen, ground) : up < 0 ? ground : seen);
-        }
-    }
-    return pixels;
-}
-
-void addSun(Properties& properties, const glm::dvec3& towards, Rgb irradiance) {
-    DirectionalEmitter emitter;
-    emitter.id = idOf(properties.element()) + ".sun";
-    emitter.where = properties.element().where;
-    emitter.direction = glm::vec3(-towards);
-    emitter.irradiance = irradiance;
-    properties.context().scene.directionalEmitters.push_back(emitter);
-}
-
 } // namespace
 
 void readCieSky(Properties& properties) {
     Surroundings& surroundings = addSurroundings(properties);
     const int type = readSkyType(properties);
-    const glm::dvec3 sun = readSun(properties);
-    const double zenith = readZenith(properties, type, sun);
-    const double albedo = properties.share("ground_albedo", 0);
-    const double sunIlluminance = properties.numberAbove("sun_illuminance", 0, 0, false);
-    const glm::dmat3 axes = axesOfSurroundings(properties);
-    const Rgb colour = readLightColour(properties);
-    const double factor = radiantFactor(properties);
-    const SourceLocation& where = properties.element().where;
-    const auto coloured = [&](double amount) {
-        return colour * toFiniteFloat(factor * amount, where, "the luminance");
+    Daylight daylight;
+    daylight.sun = readSunOfMap(properties).towards;
+    const double zenith = readZenith(properties, type, daylight.sun);
+    daylight.luminance = [&](const glm::dvec3& direction) {
+        return zenith * cieSkyLuminance(type, direction, daylight.sun);
     };
-
-    EnvironmentImage image;
-    image.width = skyWidth;
-    image.height = skyHeight;
-    image.axes = {axes[0], axes[2], -axes[1]};
-    const double onGround = zenith * cieSkyIlluminance(type, sun) + sunIlluminance * sun.z;
-    image.pixels = skyPixels(type, sun, coloured(zenith), coloured(albedo / std::numbers::pi * onGround));
-    surroundings.image = std::move(image);
-    if (sunIlluminance > 0) addSun(properties, axes * sun, coloured(sunIlluminance));
+    daylight.skyIlluminance = zenith * cieSkyIlluminance(type, daylight.sun);
+    daylight.sunIlluminance = properties.numberAbove("sun_illuminance", 0, 0, false);
+    addDaylight(properties, surroundings, daylight);
 }
 
 } // namespace quasilux
