@@ -67,9 +67,9 @@ class Table:
     def errors(self, scene, settings, seconds=None):
         """Estimated error, true one or None, statistics."""
         statistics, image = self.render(scene, settings, seconds or self.options.time)
-        told = statistics["error"]["relativeMse"]
+        estimated = statistics["error"]["relativeMse"]
         net = true_error(scene, image)
-        return (math.sqrt(told) if told is not None else math.inf), (math.sqrt(net) if net and net > 0 else None), statistics
+        return (math.sqrt(estimated) if estimated is not None else math.inf), (math.sqrt(net) if net and net > 0 else None), statistics
 
     def has_media(self, scene):
         return "<medium" in (ROOT / "scenes" / f"{scene}.xml").read_text()
@@ -94,9 +94,9 @@ class Table:
     def screened(self, scene):
         """The fixed settings that a render of a sixth of the time does not rule out: the best three whose error is within 1.3 times
         the least."""
-        told = {tuple(settings): self.errors(scene, settings, self.options.time / 6)[0] for settings in self.fixed(scene)}
-        best = sorted(told, key=told.get)[:3]
-        return [settings for settings in best if told[settings] <= 1.3 * told[best[0]]]
+        estimated = {tuple(settings): self.errors(scene, settings, self.options.time / 6)[0] for settings in self.fixed(scene)}
+        best = sorted(estimated, key=estimated.get)[:3]
+        return [settings for settings in best if estimated[settings] <= 1.3 * estimated[best[0]]]
 
     def best_fixed(self, scene):
         """The best of these, with the photons and the radius that are best for it, one step after the other."""
@@ -134,7 +134,7 @@ class Table:
         def root(values):
             return math.sqrt(sum(value * value for value in values) / len(values)) if None not in values else None
 
-        return root([told for told, _, _ in all_errors]), root([true for _, true, _ in all_errors]), all_errors[0][2]
+        return root([estimated for estimated, _, _ in all_errors]), root([true for _, true, _ in all_errors]), all_errors[0][2]
 
     def row(self, scene):
         best = self.best_fixed(scene)

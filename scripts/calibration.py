@@ -45,9 +45,9 @@ class Calibration:
     """Root mean squares over pixels, relative: true ones of noise and bias, and those that renders estimated."""
 
     noise: float
-    told_noise: float
+    estimated_noise: float
     bias: float
-    told_bias: float
+    estimated_bias: float
     slope: float  # of the true bias on the estimated one, over pixels
 
 
@@ -88,7 +88,7 @@ def calibrate(program, name, scene, passes, folder):
     seeds = scene.seeds
     renders = [render(program, scene, passes, seed, folder / f"{name}_{passes}_{seed}") for seed in range(1, seeds + 1)]
     images, biases = (np.array([r[k] for r in renders]) for k in (0, 1))
-    told = [r[2]["error"]["total"] for r in renders]
+    estimated = [r[2]["error"]["total"] for r in renders]
     weight = relmse_weight(scene.reference, mean_about(scene.reference))  # as the program weighs squared errors
     true_bias = unbiased_square(images, weight, scene.reference) - scene.noise
     estimated = unbiased_square(biases, weight, 0)
@@ -99,9 +99,9 @@ def calibrate(program, name, scene, passes, folder):
     root = lambda square: float(np.sqrt(max(0.0, square)))
     return Calibration(
         root((images.var(axis=0, ddof=1) * weight).mean()),
-        root(np.mean([t["noiseRms"] ** 2 for t in told])),
+        root(np.mean([t["noiseRms"] ** 2 for t in estimated])),
         root(true_bias),
-        root(np.mean([t["biasRms"] ** 2 for t in told])),
+        root(np.mean([t["biasRms"] ** 2 for t in estimated])),
         both / estimated if estimated > 0 else float("nan"),
     )
 
@@ -113,9 +113,9 @@ def draw(results):
         passes = sorted(rows)
         percent = lambda member: [100 * getattr(rows[n], member) for n in passes]
         axis.loglog(passes, percent("noise"), "C0o-", label="noise, true")
-        axis.loglog(passes, percent("told_noise"), "C0x--", label="noise, estimated", markersize=9)
+        axis.loglog(passes, percent("estimated_noise"), "C0x--", label="noise, estimated", markersize=9)
         axis.loglog(passes, percent("bias"), "C3o-", label="bias, true")
-        axis.loglog(passes, percent("told_bias"), "C3x--", label="bias, estimated", markersize=9)
+        axis.loglog(passes, percent("estimated_bias"), "C3x--", label="bias, estimated", markersize=9)
         axis.set_xticks(passes, [str(n) for n in passes])
         axis.set_yticks([1, 2, 5, 10, 20], ["1", "2", "5", "10", "20"])
         axis.set_ylim(1, 20)
@@ -145,9 +145,9 @@ def main():
         rows = results.setdefault(scene.title, {})
         for passes in scene.passes:
             c = rows[passes] = calibrate(options.program, name, scene, passes, folder)
-            cells = [f"{100 * c.noise:.2f} %", f"{100 * c.told_noise:.2f} %", f"{c.told_noise / c.noise:.2f}"]
-            ratio = f"{c.told_bias / c.bias:.2f}" if c.bias > 0 else "-"
-            cells += [f"{100 * c.bias:.2f} %", f"{100 * c.told_bias:.2f} %", ratio, f"{c.slope:.2f}"]
+            cells = [f"{100 * c.noise:.2f} %", f"{100 * c.estimated_noise:.2f} %", f"{c.estimated_noise / c.noise:.2f}"]
+            ratio = f"{c.estimated_bias / c.bias:.2f}" if c.bias > 0 else "-"
+            cells += [f"{100 * c.bias:.2f} %", f"{100 * c.estimated_bias:.2f} %", ratio, f"{c.slope:.2f}"]
             print(f"| {scene.title} | {passes} | " + " | ".join(cells) + " |", flush=True)
     draw(results)
 

@@ -54,8 +54,8 @@ std::vector<float> chooseRadii(const std::vector<float>& film, double largest = 
 double bestRadius(const Light& light) {
     const double noise =
         3 * 1.6 * light.variance * inverseSquares / passes / passes * std::pow(passes / squaredRadii, 2);
-    const double told = 3 * light.curvature * light.curvature - noise;
-    return std::pow(noiseToCurvature * 3 * light.variance / (2 * 3 * std::max(told, 0.1 * noise)), 1.0 / 6);
+    const double net = 3 * light.curvature * light.curvature - noise;
+    return std::pow(noiseToCurvature * 3 * light.variance / (2 * 3 * std::max(net, 0.1 * noise)), 1.0 / 6);
 }
 
 TEST(AdaptiveRadius, BalancesNoiseAndBias) {

@@ -78,8 +78,8 @@ constexpr double scatterOfSum = 0.16; // of 64 tiles
 // Biases that noise hides say nothing for either, nor that one radius is better. Controls: biases that are resolved.
 TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
     PilotMeasure a = evenPilot(4, 1, 0.2, 1), b = evenPilot(4, 1, 0.3, 1);
-    const auto told = predictedErrors({a, b}, 0);
-    EXPECT_NEAR(told[1] - told[0], 0.1, 1e-9);
+    const auto predicted = predictedErrors({a, b}, 0);
+    EXPECT_NEAR(predicted[1] - predicted[0], 0.1, 1e-9);
     for (auto* pilot : {&a, &b}) addScatter(*pilot);
     const auto hidden = predictedErrors({a, b}, 0);
     EXPECT_NEAR(hidden[0], hidden[1], 1e-9);
@@ -120,8 +120,8 @@ TEST(Prediction, HoldsInARender) {
     for (unsigned pass = 0; pass < 8; ++pass) renderer.renderPass(pass);
     const PilotMeasure pilot = measurePilot(renderer.develop(), false, 1);
     for (unsigned pass = 8; pass < 64; ++pass) renderer.renderPass(pass);
-    const ErrorEstimate told = estimateError(renderer.develop());
-    const double noise = told.total.noiseRms * told.total.noiseRms;
+    const ErrorEstimate estimate = estimateError(renderer.develop());
+    const double noise = estimate.total.noiseRms * estimate.total.noiseRms;
     EXPECT_NEAR(predictAfterPasses(pilot, 64).noise / noise, 1, 0.3);
     EXPECT_GT(predictAfterPasses(pilot, 8).noise / noise, 2);
 }

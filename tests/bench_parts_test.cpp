@@ -76,7 +76,7 @@ TEST(Growth, ReportsWhereASeriesStopped) {
     EXPECT_NEAR(figures.at("exponents").at("pass").at("exponent").get<double>(), 1, 1e-9);
     EXPECT_NEAR(figures.at("exponents").at("tracePhotons").at("exponent").get<double>(), 2, 1e-9);
     EXPECT_FALSE(figures.at("exponents").contains("tiny")) << "a kernel that takes next to nothing";
-    EXPECT_FALSE(figures.at("exponents").contains("preparing")) << "told of triangles only";
+    EXPECT_FALSE(figures.at("exponents").contains("preparing")) << "measured by triangles only";
     EXPECT_EQ(figures.at("stopped"), series.stopped);
     EXPECT_THAT(section.tables.at(0).note, HasSubstr("Stopped at 1000: no memory"));
     EXPECT_THAT(section.tables.at(0).plot, HasSubstr("<svg"));

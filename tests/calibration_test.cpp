@@ -227,16 +227,16 @@ TEST(Calibration, BiasIsThatAgainstTheReference) {
         const auto& images = renders()[k];
         const BiasProducts products = biasProducts(images);
         const double truth = std::sqrt(products.trueSquared);
-        const double told = predicted(images, [](const ErrorEstimate& e) { return e.total.biasRms; });
+        const double estimated = predicted(images, [](const ErrorEstimate& e) { return e.total.biasRms; });
         const double slope = products.both / products.estimatedSquared;
         const double left = std::sqrt(
             std::max(0.0, products.trueSquared - 2 * products.both + products.estimatedSquared) / products.trueSquared);
         printf("%3u passes: true bias %.3f %%, estimated %.3f %%, from all seeds %.3f %%; true on estimated %.2f, left "
                "after "
                "correction %.2f\n",
-               checkpoints[k], 100 * truth, 100 * told, 100 * std::sqrt(products.estimatedSquared), slope, left);
-        EXPECT_LT(truth, 2 * told) << checkpoints[k];
-        EXPECT_LT(told, 2 * truth) << checkpoints[k];
+               checkpoints[k], 100 * truth, 100 * estimated, 100 * std::sqrt(products.estimatedSquared), slope, left);
+        EXPECT_LT(truth, 2 * estimated) << checkpoints[k];
+        EXPECT_LT(estimated, 2 * truth) << checkpoints[k];
         // Pixel by pixel: the estimate has the true bias' sign and size.
         EXPECT_GT(slope, 0.7);
         EXPECT_LT(slope, 1.4);

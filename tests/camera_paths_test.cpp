@@ -50,7 +50,7 @@ TEST(CameraPaths, BestNumberIsTheSquareRootOfBothRatios) {
     EXPECT_EQ(bestCameraPaths(pilotOf(0.04, 0.01, 1, 16), 1, seconds), 8u);
     EXPECT_EQ(bestCameraPaths(pilotOf(0.01, 0.01, 1, 16), 1, seconds), 4u);
     EXPECT_EQ(bestCameraPaths(pilotOf(0.01, 0.01, 16, 1), 1, seconds), 1u);
-    // The same one, told by a pilot that has four of them.
+    // The same one, measured by a pilot that has four of them.
     EXPECT_EQ(bestCameraPaths(withCameraPaths(pilotOf(0.04, 0.01, 1, 16), 4), 4, seconds), 8u);
     // Few passes would not know their error.
     EXPECT_EQ(bestCameraPaths(pilotOf(0.04, 0.01, 1, 16), 1, 3), 1u);

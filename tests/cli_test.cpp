@@ -207,7 +207,7 @@ TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
     }
 }
 
-// A scheduler that ends the render is told that it has not got to its end; what there is has been written.
+// A scheduler that ends the render learns that it has not got to its end; what there is has been written.
 TEST_F(CommandLineTest, OtherSignalsEndItWithTheirCode) {
     for (const int signal : {SIGTERM, SIGHUP}) {
         const Outcome outcome =

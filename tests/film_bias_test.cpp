@@ -29,17 +29,17 @@ std::vector<Float4> biasOfPass(unsigned pass, float weight, std::mt19937& random
 }
 
 /// Variance of the mean of all channels, as the film estimates it after some passes.
-struct Told {
+struct Estimated {
     double byFilm = 0, truth = 0;
     double byMeanSquares = 0; ///< as if noise were the same in all passes: squares of batches divided by their passes
 };
 
-Told toldAfter(unsigned passes) {
+Estimated estimatedAfter(unsigned passes) {
     Program program = testProgram("film.cl", "-DBVH_STACK_SIZE=32 -DPHOTON_CLASSES=8u -DESTIMATE_BIAS=1");
     Kernel add = program.kernel("addBiasOfPass");
     Film film(testDevice(), side, side, FilmLayout{});
     std::mt19937 random(7);
-    Told told;
+    Estimated estimated;
     std::vector<double> sum(3 * pixels), open(3 * pixels), squares(3 * pixels);
     double weights = 0, inBatch = 0, batches = 0;
     for (unsigned pass = 0; pass < passes; ++pass) {
@@ -49,7 +49,7 @@ Told toldAfter(unsigned passes) {
         add.launch(pixels, input, film.sums(), pixels, now.batchWeight, film.layout().bits());
         weights += now.biasWeight;
         inBatch += now.biasWeight;
-        told.truth += now.biasWeight * now.biasWeight * (1 + pass);
+        estimated.truth += now.biasWeight * now.biasWeight * (1 + pass);
         const bool ends = now.batchWeight > 0 || (pass + 1 == passes && inBatch > 0);
         for (size_t k = 0; k < sum.size(); ++k) {
             sum[k] += (&bias[k / 3].x)[k % 3];
@@ -61,23 +61,23 @@ Told toldAfter(unsigned passes) {
         batches += 1;
         inBatch = 0;
     }
-    told.truth /= weights * weights;
+    estimated.truth /= weights * weights;
     const FilmImage image = film.develop(passes);
     for (size_t k = 0; k < sum.size(); ++k) {
         const double error = image.biasError[k], values = double(sum.size());
         EXPECT_NEAR(image.bias[k], sum[k] / weights, 1e-4);
-        told.byFilm += error * error / values;
-        told.byMeanSquares += (squares[k] - sum[k] * sum[k] / weights) / (weights * (batches - 1)) / values;
+        estimated.byFilm += error * error / values;
+        estimated.byMeanSquares += (squares[k] - sum[k] * sum[k] / weights) / (weights * (batches - 1)) / values;
     }
-    return told;
+    return estimated;
 }
 
 TEST(FilmBias, StandardErrorHoldsWhileNoiseGrows) {
     for (const unsigned passes : {10u, 30u, 64u, 256u}) { // 30: amid a batch
-        const Told told = toldAfter(passes);
-        EXPECT_NEAR(told.byFilm / told.truth, 1, 0.02) << passes;
+        const Estimated estimated = estimatedAfter(passes);
+        EXPECT_NEAR(estimated.byFilm / estimated.truth, 1, 0.02) << passes;
         if (passes <= 16) continue; // all batches are single passes
-        EXPECT_LT(told.byMeanSquares / told.truth, 0.95) << passes << ", control";
+        EXPECT_LT(estimated.byMeanSquares / estimated.truth, 0.95) << passes << ", control";
     }
 }
 

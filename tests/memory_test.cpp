@@ -71,15 +71,15 @@ protected:
     }
 };
 
-bool isClose(double told, double taken) { return std::abs(told - taken) <= tolerance * taken; }
+bool isClose(double expected, double taken) { return std::abs(expected - taken) <= tolerance * taken; }
 
 TEST_F(MemoryTest, IsToldBeforeItIsTaken) {
     for (const auto& [name, arguments] : cases()) {
         SCOPED_TRACE(name);
         taken(arguments); // kernels come from the runtime's cache from now on: compiling them takes memory, too
-        const Bytes told = forecast(arguments), real = taken(arguments);
-        EXPECT_TRUE(isClose(told.device, real.device)) << told.device << " forecast, taken " << real.device;
-        EXPECT_TRUE(isClose(told.host, real.host)) << told.host << " forecast, taken " << real.host;
+        const Bytes expected = forecast(arguments), real = taken(arguments);
+        EXPECT_TRUE(isClose(expected.device, real.device)) << expected.device << " forecast, taken " << real.device;
+        EXPECT_TRUE(isClose(expected.host, real.host)) << expected.host << " forecast, taken " << real.host;
     }
 }
 

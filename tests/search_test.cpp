@@ -241,7 +241,7 @@ TEST(Search, NumbersMustWinClearly) {
     EXPECT_EQ(photons(0.8), "given up");
 }
 
-// What would win by far fails in a pass, early or late, for whatever reason: the others go on, and it is told.
+// What would win by far fails in a pass, early or late, for whatever reason: the others go on, and it is reported.
 TEST(Search, GoesOnWithoutOneThatFails) {
     for (const unsigned pass : {1u, 2u, 3u, 5u, 9u})
         for (const bool lacksMemory : {false, true}) {
