@@ -223,6 +223,26 @@ void declareCheckpoints(CLI::App& command, RenderOptions& options) {
         ->group(group);
 }
 
+void declareView(CLI::App& command, RenderOptions& render) {
+    ViewOptions& options = render.view;
+    const char* group = "Live view";
+    command
+        .add_option("--listen", options.listen,
+                    "Address that the page is served on, of this computer; others than loopback ones can be reached by whoever is "
+                    "in the network and has the page's address (default: 127.0.0.1)")
+        ->type_name("ADDRESS")
+        ->group(group);
+    command
+        .add_option("--port", options.port, "Port of the page, a number; 0: any that is free (default: 0)")
+        ->type_name("N")
+        ->transform(wholeNumber(0, 65535))
+        ->group(group);
+    command
+        .add_flag("--no-browser{false}", options.opensBrowser,
+                  "Print the page's address, but do not open it (default: opened where there is a desktop)")
+        ->group(group);
+}
+
 void setPasses(const std::string& text, StopRule& stop) {
     const auto colon = text.find(':');
     stop.firstPass = colon == std::string::npos ? 0 : static_cast<unsigned>(std::stoul(text.substr(0, colon)));
@@ -327,6 +347,19 @@ void declareOptions(CLI::App& app, Options& options) {
     declareCheckpoints(render, options.render);
     declareSettings(render, options.render);
     declareDevice(render, options.render);
+    auto* viewed = render
+                       .add_flag("--view", options.render.isViewed,
+                                 "Serve a page that shows the picture as it converges, and open it (default: off)")
+                       ->group("Live view");
+    declareView(render, options.render);
+    for (const char* name : {"--listen", "--port", "--no-browser"}) render.get_option(name)->needs(viewed);
+
+    CLI::App& view = *app.add_subcommand("view", "Render a scene in the browser: look, move the camera, change the method");
+    declareScene(view, options.view, "");
+    declareView(view, options.view);
+    declareStop(view, options.view.stop);
+    declareSettings(view, options.view);
+    declareDevice(view, options.view);
 
     declareMerge(app, options.merge);
     declareCompare(app, options.compare);

@@ -12,6 +12,7 @@
 #include "output/statistics.h"
 #include "util/error.h"
 #include "util/process_memory.h"
+#include "view/live_view.h"
 
 #include <algorithm>
 #include <chrono>
@@ -212,9 +213,11 @@ int renderSensor(const RenderOptions& options) {
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
     progress.update({.phase = "preparing"});
+    std::optional<LiveView> view;
     const auto onProgress = [&](const Progress& now) {
         catchInterrupt();
         progress.update(now);
+        if (view) view->onProgress(now);
     };
     const auto onChosen = [&](const SearchReport& search) {
         progress.clear();
@@ -226,7 +229,16 @@ int renderSensor(const RenderOptions& options) {
     progress.clear();
     for (const auto& warning : started.warnings()) warn(options, warning);
     catchInterrupt();
-    const AutoRender render = started.render(onProgress, onChosen);
+    if (options.isViewed) {
+        view.emplace(options.view, interruptFlag());
+        view->begin(device, scene, options.settings(scene), started.stop(), false);
+        if (!options.quiet) fmt::print(stderr, "quasilux: live view at {}\n", view->address());
+    }
+    const auto afterPass = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
+        if (view) view->afterPass(soFar, now, seconds, isLast);
+    };
+    const AutoRender render =
+        started.render(onProgress, onChosen, view ? view->interrupted() : interruptFlag(), afterPass);
     const FilmImage& image = render.image;
     if (image.passes == 0) {
         if (interruptFlag()) return exitCodeWithoutResult();
@@ -236,6 +248,7 @@ int renderSensor(const RenderOptions& options) {
     progress.update({.phase = "writing"});
     RenderRecord record = makeRecord(options, started.stop(), device, render, scene.sensor);
     record.loadSeconds = loadSeconds;
+    record.interrupted |= view && view->isStopped();
     const WrittenFiles written = writeFiles(
         options, scene, image, renderAovs(device, scene, render.settings, samplesOfAovs(image.passes)), record);
     progress.clear();

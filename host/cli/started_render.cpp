@@ -1,7 +1,6 @@
 #include "cli/started_render.h"
 
 #include "auto/candidates.h"
-#include "cli/interrupt.h"
 
 #include <fmt/format.h>
 
@@ -20,16 +19,18 @@ StartedRender::StartedRender(const RenderOptions& options, Device& device, const
 }
 
 AutoRender StartedRender::render(const std::function<void(const Progress&)>& onProgress,
-                                 const std::function<void(const SearchReport&)>& onChosen) {
+                                 const std::function<void(const SearchReport&)>& onChosen,
+                                 const std::atomic<bool>& interrupted, const AfterChosenPass& afterPass) {
     keeper_.emplace(options_, device_, wanted_);
-    const auto afterPass = [this](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
+    const auto afterEach = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
         keeper_->afterPass(soFar, now, seconds, isLast);
+        if (afterPass) afterPass(soFar, now, seconds, isLast);
     };
     if (resumed_)
         return renderChosen(device_, settings_, resumed_->checkpoint().search, std::move(renderer_),
-                            resumed_->checkpoint().seconds, stop(), onProgress, interruptFlag(), afterPass);
+                            resumed_->checkpoint().seconds, stop(), onProgress, interrupted, afterEach);
     return renderAuto(device_, scene_, settings_, std::move(renderer_), freedom_, stop(), onProgress, onChosen,
-                      interruptFlag(), afterPass);
+                      interrupted, afterEach);
 }
 
 void StartedRender::warnOfDevice(const DeviceInfo& before) {
