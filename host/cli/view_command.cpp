@@ -39,6 +39,7 @@ public:
     }
 
     int run() {
+        view_.letEdit();
         tellEditable();
         fmt::print("{}\n", view_.address());
         std::fflush(stdout); // a program that reads it is to have it at once
@@ -76,6 +77,7 @@ private:
     }
 
     void renderOnce() {
+        scene_->apply(edits_);
         const RenderOptions now = optionsNow();
         view_.begin(device_, scene_->scene(), now.settings(scene_->scene()), now.stop, isEndless_);
         catchInterrupt();
@@ -134,7 +136,6 @@ private:
             tellEditable();
         }
         if (const auto edits = view_.takeEdits()) edits_ = *edits;
-        scene_->apply(edits_);
     }
 
     RenderOptions options_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <vector>
 
 namespace quasilux {
 
@@ -56,6 +57,10 @@ glm::dmat3 rotation(double angle, const glm::dvec3& axis) {
     return glm::dmat3(glm::rotate(glm::dmat4(1), angle, axis));
 }
 
+void scale(Rgb& colour, float factor) { colour = {factor * colour.r, factor * colour.g, factor * colour.b}; }
+
+bool isBlack(const Rgb& colour) { return colour.r == 0 && colour.g == 0 && colour.b == 0; }
+
 } // namespace
 
 ViewEdits parseEdits(const nlohmann::json& json) {
@@ -78,50 +83,65 @@ ViewEdits parseEdits(const nlohmann::json& json) {
     return edits;
 }
 
-EditedScene::EditedScene(Scene scene)
-    : scene_(std::move(scene)), originalView_(scene_.sensor.toWorld), pivotDistance_(distanceToMiddle()) {
-    findSources();
-}
-
-void EditedScene::findSources() {
-    const auto add = [&](const std::string& id, const std::string& kind, Rgb& colour) {
-        sources_.push_back({{id, kind}, {&colour}, {colour}});
-    };
-    for (auto& shape : scene_.shapes)
-        if (shape.emitter) add(shape.id, "area", shape.emitter->radiance);
-    for (auto& point : scene_.pointEmitters)
-        add(point.id,
-            point.luminaire   ? "luminaire"
-            : point.projector ? "projector"
-            : point.spot      ? "spot"
-                              : "point",
-            point.intensity);
-    for (auto& beam : scene_.directionalEmitters) add(beam.id, "directional", beam.irradiance);
-    if (!scene_.surroundings) return;
-    auto& surroundings = *scene_.surroundings;
-    add(surroundings.id, surroundings.plugin, surroundings.radiance);
-    if (!surroundings.image) return;
-    for (Rgb& pixel : surroundings.image->pixels) sources_.back().colours.push_back(&pixel);
-    for (const Rgb& pixel : surroundings.image->pixels) sources_.back().original.push_back(pixel);
+EditedScene::EditedScene(Scene scene) : scene_(std::move(scene)), pivotDistance_(distanceToMiddle()) {
+    original_.view = scene_.sensor.toWorld;
+    for (const auto& shape : scene_.shapes) original_.byShape.push_back(shape.emitter);
+    original_.points = scene_.pointEmitters;
+    original_.beams = scene_.directionalEmitters;
+    original_.surroundings = scene_.surroundings;
 }
 
 std::vector<EditedScene::Lamp> EditedScene::lamps() const {
     std::vector<Lamp> all;
-    for (const Source& source : sources_) all.push_back(source.lamp);
+    for (size_t k = 0; k < original_.byShape.size(); ++k)
+        if (original_.byShape[k]) all.push_back({scene_.shapes[k].id, "area"});
+    for (const auto& point : original_.points)
+        all.push_back({point.id, point.luminaire   ? "luminaire"
+                                 : point.projector ? "projector"
+                                 : point.spot      ? "spot"
+                                                   : "point"});
+    for (const auto& beam : original_.beams) all.push_back({beam.id, "directional"});
+    if (original_.surroundings) all.push_back({original_.surroundings->id, original_.surroundings->plugin});
     return all;
 }
 
+// In the order of lamps().
 void EditedScene::apply(const ViewEdits& edits) {
-    for (size_t k = 0; k < sources_.size(); ++k) {
-        const auto factor = static_cast<float>(k < edits.lamps.size() ? edits.lamps[k] : 1);
-        Source& source = sources_[k];
-        for (size_t i = 0; i < source.colours.size(); ++i) {
-            const Rgb& was = source.original[i];
-            *source.colours[i] = {factor * was.r, factor * was.g, factor * was.b};
-        }
+    size_t next = 0;
+    const auto factor = [&] { // of the lamp that follows
+        const double given = next < edits.lamps.size() ? edits.lamps[next] : 1;
+        ++next;
+        return static_cast<float>(given);
+    };
+    size_t lit = 0;
+    for (size_t k = 0; k < scene_.shapes.size(); ++k) {
+        if (!original_.byShape[k]) continue;
+        auto& emitter = scene_.shapes[k].emitter = original_.byShape[k];
+        scale(emitter->radiance, factor());
+        if (isBlack(emitter->radiance)) emitter.reset();
+        lit += emitter.has_value();
     }
-    if (!hasCamera()) return;
-    scene_.sensor.toWorld = moved(originalView_, edits.camera, pivotDistance_, scene_.sensor.orthographic);
+    scene_.pointEmitters = original_.points;
+    for (auto& point : scene_.pointEmitters) scale(point.intensity, factor());
+    std::erase_if(scene_.pointEmitters, [](const auto& point) { return isBlack(point.intensity); });
+    scene_.directionalEmitters = original_.beams;
+    for (auto& beam : scene_.directionalEmitters) scale(beam.irradiance, factor());
+    std::erase_if(scene_.directionalEmitters, [](const auto& beam) { return isBlack(beam.irradiance); });
+    lit += scene_.pointEmitters.size() + scene_.directionalEmitters.size();
+    if (original_.surroundings) lit += setSurroundings(factor());
+    if (lit == 0 && next > 0) throw InputError("all lamps are off, so that there is no light to render; raise the power of one of them");
+    if (hasCamera())
+        scene_.sensor.toWorld = moved(original_.view, edits.camera, pivotDistance_, scene_.sensor.orthographic);
+}
+
+bool EditedScene::setSurroundings(float factor) {
+    scene_.surroundings.reset();
+    if (factor == 0) return false;
+    auto& surroundings = scene_.surroundings = original_.surroundings;
+    scale(surroundings->radiance, factor);
+    if (surroundings->image)
+        for (Rgb& pixel : surroundings->image->pixels) scale(pixel, factor);
+    return true;
 }
 
 // The camera turns about the point before it that is as deep as the middle of the scene.
@@ -139,8 +159,8 @@ double EditedScene::distanceToMiddle() const {
         }
     }
     if (scene_.shapes.empty()) return 1;
-    const glm::dvec3 forward = glm::normalize(glm::dvec3(originalView_[2]));
-    const double depth = glm::dot((lower + upper) / 2.0 - glm::dvec3(originalView_[3]), forward);
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(scene_.sensor.toWorld[2]));
+    const double depth = glm::dot((lower + upper) / 2.0 - glm::dvec3(scene_.sensor.toWorld[3]), forward);
     const double size = glm::length(upper - lower);
     return std::max(depth, 0.05 * size);
 }

@@ -31,11 +31,10 @@ ViewEdits parseEdits(const nlohmann::json& json);
 class EditedScene {
 public:
     explicit EditedScene(Scene scene);
-    EditedScene(const EditedScene&) = delete; // it points into itself
-    EditedScene& operator=(const EditedScene&) = delete;
 
     const Scene& scene() const { return scene_; }
-    /// The scene is as if these were the only ones ever made.
+    /// The scene is as if these were the only ones ever made; lamps with a factor of 0 are no part of it. Throws InputError where none
+    /// is left.
     void apply(const ViewEdits& edits);
 
     struct Lamp {
@@ -46,19 +45,20 @@ public:
     bool hasCamera() const { return scene_.sensor.meter == MeterKind::none; }
 
 private:
-    /// One after the other: the colours by which its power is given, and what they are in the file.
-    struct Source {
-        Lamp lamp;
-        std::vector<Rgb*> colours;
-        std::vector<Rgb> original;
+    /// As the file has them.
+    struct Original {
+        glm::dmat4 view{1};
+        std::vector<std::optional<AreaEmitter>> byShape;
+        std::vector<PointEmitter> points;
+        std::vector<DirectionalEmitter> beams;
+        std::optional<Surroundings> surroundings;
     };
-    void findSources();
     double distanceToMiddle() const;
+    bool setSurroundings(float factor);
 
     Scene scene_;
-    glm::dmat4 originalView_;
+    Original original_;
     double pivotDistance_;
-    std::vector<Source> sources_;
 };
 
 /// The camera's frame after the move; `distance`: to the point before it.

@@ -51,7 +51,11 @@ public:
     /// The running render is to end.
     void interrupt() { interrupted_ = true; }
 
+    /// Only looked at, unless this is called once.
+    void letEdit() { isEditable_ = true; }
+
     // For the server.
+    bool isEditable() const { return isEditable_; }
     Errands& errands() { return errands_; }
     FilmCutter& cutter() { return *cutter_; }
     void stop();
@@ -69,7 +73,7 @@ private:
     }
 
     const std::atomic<bool>& signalled_;
-    std::atomic<bool> interrupted_{false}, isStopped_{false}, hasEdits_{false};
+    std::atomic<bool> interrupted_{false}, isStopped_{false}, hasEdits_{false}, isEditable_{false};
     std::mutex mutex_;
     std::optional<ViewEdits> edits_;
     LiveState state_;

@@ -23,7 +23,7 @@ using httplib::Response;
 
 // Threads, of which each request that waits for something new takes one.
 constexpr size_t serverThreads = 24;
-constexpr std::chrono::milliseconds patience{8000}, patienceOfSaving{600000};
+constexpr std::chrono::milliseconds patience{3000}, patienceOfSaving{600000};
 // Pictures of a render that goes on come no more often than this, and take at most this share of its time.
 constexpr double secondsBetweenFrames = 0.4, mostOfTime = 0.02;
 
@@ -285,6 +285,11 @@ struct ViewServer::Http {
     }
 
     void edit(const Request& request, Response& response) {
+        if (!view.isEditable()) {
+            response.status = forbidden;
+            reply(response, {{"error", "this render is only looked at; `quasilux view` serves one that can be changed"}});
+            return;
+        }
         if (request.get_header_value("Content-Type").rfind("application/json", 0) != 0) {
             response.status = unsupportedType;
             return;
