@@ -36,7 +36,8 @@ class Chromium:
         end = time.monotonic() + 20
         while time.monotonic() < end:
             if os.path.exists(port_file):
-                lines = open(port_file, encoding="ascii").read().split("\n")
+                with open(port_file, encoding="ascii") as file:
+                    lines = file.read().split("\n")
                 if len(lines) >= 2 and lines[1]:
                     return f"ws://127.0.0.1:{lines[0]}{lines[1]}"
             time.sleep(0.05)
@@ -47,6 +48,7 @@ class Chromium:
             self.call("Browser.close")
         except (RuntimeError, OSError, websocket.WebSocketException):
             self.process.terminate()
+        self.socket.close()
         self.process.wait(20)
         self.folder.cleanup()
 

@@ -133,14 +133,10 @@ class DoneRender(unittest.TestCase):
         self.assertEqual(self.view.edit()["problem"], "")
 
     def test_a_broken_scene_shows_its_line_and_the_picture_stays(self):
-        good = self.view.scene.read_text()
         before = self.view.state()["render"]
-        lines = good.split("\n")
-        place = next(k for k, line in enumerate(lines) if "<shape" in line)
-        lines[place] = lines[place].replace("<shape type=\"", "<shape type=\"no")
-        self.view.scene.write_text("\n".join(lines))
+        line, good = self.view.break_scene()
         state = self.view.wait(lambda state: state["problem"])
-        self.assertIn(f"scene.xml:{place + 1}:", state["problem"])
+        self.assertIn(f"scene.xml:{line}:", state["problem"])
         self.assertEqual(state["render"], before)
         self.assertEqual(self.view.frame()[0]["passes"], PASSES)
         self.view.scene.write_text(good)

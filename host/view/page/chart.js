@@ -28,6 +28,7 @@ export function drawChart(chart, errors) {
   const x = s => box.left + place(s, firstSecond, lastSecond) * (box.right - box.left);
   const y = e => box.bottom - place(e, least, most) * (box.bottom - box.top);
   add(chart, 'path', {class: 'curve', d: 'M' + points.map(([s, e]) => `${x(s).toFixed(1)} ${y(e).toFixed(1)}`).join('L')});
+  if (points.length === 1) add(chart, 'circle', {class: 'curve', cx: x(lastSecond), cy: y(least), r: 2});
   add(chart, 'text', {x: box.left - 4, y: box.top + 8, 'text-anchor': 'end'}, percent(most));
   add(chart, 'text', {x: box.left - 4, y: box.bottom, 'text-anchor': 'end'}, percent(least));
   add(chart, 'text', {x: box.left, y: box.bottom + 16}, `${firstSecond.toPrecision(2)} s`);

@@ -70,12 +70,13 @@ export class Controls {
 
   // A slider for each, in doublings; its left end switches the lamp off.
   showLamps(lamps) {
-    byId('lamps').replaceChildren(...lamps.map(lamp => {
+    byId('lamps').replaceChildren(...lamps.map((lamp, k) => {
       const label = document.createElement('label'), output = document.createElement('output'), input = document.createElement('input');
-      Object.assign(input, {type: 'range', min: -8, max: 8, step: 0.5, value: 0});
+      Object.assign(input, {id: `lamp-${k}`, type: 'range', min: -8, max: 8, step: 0.5, value: 0});
       const tell = () => { output.textContent = Number(input.value) === -8 ? 'off' : `× ${+(2 ** Number(input.value)).toPrecision(3)}`; };
       input.addEventListener('input', () => { tell(); this.send(); });
       tell();
+      label.htmlFor = input.id; // or else it would be that of the output
       label.append(`${lamp.id} (${lamp.kind}) `, output, input);
       return label;
     }));

@@ -13,6 +13,7 @@ const statePause = 250, pixelPause = 150;
 
 let state = null;
 let automatic = {exposure: 1, white: 1}; // of the last whole picture
+let drawn = {}; // what the chart shows
 let pending = null; // the frame that is waited for, to be given up where another one is wanted
 let refusal = ''; // why the last change was not taken
 
@@ -79,17 +80,18 @@ function showState() {
   showProblem();
   showLayers(state.layers);
   controls.show(state);
-  drawChart(byId('chart'), state.errors);
+  if (state.errors.length !== drawn.points || state.render !== drawn.render) drawChart(byId('chart'), state.errors);
+  drawn = {points: state.errors.length, render: state.render};
   if (state.width > 0) picture.setFilm(state.width, state.height);
 }
 
 async function followState() {
-  let seen = 0;
+  let seen = 0, render = 0;
   for (;;) {
     try {
       state = await getState(seen);
-      if (state.render !== followState.render) refusal = '';
-      followState.render = state.render;
+      if (state.render !== render) refusal = '';
+      render = state.render;
       seen = state.version;
       showState();
       if (state.phase === 'ended') return;
@@ -134,7 +136,7 @@ async function followPicture() {
   }
 }
 
-const figure = x => Math.abs(x) >= 1e4 || (x !== 0 && Math.abs(x) < 1e-3) ? x.toExponential(2) : x.toPrecision(4);
+const figure = x => x === 0 ? '0' : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x.toExponential(2) : x.toPrecision(4);
 
 function showPixel(pixel) {
   const rows = [['value', pixel.value], ['± error', pixel.stderr]];
