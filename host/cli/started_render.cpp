@@ -6,14 +6,15 @@
 
 namespace quasilux {
 
-StartedRender::StartedRender(const RenderOptions& options, Device& device, const Scene& scene)
+StartedRender::StartedRender(const RenderOptions& options, Device& device, const Scene& scene,
+                             const std::shared_ptr<const LearnedScene>& known)
     : options_(options), device_(device), scene_(scene), freedom_(options.freedom(scene)),
       wanted_(checkpointOf(options, scene, options.stop)) {
     if (!options.resume.empty()) resumed_.emplace(options.resume, wanted_);
     wanted_.stop = resumed_ ? resumed_->stopRule(options.stop) : options.stop;
     settings_ = resumed_ ? resumed_->checkpoint().settings : searchStart(wanted_.wanted, scene, freedom_, wanted_.stop);
     settings_.countGathered = !options.stats.empty();
-    renderer_ = resumed_ ? resumed_->renderer(device, scene) : std::make_unique<Renderer>(device, scene, settings_);
+    renderer_ = resumed_ ? resumed_->renderer(device, scene) : std::make_unique<Renderer>(device, scene, settings_, known);
     warnings_ = renderer_->report().warnings;
     if (resumed_) warnOfDevice(resumed_->checkpoint().device);
 }

@@ -8,7 +8,9 @@ namespace quasilux {
 class StartedRender {
 public:
     /// Throws InputError where the checkpoint is of another render.
-    StartedRender(const RenderOptions& options, Device& device, const Scene& scene);
+    /// `known`: what another render of the scene has learned; null: it is learned here.
+    StartedRender(const RenderOptions& options, Device& device, const Scene& scene,
+                  const std::shared_ptr<const LearnedScene>& known = nullptr);
 
     const StopRule& stop() const { return wanted_.stop; }
     const std::vector<std::string>& warnings() const { return warnings_; }

@@ -81,7 +81,9 @@ private:
         const RenderOptions now = optionsNow();
         view_.begin(device_, scene_->scene(), now.settings(scene_->scene()), now.stop, isEndless_);
         catchInterrupt();
-        StartedRender started(now, device_, scene_->scene());
+        const bool isKnown = learned_ && edits_.learnsAs(learnedFor_);
+        if (!isKnown) learnedFor_ = edits_;
+        StartedRender started(now, device_, scene_->scene(), isKnown ? learned_ : nullptr);
         view_.state().setProblem("");
         catchInterrupt(); // the runtime may have put in a handler of its own
         const auto onProgress = [&](const Progress& progress) {
@@ -91,6 +93,7 @@ private:
         };
         const auto afterPass = [&](const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
             keep(soFar.settings);
+            learned_ = renderer.learned();
             view_.afterPass(soFar, renderer, seconds, isLast);
             if (reloadIfSaved()) view_.interrupt();
             if (!isLast) return;
@@ -132,6 +135,7 @@ private:
     void takeChanges() {
         if (isReloaded_) {
             scene_ = std::move(reloaded_);
+            learned_ = nullptr;
             isReloaded_ = false;
             tellEditable();
         }
@@ -145,7 +149,8 @@ private:
     fs::file_time_type savedAt_;
     Device device_;
     LiveView view_;
-    ViewEdits edits_;
+    ViewEdits edits_, learnedFor_;
+    std::shared_ptr<const LearnedScene> learned_;
 };
 
 } // namespace

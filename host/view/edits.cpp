@@ -77,6 +77,7 @@ ViewEdits parseEdits(const nlohmann::json& json) {
     edits.direct = text(json, "direct");
     edits.map = text(json, "map");
     edits.quasiSpecular = text(json, "quasiSpecular");
+    edits.isDraft = json.value("isDraft", nlohmann::json(false)) == true;
     if (edits.variant) parseVariant(*edits.variant);
     if (edits.direct) parseDirect(*edits.direct);
     if (edits.map) parseMapOrder(*edits.map);

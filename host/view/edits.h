@@ -14,6 +14,8 @@ struct CameraMove {
     double yaw = 0, pitch = 0;  ///< radians, about the upright axis next to the camera's, and up or down
     double nearer = 0;          ///< doublings: 1 halves the distance to the point
     double right = 0, up = 0;   ///< shifts, in distances to the point
+
+    bool operator==(const CameraMove&) const = default;
 };
 
 struct ViewEdits {
@@ -22,6 +24,12 @@ struct ViewEdits {
     // Instead of the command line's and the scene's; not set: those.
     std::optional<unsigned> bdd;
     std::optional<std::string> variant, direct, map, quasiSpecular;
+    bool isDraft = false; ///< others follow at once, as while the camera is dragged
+
+    /// Whether what was learned for the others serves this render as well.
+    bool learnsAs(const ViewEdits& others) const {
+        return (camera == others.camera || isDraft) && lamps == others.lamps && direct == others.direct && map == others.map;
+    }
 };
 
 /// From what the page sends; keys as the members, what is missing or null is not set. Throws InputError.

@@ -6,6 +6,8 @@ const methods = ['variant', 'bdd', 'quasiSpecular', 'direct', 'map'];
 const sliders = ['yaw', 'pitch', 'nearer'];
 // Between two changes of a drag: a render is to show something before the next one.
 const pause = 400;
+// Without a move for so long, the camera stays where it is.
+const rest = 1200;
 
 export class Controls {
   /** `onProblem(message)`: a change was refused. */
@@ -13,7 +15,8 @@ export class Controls {
     this.onProblem = onProblem;
     this.camera = {yaw: 0, pitch: 0, nearer: 0, right: 0, up: 0};
     this.lampNames = '';
-    this.timer = null;
+    this.timer = this.rest = null;
+    this.isDraft = false;
     this.lastSent = 0;
     for (const name of methods) byId(name).addEventListener('change', () => this.send());
     for (const name of sliders)
@@ -30,10 +33,20 @@ export class Controls {
     return !byId('camera-controls').hidden && byId('drag-camera').checked;
   }
 
-  /** Adds to what has been moved so far. */
+  /** Adds to what has been moved so far. Pictures on the way are drafts, until endMove(). */
   moveCamera(change) {
     for (const [key, value] of Object.entries(change)) this.camera[key] += value;
     for (const name of sliders) byId(name).value = this.camera[name];
+    this.isDraft = true;
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => this.endMove(), rest);
+    this.send();
+  }
+
+  endMove() {
+    clearTimeout(this.rest);
+    if (!this.isDraft) return;
+    this.isDraft = false;
     this.send();
   }
 
@@ -47,7 +60,7 @@ export class Controls {
   }
 
   edits() {
-    const edits = {camera: this.camera, lamps: [...document.querySelectorAll('#lamps input')].map(input => 2 ** Number(input.value))};
+    const edits = {camera: this.camera, isDraft: this.isDraft, lamps: [...document.querySelectorAll('#lamps input')].map(input => 2 ** Number(input.value))};
     edits.lamps = edits.lamps.map(factor => factor <= 2 ** -8 ? 0 : factor);
     for (const name of methods) {
       const text = byId(name).value.trim();

@@ -39,7 +39,10 @@ export function followPointer(picture, controls, onPoint) {
     onPoint(picture.toFilm(place));
   });
   for (const name of ['pointerup', 'pointercancel'])
-    canvas.addEventListener(name, event => pointers.delete(event.pointerId));
+    canvas.addEventListener(name, event => {
+      pointers.delete(event.pointerId);
+      controls.endMove();
+    });
   canvas.addEventListener('wheel', event => {
     event.preventDefault();
     if (controls.dragsCamera && !event.shiftKey && !event.ctrlKey)
