@@ -207,7 +207,7 @@ typedef struct {
 /* A piece of the film: columns x rows blocks of step x step of its pixels, those at the film's edge maybe smaller. */
 typedef struct {
     unsigned int x, y, columns, rows, step;
-    unsigned int isMean;             /* of the block's pixels; or else the one in its middle */
+    unsigned int isMean; /* of the block's pixels; or else the one in its middle */
     unsigned int filmWidth, filmHeight;
     unsigned int firstPixel, pixels; /* of the part of the film that is read */
     unsigned int filmFloats, floats; /* of a pixel, and of these so many from the first one on */

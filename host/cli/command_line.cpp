@@ -53,10 +53,10 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     // A misspelt command counts as an unknown argument, although CLI11 says only that a command is missing.
     const bool unknown =
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
-    fail(exitBadInput, unknown ? unknownArgument(app)
-                       : noCommand
-                           ? "no command given, expected render, view, merge, compare, photometry, bench, devices or info"
-                           : error.what());
+    fail(exitBadInput,
+         unknown     ? unknownArgument(app)
+         : noCommand ? "no command given, expected render, view, merge, compare, photometry, bench, devices or info"
+                     : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
 }

@@ -228,12 +228,12 @@ void declareView(CLI::App& command, RenderOptions& render) {
     const char* group = "Live view";
     command
         .add_option("--listen", options.listen,
-                    "Address that the page is served on, of this computer; others than loopback ones can be reached by whoever is "
+                    "Address that the page is served on, of this computer; others than loopback ones can be reached by "
+                    "whoever is "
                     "in the network and has the page's address (default: 127.0.0.1)")
         ->type_name("ADDRESS")
         ->group(group);
-    command
-        .add_option("--port", options.port, "Port of the page, a number; 0: any that is free (default: 0)")
+    command.add_option("--port", options.port, "Port of the page, a number; 0: any that is free (default: 0)")
         ->type_name("N")
         ->transform(wholeNumber(0, 65535))
         ->group(group);
@@ -354,7 +354,8 @@ void declareOptions(CLI::App& app, Options& options) {
     declareView(render, options.render);
     for (const char* name : {"--listen", "--port", "--no-browser"}) render.get_option(name)->needs(viewed);
 
-    CLI::App& view = *app.add_subcommand("view", "Render a scene in the browser: look, move the camera, change the method");
+    CLI::App& view =
+        *app.add_subcommand("view", "Render a scene in the browser: look, move the camera, change the method");
     declareScene(view, options.view, "");
     declareView(view, options.view);
     declareStop(view, options.view.stop);

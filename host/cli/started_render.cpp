@@ -14,7 +14,8 @@ StartedRender::StartedRender(const RenderOptions& options, Device& device, const
     wanted_.stop = resumed_ ? resumed_->stopRule(options.stop) : options.stop;
     settings_ = resumed_ ? resumed_->checkpoint().settings : searchStart(wanted_.wanted, scene, freedom_, wanted_.stop);
     settings_.countGathered = !options.stats.empty();
-    renderer_ = resumed_ ? resumed_->renderer(device, scene) : std::make_unique<Renderer>(device, scene, settings_, known);
+    renderer_ =
+        resumed_ ? resumed_->renderer(device, scene) : std::make_unique<Renderer>(device, scene, settings_, known);
     warnings_ = renderer_->report().warnings;
     if (resumed_) warnOfDevice(resumed_->checkpoint().device);
 }

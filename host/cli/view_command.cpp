@@ -26,8 +26,7 @@ class ViewSession {
 public:
     explicit ViewSession(const RenderOptions& options)
         : options_(options), progress_(stderr, !options.quiet), scene_(load()), savedAt_(timeOfFile()),
-          device_(options.device, options.workGroupSize, options.deviceMemory),
-          view_(options.view, interruptFlag()) {
+          device_(options.device, options.workGroupSize, options.deviceMemory), view_(options.view, interruptFlag()) {
         options_.fixed = !options_.autoAll;
         StopRule& stop = options_.stop;
         isEndless_ = !stop.seconds && !stop.passes && !stop.relativeError;

@@ -130,7 +130,8 @@ void EditedScene::apply(const ViewEdits& edits) {
     std::erase_if(scene_.directionalEmitters, [](const auto& beam) { return isBlack(beam.irradiance); });
     lit += scene_.pointEmitters.size() + scene_.directionalEmitters.size();
     if (original_.surroundings) lit += setSurroundings(factor());
-    if (lit == 0 && next > 0) throw InputError("all lamps are off, so that there is no light to render; raise the power of one of them");
+    if (lit == 0 && next > 0)
+        throw InputError("all lamps are off, so that there is no light to render; raise the power of one of them");
     if (hasCamera())
         scene_.sensor.toWorld = moved(original_.view, edits.camera, pivotDistance_, scene_.sensor.orthographic);
 }
@@ -172,12 +173,13 @@ glm::dmat4 moved(const glm::dmat4& toWorld, const CameraMove& move, double dista
     const glm::dvec3 upright = uprightAxis(up), pivot = eye + distance * forward;
     // Seen from the point, the camera rises by the pitch; not over the top.
     const double before = std::asin(std::clamp(-glm::dot(forward, upright), -1.0, 1.0));
-    const double pitch = std::clamp(before + move.pitch, std::min(before, -steepest), std::max(before, steepest)) - before;
+    const double pitch =
+        std::clamp(before + move.pitch, std::min(before, -steepest), std::max(before, steepest)) - before;
     const glm::dmat3 turn = rotation(move.yaw, upright) * rotation(pitch, glm::normalize(axes[0]));
     const double closeness = std::exp2(-move.nearer);
     glm::dmat3 turned = turn * axes;
-    const glm::dvec3 shift = distance * closeness *
-                             (move.up * glm::normalize(turned[1]) - move.right * glm::normalize(turned[0]));
+    const glm::dvec3 shift =
+        distance * closeness * (move.up * glm::normalize(turned[1]) - move.right * glm::normalize(turned[0]));
     const double eyeDistance = isOrthographic ? distance : distance * closeness;
     const glm::dvec3 newEye = pivot - eyeDistance * glm::normalize(turned[2]) + shift;
     if (isOrthographic) { // the picture grows with what it shows, not with the distance

@@ -11,9 +11,9 @@ namespace quasilux {
 
 /// Of a camera about a point before it.
 struct CameraMove {
-    double yaw = 0, pitch = 0;  ///< radians, about the upright axis next to the camera's, and up or down
-    double nearer = 0;          ///< doublings: 1 halves the distance to the point
-    double right = 0, up = 0;   ///< shifts, in distances to the point
+    double yaw = 0, pitch = 0; ///< radians, about the upright axis next to the camera's, and up or down
+    double nearer = 0;         ///< doublings: 1 halves the distance to the point
+    double right = 0, up = 0;  ///< shifts, in distances to the point
 
     bool operator==(const CameraMove&) const = default;
 };
@@ -28,7 +28,8 @@ struct ViewEdits {
 
     /// Whether what was learned for the others serves this render as well.
     bool learnsAs(const ViewEdits& others) const {
-        return (camera == others.camera || isDraft) && lamps == others.lamps && direct == others.direct && map == others.map;
+        return (camera == others.camera || isDraft) && lamps == others.lamps && direct == others.direct &&
+               map == others.map;
     }
 };
 

@@ -101,7 +101,7 @@ Frame makeFrame(const FrameWish& wish, const FilmCutChoice& choice, const FilmIm
     frame.channels = isFigure ? 1 : 3;
     // A power of two, so that it changes no digit.
     if (!isFigure || wish.layer == noiseLayer) frame.scale = std::exp2(std::round(std::log2(frame.curve.scale)));
-    const auto values = isFigure ? figuresOf(wish.layer, cut, mean > 0 ? mean : frame.meanRadiance)
+    const auto values = isFigure                      ? figuresOf(wish.layer, cut, mean > 0 ? mean : frame.meanRadiance)
                         : component < FILM_COMPONENTS ? cut.components[component]
                                                       : cut.radiance;
     frame.halves.resize(size_t(cut.width) * cut.height * frame.channels); // a component without light is empty: zero

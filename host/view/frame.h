@@ -23,14 +23,14 @@ std::vector<std::string> layersOf(const FilmLayout& film);
 FilmCutChoice cutFor(const FrameWish& wish, const Film& film);
 
 struct Frame {
-    unsigned x = 0, y = 0, step = 1;    ///< where it lies in the film
-    unsigned width = 0, height = 0;     ///< pixels of the frame
-    unsigned channels = 3;              ///< 3: colours; 1: figures
+    unsigned x = 0, y = 0, step = 1; ///< where it lies in the film
+    unsigned width = 0, height = 0;  ///< pixels of the frame
+    unsigned channels = 3;           ///< 3: colours; 1: figures
     unsigned passes = 0;
-    double scale = 1;                   ///< on the values, so that halves hold them
-    ToneCurve curve;                    ///< the automatic one, for this piece of the image
-    double meanRadiance = 0;            ///< of this piece
-    std::vector<uint16_t> halves;       ///< row by row, channels side by side
+    double scale = 1;             ///< on the values, so that halves hold them
+    ToneCurve curve;              ///< the automatic one, for this piece of the image
+    double meanRadiance = 0;      ///< of this piece
+    std::vector<uint16_t> halves; ///< row by row, channels side by side
 };
 
 /// `mean`: what relative errors are relative to where the image is dark, the mean radiance of the whole image; 0: that of the piece.

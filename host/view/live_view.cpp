@@ -1,6 +1,7 @@
 #include "view/live_view.h"
 
 #include "render/film_cut.h"
+#include "view/browser.h"
 #include "view/frame.h"
 #include "view/server.h"
 
@@ -16,7 +17,9 @@ constexpr std::chrono::milliseconds whileWaiting{50};
 } // namespace
 
 LiveView::LiveView(const ViewOptions& options, const std::atomic<bool>& signalled)
-    : signalled_(signalled), server_(std::make_unique<ViewServer>(options, *this)) {}
+    : signalled_(signalled), server_(std::make_unique<ViewServer>(options, *this)) {
+    if (options.opensBrowser && hasDesktop()) page_ = std::make_unique<OpenedPage>(address());
+}
 
 LiveView::~LiveView() {
     state_.close();

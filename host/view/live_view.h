@@ -16,11 +16,12 @@
 namespace quasilux {
 
 class FilmCutter;
+class OpenedPage;
 class ViewServer;
 
 struct ViewOptions {
     std::string listen = "127.0.0.1";
-    unsigned port = 0;         ///< 0: any that is free
+    unsigned port = 0;        ///< 0: any that is free
     bool opensBrowser = true; ///< where there is a desktop
 };
 
@@ -38,7 +39,8 @@ public:
     bool isStopped() const { return isStopped_; }
 
     LiveState& state() { return state_; }
-    void begin(Device& device, const Scene& scene, const RenderSettings& settings, const StopRule& stop, bool isEndless);
+    void begin(Device& device, const Scene& scene, const RenderSettings& settings, const StopRule& stop,
+               bool isEndless);
     /// Both are called by the thread that renders.
     void onProgress(const Progress& progress);
     void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
@@ -83,6 +85,7 @@ private:
     RenderRecord record_; ///< what is known at the beginning
     uint64_t moment_ = 0;
     std::unique_ptr<ViewServer> server_;
+    std::unique_ptr<OpenedPage> page_;
 };
 
 } // namespace quasilux

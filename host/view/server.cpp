@@ -31,8 +31,9 @@ constexpr int badRequest = 400, forbidden = 403, notFound = 404, noContent = 204
 
 // A page from elsewhere can neither be shown ours in a frame nor read anything of it; ours runs only what lies here.
 const httplib::Headers safetyHeaders{
-    {"Content-Security-Policy", "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src "
-                                "'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+    {"Content-Security-Policy",
+     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src "
+     "'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
     {"X-Content-Type-Options", "nosniff"},
     {"Referrer-Policy", "no-referrer"},
     {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -40,8 +41,8 @@ const httplib::Headers safetyHeaders{
 
 std::string typeOf(const std::string& file) {
     const std::string end = file.substr(file.rfind('.') + 1);
-    return end == "html" ? "text/html; charset=utf-8"
-           : end == "js" ? "text/javascript; charset=utf-8"
+    return end == "html"  ? "text/html; charset=utf-8"
+           : end == "js"  ? "text/javascript; charset=utf-8"
            : end == "css" ? "text/css; charset=utf-8"
                           : "image/svg+xml";
 }
@@ -49,7 +50,8 @@ std::string typeOf(const std::string& file) {
 uint64_t wholeParameter(const Request& request, const char* name, uint64_t otherwise) {
     if (!request.has_param(name)) return otherwise;
     const std::string text = request.get_param_value(name);
-    const bool isNumber = !text.empty() && text.size() < 16 && text.find_first_not_of("0123456789") == std::string::npos;
+    const bool isNumber =
+        !text.empty() && text.size() < 16 && text.find_first_not_of("0123456789") == std::string::npos;
     if (!isNumber) throw InputError(fmt::format("{} is '{}', expected a whole number", name, text));
     return std::stoull(text);
 }
@@ -91,13 +93,14 @@ struct ViewServer::Http {
         server.set_payload_max_length(1u << 18);
         server.set_tcp_nodelay(true);
         setHandlers();
-        port = options.port == 0 ? server.bind_to_any_port(listen)
+        port = options.port == 0                                             ? server.bind_to_any_port(listen)
                : server.bind_to_port(listen, static_cast<int>(options.port)) ? static_cast<int>(options.port)
-                                                                            : -1;
+                                                                             : -1;
         if (port <= 0)
-            throw InputError(fmt::format("--listen {} --port {}: the system refuses this address (another program may have it); "
-                                         "give another one, or --port 0 for any that is free",
-                                         listen, options.port));
+            throw InputError(
+                fmt::format("--listen {} --port {}: the system refuses this address (another program may have it); "
+                            "give another one, or --port 0 for any that is free",
+                            listen, options.port));
         thread = std::thread([this] { server.listen_after_bind(); });
         while (!server.is_running()) std::this_thread::yield(); // or else stop() may come too early
     }
@@ -114,7 +117,8 @@ struct ViewServer::Http {
         server.set_pre_routing_handler([this](const Request& request, Response& response) {
             if (mayAsk(request)) return httplib::Server::HandlerResponse::Unhandled;
             response.status = forbidden;
-            response.set_content("The address lacks the token that `quasilux` printed, or names another computer.\n", "text/plain");
+            response.set_content("The address lacks the token that `quasilux` printed, or names another computer.\n",
+                                 "text/plain");
             return httplib::Server::HandlerResponse::Handled;
         });
         const auto get = [this](const std::string& name, void (Http::*answer)(const Request&, Response&)) {
@@ -157,7 +161,7 @@ struct ViewServer::Http {
         if (found == files.end())
             response.status = notFound;
         else
-            response.set_content(found->second, typeOf(name).c_str());
+            response.set_content(found->second, typeOf(name));
     }
 
     void state(const Request& request, Response& response) {
@@ -230,7 +234,8 @@ struct ViewServer::Http {
             [&](const RenderMoment& now) {
                 const Film& film = now.renderer.film();
                 if (choice.x >= film.width() || choice.y >= film.height())
-                    throw InputError(fmt::format("pixel {}, {} is none of {} x {}", choice.x, choice.y, film.width(), film.height()));
+                    throw InputError(fmt::format("pixel {}, {} is none of {} x {}", choice.x, choice.y, film.width(),
+                                                 film.height()));
                 one = view.cutter().develop(film, static_cast<unsigned>(now.renderer.counters().passes), choice);
             },
             {}, patience);
@@ -238,7 +243,11 @@ struct ViewServer::Http {
             response.status = noContent;
             return;
         }
-        nlohmann::json json{{"x", choice.x}, {"y", choice.y}, {"value", one.radiance}, {"stderr", one.standardError}, {"passes", one.passes}};
+        nlohmann::json json{{"x", choice.x},
+                            {"y", choice.y},
+                            {"value", one.radiance},
+                            {"stderr", one.standardError},
+                            {"passes", one.passes}};
         json["bias"] = one.bias.empty() ? nlohmann::json() : nlohmann::json(one.bias);
         json["biasStderr"] = one.biasError.empty() ? nlohmann::json() : nlohmann::json(one.biasError);
         json["components"] = nlohmann::json::object();
@@ -268,14 +277,16 @@ struct ViewServer::Http {
             writePng(path.string(), saved->image, curve, saved->record);
         }
         const std::string name = std::filesystem::path(saved->record.scene).stem().string();
-        response.set_header("Content-Disposition", "attachment; filename=\"" + plainName(name) + (isExr ? ".exr\"" : ".png\""));
+        response.set_header("Content-Disposition",
+                            "attachment; filename=\"" + plainName(name) + (isExr ? ".exr\"" : ".png\""));
         response.set_content(contentOf(path), isExr ? "image/x-exr" : "image/png");
     }
 
     // Of a header, so without quotes and control characters.
     static std::string plainName(std::string name) {
         for (char& c : name)
-            if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = '_';
+            if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e)
+                c = '_';
         return name;
     }
 
@@ -287,7 +298,8 @@ struct ViewServer::Http {
     void edit(const Request& request, Response& response) {
         if (!view.isEditable()) {
             response.status = forbidden;
-            reply(response, {{"error", "this render is only looked at; `quasilux view` serves one that can be changed"}});
+            reply(response,
+                  {{"error", "this render is only looked at; `quasilux view` serves one that can be changed"}});
             return;
         }
         if (request.get_header_value("Content-Type").rfind("application/json", 0) != 0) {
@@ -304,7 +316,8 @@ struct ViewServer::Http {
     void noteCost(Clock::time_point start) {
         const double cost = std::chrono::duration<double>(Clock::now() - start).count();
         const double pause = std::max(secondsBetweenFrames, cost / mostOfTime);
-        next = start.time_since_epoch() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(pause));
+        next = start.time_since_epoch() +
+               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(pause));
     }
     Clock::time_point nextFrame() const { return Clock::time_point(next.load()); }
 
@@ -312,8 +325,8 @@ struct ViewServer::Http {
     Access access;
     std::string listen;
     int port = 0;
-    std::atomic<Clock::duration> next{};     // since the clock's epoch: when the next picture may be made
-    std::atomic<double> meanRadiance{0};     // of the whole image, by its last picture
+    std::atomic<Clock::duration> next{}; // since the clock's epoch: when the next picture may be made
+    std::atomic<double> meanRadiance{0}; // of the whole image, by its last picture
     httplib::Server server;
     std::thread thread;
 };
@@ -325,7 +338,7 @@ ViewServer::~ViewServer() = default;
 std::string ViewServer::address() const {
     const std::string& listen = http_->listen;
     const bool isAny = listen == "0.0.0.0" || listen == "::";
-    const std::string host = isAny                                  ? computerName()
+    const std::string host = isAny                                   ? computerName()
                              : listen.find(':') == std::string::npos ? listen
                                                                      : '[' + listen + ']';
     return fmt::format("http://{}:{}/{}/", host, http_->port, http_->access.token());
