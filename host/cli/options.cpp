@@ -238,8 +238,9 @@ void declareView(CLI::App& command, RenderOptions& render) {
         ->transform(wholeNumber(0, 65535))
         ->group(group);
     command
-        .add_flag("--no-browser{false}", options.opensBrowser,
-                  "Print the page's address, but do not open it (default: opened where there is a desktop)")
+        .add_flag_callback(
+            "--no-browser", [&options] { options.opensBrowser = false; },
+            "Print the page's address, but do not open it (default: opened where there is a desktop)")
         ->group(group);
 }
 
@@ -249,9 +250,9 @@ void setPasses(const std::string& text, StopRule& stop) {
     stop.passes = static_cast<unsigned>(std::stoul(colon == std::string::npos ? text : text.substr(colon + 1)));
 }
 
-void declareStop(CLI::App& command, StopRule& stop) {
+void declareStop(CLI::App& command, StopRule& stop, const std::string& defaultTime) {
     const char* group = "Stop rules (the first one reached ends the render)";
-    command.add_option("--time", stop.seconds, "Time to render, in seconds (default: 30 if no stop rule is given)")
+    command.add_option("--time", stop.seconds, "Time to render, in seconds (default: " + defaultTime + ")")
         ->type_name("SECONDS")
         ->check(numberAbove(0, 1e9))
         ->group(group);
@@ -336,6 +337,26 @@ RenderOptions RenderOptions::forSensor(size_t index) const {
     return one;
 }
 
+namespace {
+
+void declareViewCommand(CLI::App& app, RenderOptions& options) {
+    CLI::App& view =
+        *app.add_subcommand("view", "Render a scene in the browser: look, move the camera, change the method");
+    declareScene(view, options, "");
+    declareView(view, options);
+    declareStop(view, options.stop, "none; 600 with --auto if no stop rule is given");
+    declareSettings(view, options);
+    declareDevice(view, options);
+    for (const char* ofFiles : {"--json", "--energy-balance"}) view.remove_option(view.get_option(ofFiles));
+    view.get_option("--quiet")->description(
+        "No progress and no warnings on the terminal; errors are still printed (default: off)");
+    view.get_option("--auto")->description(
+        "Search the settings first, once, as render does; only then there is a picture (default: off)");
+    view.get_option("--fixed")->description("Search nothing (default: on, but for --auto)");
+}
+
+} // namespace
+
 void declareOptions(CLI::App& app, Options& options) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "quasilux " QUASILUX_VERSION, "Print the version");
@@ -343,7 +364,7 @@ void declareOptions(CLI::App& app, Options& options) {
     CLI::App& render = *app.add_subcommand("render", "Render a scene to an OpenEXR image");
     declareScene(render, options.render, ", or all, one after the other, into files NAME_0.exr, NAME_1.exr ...");
     declareFiles(render, options.render);
-    declareStop(render, options.render.stop);
+    declareStop(render, options.render.stop, "30 if no stop rule is given");
     declareCheckpoints(render, options.render);
     declareSettings(render, options.render);
     declareDevice(render, options.render);
@@ -354,14 +375,7 @@ void declareOptions(CLI::App& app, Options& options) {
     declareView(render, options.render);
     for (const char* name : {"--listen", "--port", "--no-browser"}) render.get_option(name)->needs(viewed);
 
-    CLI::App& view =
-        *app.add_subcommand("view", "Render a scene in the browser: look, move the camera, change the method");
-    declareScene(view, options.view, "");
-    declareView(view, options.view);
-    declareStop(view, options.view.stop);
-    declareSettings(view, options.view);
-    declareDevice(view, options.view);
-
+    declareViewCommand(app, options.view);
     declareMerge(app, options.merge);
     declareCompare(app, options.compare);
     declarePhotometry(app, options.photometry);

@@ -39,6 +39,7 @@ public:
 
     int run() {
         view_.letEdit();
+        warn(scene_->scene().warnings);
         tellEditable();
         fmt::print("{}\n", view_.address());
         std::fflush(stdout); // a program that reads it is to have it at once
@@ -75,6 +76,12 @@ private:
         return now;
     }
 
+    void warn(const std::vector<std::string>& warnings) {
+        progress_.clear();
+        for (const auto& warning : warnings)
+            if (!options_.quiet) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+    }
+
     void renderOnce() {
         scene_->apply(edits_);
         const RenderOptions now = optionsNow();
@@ -83,6 +90,7 @@ private:
         const bool isKnown = learned_ && edits_.learnsAs(learnedFor_);
         if (!isKnown) learnedFor_ = edits_;
         StartedRender started(now, device_, scene_->scene(), isKnown ? learned_ : nullptr);
+        warn(started.warnings());
         view_.state().setProblem("");
         catchInterrupt(); // the runtime may have put in a handler of its own
         const auto onProgress = [&](const Progress& progress) {
@@ -99,7 +107,8 @@ private:
             progress_.clear();
             view_.waitWith(soFar, renderer, [&] { return isReloaded_ || reloadIfSaved(); });
         };
-        started.render(onProgress, {}, view_.interrupted(), afterPass);
+        const AutoRender result = started.render(onProgress, {}, view_.interrupted(), afterPass);
+        if (result.failure) std::rethrow_exception(result.failure);
     }
 
     // What was searched once is not searched again: a change is to be seen at once.
@@ -136,6 +145,7 @@ private:
             scene_ = std::move(reloaded_);
             learned_ = nullptr;
             isReloaded_ = false;
+            warn(scene_->scene().warnings);
             tellEditable();
         }
         if (const auto edits = view_.takeEdits()) edits_ = *edits;
