@@ -3,11 +3,11 @@
  * From: film, of which this is a part. To: the cut, to which every part of the film is added. */
 #include "pass_types.h"
 
-/* The film's pixel (x, y) adds `weight` times its first floats, if it is in this part. */
+/* The film's pixel (x, y) adds `weight` times its floats, if it is in this part. */
 inline void addPixel(__global const float* film, __global float* sums, uint2 at, float weight, FilmCut cut) {
     const ulong pixel = (ulong)at.y * cut.filmWidth + at.x;
     if (pixel < cut.firstPixel || pixel >= (ulong)cut.firstPixel + cut.pixels) return;
-    film += (pixel - cut.firstPixel) * cut.filmFloats;
+    film += (pixel - cut.firstPixel) * cut.filmFloats + cut.firstFloat;
     for (uint k = 0; k < cut.floats; ++k) sums[k] += weight * film[k];
 }
 

@@ -210,7 +210,8 @@ typedef struct {
     unsigned int isMean; /* of the block's pixels; or else the one in its middle */
     unsigned int filmWidth, filmHeight;
     unsigned int firstPixel, pixels; /* of the part of the film that is read */
-    unsigned int filmFloats, floats; /* of a pixel, and of these so many from the first one on */
+    unsigned int filmFloats;         /* of a pixel */
+    unsigned int firstFloat, floats; /* which of them */
 } FilmCut;
 
 #define LOBES_MAX 8u /* lobes on one side of a surface; the host refuses more */

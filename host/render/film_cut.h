@@ -15,8 +15,10 @@ struct FilmCutChoice {
     /// The mean of the block's pixels, which suits values but not standard errors: those would hold the differences between pixels,
     /// too. Or else the pixel in the middle.
     bool isMean = true;
-    bool hasBias = false;       ///< beside the image and its standard error, where the film has it
-    bool hasComponents = false; ///< likewise
+    /// Values: FilmImage::radiance alone, of the image or, in its place, of a component. Errors: of the image and, where the film has
+    /// it, its bias. All: whatever the film has.
+    enum class Content { values, errors, all } content = Content::values;
+    std::optional<unsigned> component; ///< which the film has
 };
 
 class FilmCutter {

@@ -80,9 +80,10 @@ FilmCutChoice cutFor(const FrameWish& wish, const Film& film) {
     choice.height = std::clamp(wish.height, 1u, film.height() - choice.y);
     choice.step = std::clamp(wish.step, 1u, std::max(choice.width, choice.height));
     while (uint64_t(choice.width / choice.step) * (choice.height / choice.step) > mostPixels) ++choice.step;
-    choice.hasComponents = componentOf(wish.layer) < FILM_COMPONENTS;
-    choice.hasBias = wish.layer == biasLayer;
-    choice.isMean = wish.layer == imageLayer || choice.hasComponents;
+    const unsigned component = componentOf(wish.layer);
+    if (component < FILM_COMPONENTS) choice.component = component;
+    choice.isMean = wish.layer == imageLayer || choice.component;
+    if (!choice.isMean) choice.content = FilmCutChoice::Content::errors;
     return choice;
 }
 
@@ -96,15 +97,12 @@ Frame makeFrame(const FrameWish& wish, const FilmCutChoice& choice, const FilmIm
     frame.passes = cut.passes;
     frame.curve = curveOf(cut);
     frame.meanRadiance = meanOf(cut.radiance);
-    const unsigned component = componentOf(wish.layer);
-    const bool isFigure = component == FILM_COMPONENTS && wish.layer != imageLayer;
+    const bool isFigure = choice.content != FilmCutChoice::Content::values;
     frame.channels = isFigure ? 1 : 3;
     // A power of two, so that it changes no digit.
     if (!isFigure || wish.layer == noiseLayer) frame.scale = std::exp2(std::round(std::log2(frame.curve.scale)));
-    const auto values = isFigure                      ? figuresOf(wish.layer, cut, mean > 0 ? mean : frame.meanRadiance)
-                        : component < FILM_COMPONENTS ? cut.components[component]
-                                                      : cut.radiance;
-    frame.halves.resize(size_t(cut.width) * cut.height * frame.channels); // a component without light is empty: zero
+    const auto values = isFigure ? figuresOf(wish.layer, cut, mean > 0 ? mean : frame.meanRadiance) : cut.radiance;
+    frame.halves.resize(values.size());
     for (size_t k = 0; k < values.size(); ++k) frame.halves[k] = toHalf(static_cast<float>(frame.scale * values[k]));
     return frame;
 }

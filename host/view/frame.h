@@ -28,7 +28,7 @@ struct Frame {
     unsigned channels = 3;           ///< 3: colours; 1: figures
     unsigned passes = 0;
     double scale = 1;             ///< on the values, so that halves hold them
-    ToneCurve curve;              ///< the automatic one, for this piece of the image
+    ToneCurve curve;              ///< the automatic one, for what this piece shows, of a figure for the image
     double meanRadiance = 0;      ///< of this piece
     std::vector<uint16_t> halves; ///< row by row, channels side by side
 };

@@ -12,7 +12,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr std::chrono::milliseconds whileWaiting{50};
+constexpr std::chrono::milliseconds whileWaiting{10};
 
 } // namespace
 
@@ -34,6 +34,7 @@ void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& s
     if (device_ != &device) cutter_ = std::make_unique<FilmCutter>(device);
     device_ = &device;
     isStopped_ = false;
+    ++renders_;
     interrupted_ = signalled_.load();
     record_ = {};
     record_.scene = std::filesystem::path(scene.path).filename().string();

@@ -57,6 +57,8 @@ public:
     void letEdit() { isEditable_ = true; }
 
     // For the server.
+    /// How many have begun.
+    uint64_t renders() const { return renders_; }
     bool isEditable() const { return isEditable_; }
     Errands& errands() { return errands_; }
     FilmCutter& cutter() { return *cutter_; }
@@ -76,6 +78,7 @@ private:
 
     const std::atomic<bool>& signalled_;
     std::atomic<bool> interrupted_{false}, isStopped_{false}, hasEdits_{false}, isEditable_{false};
+    std::atomic<uint64_t> renders_{0};
     std::mutex mutex_;
     std::optional<ViewEdits> edits_;
     LiveState state_;

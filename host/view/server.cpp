@@ -200,8 +200,8 @@ struct ViewServer::Http {
             response.status = noContent;
             return;
         }
-        const Frame made = makeFrame(wish, choice, cut, isWhole ? 0 : meanRadiance.load());
-        if (isWhole) meanRadiance = made.meanRadiance;
+        const Frame made = makeFrame(wish, choice, cut, isWhole && !choice.component ? 0 : meanRadiance.load());
+        if (isWhole && !choice.component) meanRadiance = made.meanRadiance;
         sendFrame(made, wish.layer, moment, response);
     }
 
@@ -228,7 +228,7 @@ struct ViewServer::Http {
         choice.x = static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, "x", 0), 1u << 30));
         choice.y = static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, "y", 0), 1u << 30));
         choice.width = choice.height = 1;
-        choice.hasBias = choice.hasComponents = true;
+        choice.content = FilmCutChoice::Content::all;
         FilmImage one;
         const bool isDone = view.errands().run(
             [&](const RenderMoment& now) {
@@ -316,17 +316,22 @@ struct ViewServer::Http {
     void noteCost(Clock::time_point start) {
         const double cost = std::chrono::duration<double>(Clock::now() - start).count();
         const double pause = std::max(secondsBetweenFrames, cost / mostOfTime);
+        framedRender = view.renders();
         next = start.time_since_epoch() +
                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(pause));
     }
-    Clock::time_point nextFrame() const { return Clock::time_point(next.load()); }
+    // The first picture of a render is not put off.
+    Clock::time_point nextFrame() const {
+        return framedRender == view.renders() ? Clock::time_point(next.load()) : Clock::time_point{};
+    }
 
     LiveView& view;
     Access access;
     std::string listen;
     int port = 0;
-    std::atomic<Clock::duration> next{}; // since the clock's epoch: when the next picture may be made
-    std::atomic<double> meanRadiance{0}; // of the whole image, by its last picture
+    std::atomic<Clock::duration> next{};   // since the clock's epoch: when the next picture may be made
+    std::atomic<uint64_t> framedRender{0}; // which that was a picture of
+    std::atomic<double> meanRadiance{0};   // of the whole image, by its last picture
     httplib::Server server;
     std::thread thread;
 };

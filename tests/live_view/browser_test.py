@@ -27,6 +27,9 @@ class Page(unittest.TestCase):
         cls.addClassCleanup(cls.browser.close)
 
     def setUp(self):
+        before = self.view.state()["render"]
+        self.view.post("edit")  # begins anew, whatever the test before has left
+        self.view.wait(lambda state: state["render"] > before)
         self.browser.resize(1200, 800)
         self.browser.open(self.view.address)
         self.browser.wait("document.body.dataset.passes > 0")

@@ -107,7 +107,7 @@ const isWhole = frame => frame.x === 0 && frame.y === 0 && frame.width * frame.s
 
 function showFrame(frame) {
   if (frame.layer !== byId('layer').value) return;
-  if (isWhole(frame)) automatic = {exposure: frame.exposure, white: frame.white};
+  if (isWhole(frame) && frame.layer === 'image') automatic = {exposure: frame.exposure, white: frame.white};
   picture.show(frame, isWhole(frame));
   applyTone();
   document.body.dataset.passes = frame.passes;
