@@ -88,6 +88,31 @@ class Page(unittest.TestCase):
         self.choose("bdd", "")
         self.view.wait(lambda state: state["settings"]["bdd"] == 0)
 
+    def test_two_methods_side_by_side_at_equal_time(self):
+        run = self.browser.run
+        self.browser.wait("document.body.dataset.passes > 10")
+        run("document.getElementById('keep').click()")
+        kept = self.view.state()
+        self.choose("exposure", 1)  # holds for both
+        self.choose("bdd", 2)
+        self.choose("split", 100)
+        stopped = self.view.wait(lambda state: state["render"] > kept["render"] and state["phase"] == "stopped")
+        self.assertAlmostEqual(stopped["seconds"], kept["seconds"], delta=1.5)
+        self.browser.wait("/stopped/.test(document.getElementById('status').textContent)")
+        left = self.picture()
+        self.choose("split", 0)
+        right = self.picture()
+        self.choose("split", 50)
+        both, middle = self.picture(), left.shape[1] // 2
+        numpy.testing.assert_array_equal(both[:, :middle - 4], left[:, :middle - 4])
+        numpy.testing.assert_array_equal(both[:, middle + 4:], right[:, middle + 4:])
+        self.assertGreater(numpy.abs(left - right).mean(), 1, "they differ")
+        self.assertIn("BDD 0", run("document.getElementById('kept').textContent"))
+        self.assertIn("BDD 2", run("document.getElementById('now').textContent"))
+        run("document.getElementById('forget').click()")
+        numpy.testing.assert_array_equal(self.picture(), right)
+        self.choose("bdd", "")
+
     def test_dragging_turns_the_camera_and_keys_zoom(self):
         renders = self.view.state()["render"]
         left, top, width, height = self.box()

@@ -15,12 +15,15 @@ export class Picture {
     this.zoom = 1; // pixels of the screen for one of the film
     this.centre = {x: 0.5, y: 0.5}; // in the film, what lies in the middle of the canvas
     this.whole = this.part = null; // frames, each with `bitmap`
+    this.keptFrame = null; // another one, to compare with
+    this.split = 0.5; // so much of the canvas shows it, from the left
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
 
   setFilm(width, height) {
     if (width === this.film.width && height === this.film.height) return;
     this.film = {width, height};
+    this.keptFrame = null;
     this.fit();
   }
 
@@ -105,10 +108,19 @@ export class Picture {
     this.whole = this.part = null;
   }
 
+  /** The whole picture as it is; false where there is none. */
+  keep() {
+    if (!this.whole) return false;
+    this.keptFrame = {...this.whole, bitmap: document.createElement('canvas')};
+    Object.assign(this.keptFrame.bitmap, {width: this.whole.width, height: this.whole.height});
+    this.paint(this.keptFrame);
+    return true;
+  }
+
   setTone(tone) {
     if (tone.exposure === this.tone.exposure && tone.white === this.tone.white) return;
     this.tone = tone;
-    for (const frame of [this.whole, this.part]) if (frame) this.paint(frame);
+    for (const frame of [this.whole, this.part, this.keptFrame]) if (frame) this.paint(frame);
     this.draw();
   }
 
@@ -122,7 +134,29 @@ export class Picture {
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     context.imageSmoothingEnabled = this.zoom < 2;
     context.setTransform(this.zoom, 0, 0, this.zoom, this.canvas.width / 2 - this.zoom * this.centre.x, this.canvas.height / 2 - this.zoom * this.centre.y);
-    for (const frame of [this.whole, this.part])
-      if (frame) context.drawImage(frame.bitmap, frame.x, frame.y, frame.width * frame.step, frame.height * frame.step);
+    for (const frame of [this.whole, this.part]) this.drawFrame(context, frame);
+    if (this.keptFrame) this.drawKept(context);
+  }
+
+  drawFrame(context, frame) {
+    if (frame) context.drawImage(frame.bitmap, frame.x, frame.y, frame.width * frame.step, frame.height * frame.step);
+  }
+
+  // Left of a line, over the other one.
+  drawKept(context) {
+    const transform = context.getTransform(), x = Math.round(this.split * this.canvas.width);
+    context.save();
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.beginPath();
+    context.rect(0, 0, x, this.canvas.height);
+    context.clip();
+    context.clearRect(0, 0, x, this.canvas.height);
+    context.setTransform(transform);
+    this.drawFrame(context, this.keptFrame);
+    context.restore();
+    if (x === 0 || x === this.canvas.width) return;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.fillStyle = '#fee838';
+    context.fillRect(x - 1, 0, 2, this.canvas.height);
   }
 }

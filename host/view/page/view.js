@@ -1,6 +1,7 @@
 // The page: two loops, one for the state and one for pictures, each of which waits until there is something new.
 import {getFrame, getPixel, getState, stop} from './api.js';
 import {drawChart} from './chart.js';
+import {Comparison} from './comparison.js';
 import {isFigure, scaleOf} from './colour.js';
 import {Controls} from './controls.js';
 import {Picture} from './picture.js';
@@ -19,6 +20,8 @@ let refusal = ''; // why the last change was not taken
 
 const picture = new Picture(byId('picture'), () => pending?.abort());
 const controls = new Controls(message => { refusal = message; showProblem(); });
+const stopRender = () => stop().catch(error => { refusal = error.message; showProblem(); });
+const comparison = new Comparison(picture, stopRender);
 
 function tone() {
   const factor = 2 ** Number(byId('exposure').value);
@@ -83,6 +86,7 @@ function showState() {
   if (state.errors.length !== drawn.points || state.render !== drawn.render) drawChart(byId('chart'), state.errors);
   drawn = {points: state.errors.length, render: state.render};
   if (state.width > 0) picture.setFilm(state.width, state.height);
+  comparison.show(state);
 }
 
 async function followState() {
@@ -172,12 +176,13 @@ function pointAt({x, y}) {
 
 byId('layer').addEventListener('change', () => {
   picture.forget();
+  comparison.forget(); // that would be of another layer
   pending?.abort();
   applyTone();
 });
 byId('exposure').addEventListener('input', applyTone);
 byId('curve').addEventListener('change', applyTone);
-byId('stop').addEventListener('click', () => stop().catch(error => { refusal = error.message; showProblem(); }));
+byId('stop').addEventListener('click', stopRender);
 for (const id of ['pixel-x', 'pixel-y']) byId(id).addEventListener('input', lookAtPixel);
 followPointer(picture, controls, pointAt);
 drawChart(byId('chart'), []);
