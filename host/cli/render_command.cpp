@@ -232,7 +232,7 @@ int renderSensor(const RenderOptions& options) {
     if (options.isViewed) {
         view.emplace(options.view, interruptFlag());
         view->begin(device, scene, options.settings(scene), started.stop(), false);
-        if (!options.quiet) fmt::print(stderr, "quasilux: live view at {}\n", view->address());
+        fmt::print(stderr, "quasilux: live view at {}\n", view->address());
     }
     const auto afterPass = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
         if (view) view->afterPass(soFar, now, seconds, isLast);
