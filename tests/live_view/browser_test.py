@@ -53,6 +53,11 @@ class Page(unittest.TestCase):
         left, top, width, height = map(round, self.box())
         return pixels[top:top + height, left:left + width]
 
+    def wait_for_the_last_picture(self):
+        """Of a render that was stopped."""
+        passes = self.view.wait(lambda state: state["phase"] == "stopped")["passes"]
+        self.browser.wait(f"document.body.dataset.passes == {passes} && /stopped/.test(document.getElementById('status').textContent)")
+
     def test_the_picture_appears_and_sharpens(self):
         seen = self.picture()
         self.assertGreater((seen.max(axis=2) > 40).mean(), 0.4, "most of the canvas is the lit box")
@@ -69,7 +74,7 @@ class Page(unittest.TestCase):
 
     def test_exposure_and_curve_change_the_picture(self):
         self.browser.run("document.getElementById('stop').click()")
-        self.browser.wait("/stopped/.test(document.getElementById('status').textContent)")
+        self.wait_for_the_last_picture()
         before = self.picture().mean()
         self.choose("exposure", -2)
         darker = self.picture().mean()
@@ -98,7 +103,7 @@ class Page(unittest.TestCase):
         self.choose("split", 100)
         stopped = self.view.wait(lambda state: state["render"] > kept["render"] and state["phase"] == "stopped")
         self.assertAlmostEqual(stopped["seconds"], kept["seconds"], delta=1.5)
-        self.browser.wait("/stopped/.test(document.getElementById('status').textContent)")
+        self.wait_for_the_last_picture()
         left = self.picture()
         self.choose("split", 0)
         right = self.picture()
