@@ -37,6 +37,12 @@ void LiveState::setSettings(const RenderSettings& settings) {
     change();
 }
 
+void LiveState::setLayers(std::vector<std::string> layers) {
+    const std::lock_guard lock(mutex_);
+    layers_ = std::move(layers);
+    change();
+}
+
 void LiveState::setProgress(const Progress& progress) {
     const std::lock_guard lock(mutex_);
     const bool isNewError = progress.relativeError >= 0 && progress.relativeError != progress_.relativeError;
@@ -89,7 +95,7 @@ nlohmann::json LiveState::json() const {
                          {"scene", render_.scene},
                          {"width", render_.width},
                          {"height", render_.height},
-                         {"layers", render_.layers},
+                         {"layers", layers_},
                          {"quantity", render_.isMeter ? "irradiance" : "radiance"},
                          {"phase", phase_},
                          {"problem", problem_},

@@ -18,7 +18,6 @@ public:
     struct Render {
         std::string scene; ///< file name
         unsigned width = 0, height = 0;
-        std::vector<std::string> layers;
         bool isEndless = false; ///< then no time is left to tell
         bool isMeter = false;
     };
@@ -27,6 +26,8 @@ public:
     /// Another render begins; its chart is empty.
     void begin(const Render& render);
     void setSettings(const RenderSettings& settings);
+    /// What its film can show.
+    void setLayers(std::vector<std::string> layers);
     void setProgress(const Progress& progress);
     void setPasses(unsigned passes, double seconds);
     void setPhase(const std::string& phase);
@@ -49,6 +50,7 @@ private:
     mutable std::condition_variable changed_;
     uint64_t version_ = 1, renders_ = 0;
     Render render_;
+    std::vector<std::string> layers_;
     bool isEditable_ = false, hasCamera_ = false, isClosed_ = false;
     std::vector<EditedScene::Lamp> lamps_;
     std::string phase_ = "loading", problem_;

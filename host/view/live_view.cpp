@@ -43,8 +43,7 @@ void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& s
     record_.stop = stop;
     record_.meter = scene.sensor.meter;
     record_.pixelFormat = scene.sensor.pixelFormat;
-    state_.begin({record_.scene, scene.sensor.width, scene.sensor.height, layersOf(settings.film), isEndless,
-                  isIrradiance(scene.sensor.meter)});
+    state_.begin({record_.scene, scene.sensor.width, scene.sensor.height, isEndless, isIrradiance(scene.sensor.meter)});
     state_.setSettings(settings);
 }
 
@@ -58,6 +57,7 @@ void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, doub
     const auto passes = static_cast<unsigned>(renderer.counters().passes);
     if (passes == 0) { // the method has been chosen
         state_.setSettings(soFar.settings);
+        state_.setLayers(layersOf(renderer.film().layout()));
         state_.setPhase("rendering");
         return;
     }

@@ -110,6 +110,11 @@ class DoneRender(unittest.TestCase):
         self.view.edit()
         numpy.testing.assert_array_equal(self.view.frame()[1], before)
 
+    def test_layers_are_those_that_the_film_has(self):
+        self.assertNotIn("bias", self.view.edit(map="camera")["layers"])
+        self.assertEqual(self.view.get("frame", layer="bias")[0], 400)
+        self.assertIn("bias", self.view.edit()["layers"])
+
     def test_a_lamp_of_twice_the_power(self):
         _, before = self.view.frame()
         self.view.edit(lamps=[2])
