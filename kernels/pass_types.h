@@ -206,6 +206,16 @@ typedef struct {
 } CameraCounters;
 #define CUT_THROUGHPUT_STEPS 1024u
 
+/* A piece of the film: columns x rows blocks of step x step of its pixels, those at the film's edge maybe smaller. */
+typedef struct {
+    unsigned int x, y, columns, rows, step;
+    unsigned int isMean; /* of the block's pixels; or else the one in its middle */
+    unsigned int filmWidth, filmHeight;
+    unsigned int firstPixel, pixels; /* of the part of the film that is read */
+    unsigned int filmFloats;         /* of a pixel */
+    unsigned int firstFloat, floats; /* which of them */
+} FilmCut;
+
 #define LOBES_MAX 8u /* lobes on one side of a surface; the host refuses more */
 
 /* Hard limit on the events of a path; roulette ends practically all of them long before. Paths cut are counted. */

@@ -30,6 +30,7 @@ TEST_F(CommandLineTest, HelpStatesEveryOptionWithUnitAndDefault) {
          {"--mask", "--region", "--html", "--reference-stderr", "--max-relmse", "--max-bias", "--max-nonfinite",
           "--json"}},
         {"merge", {"-o", "--png", "--checkpoint", "--json", "--quiet"}},
+        {"view", {"--listen", "--port", "--no-browser", "--time", "--bdd", "--device", "-D"}},
         {"devices", {"--json"}},
         {"info", {"--json", "--bdd", "--device", "-D"}}};
     const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/reference/command-line.md");
@@ -96,7 +97,7 @@ TEST_F(CommandLineTest, DevicesAreListedAsTableAndJson) {
 }
 
 TEST_F(CommandLineTest, UnknownCommandsAndArgumentsAreRefused) {
-    expectRefused({}, "no command given, expected render, merge, compare, photometry, bench, devices or info");
+    expectRefused({}, "no command given, expected render, view, merge, compare, photometry, bench, devices or info");
     expectRefused({"rendr"}, "unknown argument 'rendr', did you mean 'render'?");
     expectRefused({"render"}, "SCENE is required");
     expectRefused({"render", "scene.xml", "--sed", "4"}, "did you mean '--seed'?");

@@ -9,6 +9,7 @@
 #include "cli/options.h"
 #include "cli/photometry_command.h"
 #include "cli/render_command.h"
+#include "cli/view_command.h"
 #include "util/error.h"
 #include "util/nearest.h"
 
@@ -52,16 +53,17 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     // A misspelt command counts as an unknown argument, although CLI11 says only that a command is missing.
     const bool unknown =
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
-    fail(exitBadInput, unknown ? unknownArgument(app)
-                       : noCommand
-                           ? "no command given, expected render, merge, compare, photometry, bench, devices or info"
-                           : error.what());
+    fail(exitBadInput,
+         unknown     ? unknownArgument(app)
+         : noCommand ? "no command given, expected render, view, merge, compare, photometry, bench, devices or info"
+                     : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
 }
 
 int runCommand(CLI::App& app, const Options& options) {
     if (app.got_subcommand("render")) return renderCommand(options.render);
+    if (app.got_subcommand("view")) return viewCommand(options.view);
     if (app.got_subcommand("merge")) return mergeCommand(options.merge);
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
     if (app.got_subcommand("compare")) return compareCommand(options.compare);

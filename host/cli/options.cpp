@@ -228,15 +228,36 @@ void declareCheckpoints(CLI::App& command, RenderOptions& options) {
         ->group(group);
 }
 
+void declareView(CLI::App& command, RenderOptions& render) {
+    ViewOptions& options = render.view;
+    const char* group = "Live view";
+    command
+        .add_option("--listen", options.listen,
+                    "Address that the page is served on, of this computer; others than loopback ones can be reached by "
+                    "whoever is "
+                    "in the network and has the page's address (default: 127.0.0.1)")
+        ->type_name("ADDRESS")
+        ->group(group);
+    command.add_option("--port", options.port, "Port of the page, a number; 0: any that is free (default: 0)")
+        ->type_name("N")
+        ->transform(wholeNumber(0, 65535))
+        ->group(group);
+    command
+        .add_flag_callback(
+            "--no-browser", [&options] { options.opensBrowser = false; },
+            "Print the page's address, but do not open it (default: opened where there is a desktop)")
+        ->group(group);
+}
+
 void setPasses(const std::string& text, StopRule& stop) {
     const auto colon = text.find(':');
     stop.firstPass = colon == std::string::npos ? 0 : static_cast<unsigned>(std::stoul(text.substr(0, colon)));
     stop.passes = static_cast<unsigned>(std::stoul(colon == std::string::npos ? text : text.substr(colon + 1)));
 }
 
-void declareStop(CLI::App& command, StopRule& stop) {
+void declareStop(CLI::App& command, StopRule& stop, const std::string& defaultTime) {
     const char* group = "Stop rules (the first one reached ends the render)";
-    command.add_option("--time", stop.seconds, "Time to render, in seconds (default: 30 if no stop rule is given)")
+    command.add_option("--time", stop.seconds, "Time to render, in seconds (default: " + defaultTime + ")")
         ->type_name("SECONDS")
         ->check(numberAbove(0, 1e9))
         ->group(group);
@@ -321,6 +342,26 @@ RenderOptions RenderOptions::forSensor(size_t index) const {
     return one;
 }
 
+namespace {
+
+void declareViewCommand(CLI::App& app, RenderOptions& options) {
+    CLI::App& view =
+        *app.add_subcommand("view", "Render a scene in the browser: look, move the camera, change the method");
+    declareScene(view, options, "");
+    declareView(view, options);
+    declareStop(view, options.stop, "none; 600 with --auto if no stop rule is given");
+    declareSettings(view, options);
+    declareDevice(view, options);
+    for (const char* ofFiles : {"--json", "--energy-balance"}) view.remove_option(view.get_option(ofFiles));
+    view.get_option("--quiet")->description(
+        "No progress and no warnings on the terminal; errors are still printed (default: off)");
+    view.get_option("--auto")->description(
+        "Search the settings first, once, as render does; only then there is a picture (default: off)");
+    view.get_option("--fixed")->description("Search nothing (default: on, but for --auto)");
+}
+
+} // namespace
+
 void declareOptions(CLI::App& app, Options& options) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "quasilux " QUASILUX_VERSION, "Print the version");
@@ -328,11 +369,18 @@ void declareOptions(CLI::App& app, Options& options) {
     CLI::App& render = *app.add_subcommand("render", "Render a scene to an OpenEXR image");
     declareScene(render, options.render, ", or all, one after the other, into files NAME_0.exr, NAME_1.exr ...");
     declareFiles(render, options.render);
-    declareStop(render, options.render.stop);
+    declareStop(render, options.render.stop, "30 if no stop rule is given");
     declareCheckpoints(render, options.render);
     declareSettings(render, options.render);
     declareDevice(render, options.render);
+    auto* viewed = render
+                       .add_flag("--view", options.render.isViewed,
+                                 "Serve a page that shows the picture as it converges, and open it (default: off)")
+                       ->group("Live view");
+    declareView(render, options.render);
+    for (const char* name : {"--listen", "--port", "--no-browser"}) render.get_option(name)->needs(viewed);
 
+    declareViewCommand(app, options.view);
     declareMerge(app, options.merge);
     declareCompare(app, options.compare);
     declarePhotometry(app, options.photometry);

@@ -8,6 +8,7 @@
 #include "cli/photometry_options.h"
 #include "output/png.h"
 #include "render/settings.h"
+#include "view/live_view.h"
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -52,6 +53,8 @@ struct RenderOptions : SceneOptions {
     double every = 60;              ///< seconds between checkpoints
     StopRule stop;
     ExposureChoice exposure;
+    bool isViewed = false; ///< by a page in the browser, as `view` says
+    ViewOptions view;
 
     /// `output`, or the scene's stem with .exr in the current folder; empty where only the grid is asked for.
     std::string outputPath() const;
@@ -60,7 +63,7 @@ struct RenderOptions : SceneOptions {
 };
 
 struct Options {
-    RenderOptions render;
+    RenderOptions render, view;
     SceneOptions info;
     CompareOptions compare;
     MergeOptions merge;

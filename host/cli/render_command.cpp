@@ -13,6 +13,7 @@
 #include "scene/skies/daylight_factor.h"
 #include "util/error.h"
 #include "util/process_memory.h"
+#include "view/live_view.h"
 
 #include <algorithm>
 #include <chrono>
@@ -228,9 +229,11 @@ int renderSensor(const RenderOptions& options) {
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
     progress.update({.phase = "preparing"});
+    std::optional<LiveView> view;
     const auto onProgress = [&](const Progress& now) {
         catchInterrupt();
         progress.update(now);
+        if (view) view->onProgress(now);
     };
     const auto onChosen = [&](const SearchReport& search) {
         progress.clear();
@@ -242,7 +245,16 @@ int renderSensor(const RenderOptions& options) {
     progress.clear();
     for (const auto& warning : started.warnings()) warn(options, warning);
     catchInterrupt();
-    const AutoRender render = started.render(onProgress, onChosen);
+    if (options.isViewed) {
+        view.emplace(options.view, interruptFlag());
+        view->begin(device, scene, options.settings(scene), started.stop(), false);
+        fmt::print(stderr, "quasilux: live view at {}\n", view->address());
+    }
+    const auto afterPass = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
+        if (view) view->afterPass(soFar, now, seconds, isLast);
+    };
+    const AutoRender render =
+        started.render(onProgress, onChosen, view ? view->interrupted() : interruptFlag(), afterPass);
     const FilmImage& image = render.image;
     if (image.passes == 0) {
         if (interruptFlag()) return exitCodeWithoutResult();
@@ -253,6 +265,7 @@ int renderSensor(const RenderOptions& options) {
     RenderRecord record = makeRecord(options, started.stop(), device, render, scene.sensor);
     record.loadSeconds = loadSeconds;
     record.unobstructedIlluminance = daylight;
+    record.interrupted |= view && view->isStopped();
     const WrittenFiles written = writeFiles(
         options, scene, image, renderAovs(device, scene, render.settings, samplesOfAovs(image.passes)), record);
     progress.clear();

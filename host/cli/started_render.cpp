@@ -1,35 +1,38 @@
 #include "cli/started_render.h"
 
 #include "auto/candidates.h"
-#include "cli/interrupt.h"
 
 #include <fmt/format.h>
 
 namespace quasilux {
 
-StartedRender::StartedRender(const RenderOptions& options, Device& device, const Scene& scene)
+StartedRender::StartedRender(const RenderOptions& options, Device& device, const Scene& scene,
+                             const std::shared_ptr<const LearnedScene>& known)
     : options_(options), device_(device), scene_(scene), freedom_(options.freedom(scene)),
       wanted_(checkpointOf(options, scene, options.stop)) {
     if (!options.resume.empty()) resumed_.emplace(options.resume, wanted_);
     wanted_.stop = resumed_ ? resumed_->stopRule(options.stop) : options.stop;
     settings_ = resumed_ ? resumed_->checkpoint().settings : searchStart(wanted_.wanted, scene, freedom_, wanted_.stop);
     settings_.countGathered = !options.stats.empty();
-    renderer_ = resumed_ ? resumed_->renderer(device, scene) : std::make_unique<Renderer>(device, scene, settings_);
+    renderer_ =
+        resumed_ ? resumed_->renderer(device, scene) : std::make_unique<Renderer>(device, scene, settings_, known);
     warnings_ = renderer_->report().warnings;
     if (resumed_) warnOfDevice(resumed_->checkpoint().device);
 }
 
 AutoRender StartedRender::render(const std::function<void(const Progress&)>& onProgress,
-                                 const std::function<void(const SearchReport&)>& onChosen) {
+                                 const std::function<void(const SearchReport&)>& onChosen,
+                                 const std::atomic<bool>& interrupted, const AfterChosenPass& afterPass) {
     keeper_.emplace(options_, device_, wanted_);
-    const auto afterPass = [this](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
+    const auto afterEach = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
         keeper_->afterPass(soFar, now, seconds, isLast);
+        if (afterPass) afterPass(soFar, now, seconds, isLast);
     };
     if (resumed_)
         return renderChosen(device_, settings_, resumed_->checkpoint().search, std::move(renderer_),
-                            resumed_->checkpoint().seconds, stop(), onProgress, interruptFlag(), afterPass);
+                            resumed_->checkpoint().seconds, stop(), onProgress, interrupted, afterEach);
     return renderAuto(device_, scene_, settings_, std::move(renderer_), freedom_, stop(), onProgress, onChosen,
-                      interruptFlag(), afterPass);
+                      interrupted, afterEach);
 }
 
 void StartedRender::warnOfDevice(const DeviceInfo& before) {

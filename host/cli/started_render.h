@@ -8,12 +8,16 @@ namespace quasilux {
 class StartedRender {
 public:
     /// Throws InputError where the checkpoint is of another render.
-    StartedRender(const RenderOptions& options, Device& device, const Scene& scene);
+    /// `known`: what another render of the scene has learned; null: it is learned here.
+    StartedRender(const RenderOptions& options, Device& device, const Scene& scene,
+                  const std::shared_ptr<const LearnedScene>& known = nullptr);
 
     const StopRule& stop() const { return wanted_.stop; }
     const std::vector<std::string>& warnings() const { return warnings_; }
+    /// Until the stop rule or `interrupted`; `afterPass` is called beside the keeper of checkpoints.
     AutoRender render(const std::function<void(const Progress&)>& onProgress,
-                      const std::function<void(const SearchReport&)>& onChosen);
+                      const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted,
+                      const AfterChosenPass& afterPass = {});
     /// Why the last checkpoint could not be written; empty if it was.
     std::string checkpointFailure() const { return keeper_ ? keeper_->failure() : ""; }
 

@@ -88,6 +88,10 @@ public:
 
     size_t pixels() const { return size_t(width_) * height_; }
     std::vector<Part>& parts() { return parts_; }
+    const std::vector<Part>& parts() const { return parts_; }
+    unsigned width() const { return width_; }
+    unsigned height() const { return height_; }
+    const FilmCounts& counts() const { return counts_; }
     /// Of a film that was made to be in one buffer: kernels that add to all of it at once need that.
     Buffer<float>& sums();
     const FilmLayout& layout() const { return layout_; }

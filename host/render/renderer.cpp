@@ -437,6 +437,8 @@ void Renderer::restoreState(const StateSource& source, const RenderCounters& cou
 
 bool Renderer::isFilmWhole() const { return stages_->film.isWhole(); }
 
+const Film& Renderer::film() const { return stages_->film; }
+
 FilmImage Renderer::develop() const { return stages_->film.develop(static_cast<unsigned>(stages_->counters.passes)); }
 
 void Renderer::developOver(FilmImage& image) const {

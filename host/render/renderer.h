@@ -18,6 +18,7 @@
 namespace quasilux {
 
 struct LearnedScene;
+class Film;
 
 /// Memory that the whole render takes at most, forecast before its first pass.
 struct MemoryForecast {
@@ -116,6 +117,7 @@ public:
     void developOver(FilmImage& image) const;
     /// Has no pass failed halfway? Or else a part of it may be in the film.
     bool isFilmWhole() const;
+    const Film& film() const;
     const SceneReport& report() const;
     const RenderCounters& counters() const;
     std::shared_ptr<const LearnedScene> learned() const;

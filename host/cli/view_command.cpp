@@ -1,0 +1,172 @@
+#include "cli/view_command.h"
+
+#include "cli/interrupt.h"
+#include "cli/started_render.h"
+#include "output/progress_line.h"
+#include "util/error.h"
+#include "view/live_view.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <thread>
+
+namespace quasilux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A search needs a time to choose for.
+constexpr double secondsOfSearched = 600;
+// Without a stop rule it goes on until somebody ends it.
+constexpr unsigned endless = 1u << 30;
+
+// Renders until the page or a signal ends the program, and anew whenever the page or the scene's file changes.
+class ViewSession {
+public:
+    explicit ViewSession(const RenderOptions& options)
+        : options_(options), progress_(stderr, !options.quiet), scene_(load()), savedAt_(timeOfFile()),
+          device_(options.device, options.workGroupSize, options.deviceMemory), view_(options.view, interruptFlag()) {
+        options_.fixed = !options_.autoAll;
+        StopRule& stop = options_.stop;
+        isEndless_ = !stop.seconds && !stop.passes && !stop.relativeError;
+        if (isEndless_ && options_.autoAll)
+            stop.seconds = secondsOfSearched;
+        else if (isEndless_)
+            stop.passes = endless;
+        isEndless_ &= !options_.autoAll;
+    }
+
+    int run() {
+        view_.letEdit();
+        warn(scene_->scene().warnings);
+        tellEditable();
+        fmt::print("{}\n", view_.address());
+        std::fflush(stdout); // a program that reads it is to have it at once
+        while (!interruptFlag()) {
+            const auto why = failureOf([&] { renderOnce(); });
+            if (why) view_.state().setProblem(*why);
+            if (why && !interruptFlag()) waitForChange();
+            takeChanges();
+        }
+        progress_.clear();
+        return exitCodeWhenWritten();
+    }
+
+private:
+    std::unique_ptr<EditedScene> load() const {
+        return std::make_unique<EditedScene>(loadScene(options_.scene, options_.parameters(), options_.choice()));
+    }
+
+    fs::file_time_type timeOfFile() const {
+        std::error_code isGone; // for a moment, while an editor replaces it
+        return fs::last_write_time(options_.scene, isGone);
+    }
+
+    void tellEditable() { view_.state().setEditable(scene_->lamps(), scene_->hasCamera()); }
+
+    // What the page asks for, over the command line.
+    RenderOptions optionsNow() const {
+        RenderOptions now = options_;
+        if (edits_.bdd) now.bdd = edits_.bdd;
+        if (edits_.variant) now.variant = edits_.variant;
+        if (edits_.direct) now.direct = edits_.direct;
+        if (edits_.map) now.map = edits_.map;
+        if (edits_.quasiSpecular) now.quasiSpecular = edits_.quasiSpecular;
+        return now;
+    }
+
+    void warn(const std::vector<std::string>& warnings) {
+        progress_.clear();
+        for (const auto& warning : warnings)
+            if (!options_.quiet) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+    }
+
+    void renderOnce() {
+        scene_->apply(edits_);
+        const RenderOptions now = optionsNow();
+        view_.begin(device_, scene_->scene(), now.settings(scene_->scene()), now.stop, isEndless_);
+        catchInterrupt();
+        const bool isKnown = learned_ && edits_.learnsAs(learnedFor_);
+        if (!isKnown) learnedFor_ = edits_;
+        StartedRender started(now, device_, scene_->scene(), isKnown ? learned_ : nullptr);
+        warn(started.warnings());
+        view_.state().setProblem("");
+        catchInterrupt(); // the runtime may have put in a handler of its own
+        const auto onProgress = [&](const Progress& progress) {
+            catchInterrupt();
+            progress_.update(progress);
+            view_.onProgress(progress);
+        };
+        const auto afterPass = [&](const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
+            keep(soFar.settings);
+            learned_ = renderer.learned();
+            view_.afterPass(soFar, renderer, seconds, isLast);
+            if (reloadIfSaved()) view_.interrupt();
+            if (!isLast) return;
+            progress_.clear();
+            view_.waitWith(soFar, renderer, [&] { return isReloaded_ || reloadIfSaved(); });
+        };
+        const AutoRender result = started.render(onProgress, {}, view_.interrupted(), afterPass);
+        if (result.failure) std::rethrow_exception(result.failure);
+    }
+
+    // What was searched once is not searched again: a change is to be seen at once.
+    void keep(const RenderSettings& chosen) {
+        if (options_.fixed) return;
+        options_.fixed = true;
+        options_.autoAll = false;
+        options_.bdd = chosen.bdd;
+        options_.variant = name(chosen.variant);
+        options_.quasiSpecular = chosen.quasiSpecular;
+        options_.photons = chosen.photonsPerPass;
+        options_.cameraPaths = chosen.cameraPaths;
+        options_.radiusScale = chosen.radiusScale;
+    }
+
+    // The scene anew where its file has been saved. One that is wrong is said so, and the one before stays.
+    bool reloadIfSaved() {
+        const auto time = timeOfFile();
+        if (time == savedAt_ || time == fs::file_time_type::min()) return false;
+        savedAt_ = time;
+        const auto why = failureOf([&] { reloaded_ = load(); });
+        view_.state().setProblem(why.value_or(""));
+        isReloaded_ = isReloaded_ || !why;
+        return !why;
+    }
+
+    void waitForChange() {
+        while (!interruptFlag() && !view_.hasEdits() && !reloadIfSaved())
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+
+    void takeChanges() {
+        if (isReloaded_) {
+            scene_ = std::move(reloaded_);
+            learned_ = nullptr;
+            isReloaded_ = false;
+            warn(scene_->scene().warnings);
+            tellEditable();
+        }
+        if (const auto edits = view_.takeEdits()) edits_ = *edits;
+    }
+
+    RenderOptions options_;
+    ProgressLine progress_;
+    std::unique_ptr<EditedScene> scene_, reloaded_;
+    bool isReloaded_ = false, isEndless_ = false;
+    fs::file_time_type savedAt_;
+    Device device_;
+    LiveView view_;
+    ViewEdits edits_, learnedFor_;
+    std::shared_ptr<const LearnedScene> learned_;
+};
+
+} // namespace
+
+int viewCommand(const RenderOptions& options) {
+    exitOnInterrupt();
+    return ViewSession(options).run();
+}
+
+} // namespace quasilux

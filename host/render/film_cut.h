@@ -1,0 +1,35 @@
+// A piece of the film as it is between two passes, for somebody who looks: little to read, however large the film is.
+#pragma once
+
+#include "device/program.h"
+#include "render/film.h"
+
+#include <optional>
+
+namespace quasilux {
+
+/// Which piece, and what of it.
+struct FilmCutChoice {
+    unsigned x = 0, y = 0, width = 0, height = 0; ///< in pixels of the film, not empty and within it
+    unsigned step = 1;                            ///< pixels of a block's side, of which one pixel of the piece is made
+    /// The mean of the block's pixels, which suits values but not standard errors: those would hold the differences between pixels,
+    /// too. Or else the pixel in the middle.
+    bool isMean = true;
+    /// Values: FilmImage::radiance alone, of the image or, in its place, of a component. Errors: of the image and, where the film has
+    /// it, its bias. All: whatever the film has.
+    enum class Content { values, errors, all } content = Content::values;
+    std::optional<unsigned> component; ///< which the film has
+};
+
+class FilmCutter {
+public:
+    explicit FilmCutter(Device& device) : device_(device) {}
+
+    FilmImage develop(const Film& film, unsigned passes, const FilmCutChoice& choice);
+
+private:
+    Device& device_;
+    std::optional<Program> program_; ///< compiled when somebody looks
+};
+
+} // namespace quasilux

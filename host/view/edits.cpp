@@ -1,0 +1,194 @@
+#include "view/edits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <vector>
+
+namespace quasilux {
+
+namespace {
+
+constexpr double steepest = 1.55; // radians above the horizon: short of straight up, where left and right are lost
+
+double number(const nlohmann::json& json, const char* key, double least, double most) {
+    const auto found = json.find(key);
+    if (found == json.end() || found->is_null()) return 0;
+    const double value = found->is_number() ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
+    if (!(value >= least && value <= most))
+        throw InputError(fmt::format("{} is {}, expected a number from {} to {}", key, found->dump(), least, most));
+    return value;
+}
+
+std::optional<std::string> text(const nlohmann::json& json, const char* key) {
+    const auto found = json.find(key);
+    if (found == json.end() || found->is_null()) return std::nullopt;
+    if (!found->is_string()) throw InputError(fmt::format("{} is {}, expected text", key, found->dump()));
+    return found->get<std::string>();
+}
+
+CameraMove parseMove(const nlohmann::json& json) {
+    constexpr double far = 1e3;
+    if (!json.is_object()) throw InputError("camera is " + json.dump() + ", expected an object");
+    return {number(json, "yaw", -far, far), number(json, "pitch", -far, far), number(json, "nearer", -30, 30),
+            number(json, "right", -far, far), number(json, "up", -far, far)};
+}
+
+std::vector<double> parseLamps(const nlohmann::json& json) {
+    std::vector<double> factors;
+    if (!json.is_array()) throw InputError("lamps is " + json.dump() + ", expected a list of factors");
+    for (const auto& factor : json) factors.push_back(number({{"lamp", factor}}, "lamp", 0, 1e6));
+    return factors;
+}
+
+// Of the world's axes, and the opposite ones, the one that points most to where the camera has its up.
+glm::dvec3 uprightAxis(const glm::dvec3& up) {
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+        if (std::abs(up[k]) > std::abs(up[axis])) axis = k;
+    glm::dvec3 upright(0);
+    upright[axis] = up[axis] < 0 ? -1 : 1;
+    return upright;
+}
+
+glm::dmat3 rotation(double angle, const glm::dvec3& axis) {
+    return glm::dmat3(glm::rotate(glm::dmat4(1), angle, axis));
+}
+
+void scale(Rgb& colour, float factor) { colour = {factor * colour.r, factor * colour.g, factor * colour.b}; }
+
+bool isBlack(const Rgb& colour) { return colour.r == 0 && colour.g == 0 && colour.b == 0; }
+
+} // namespace
+
+ViewEdits parseEdits(const nlohmann::json& json) {
+    if (!json.is_object()) throw InputError("expected an object of changes, found " + json.dump());
+    ViewEdits edits;
+    if (json.contains("camera")) edits.camera = parseMove(json["camera"]);
+    if (json.contains("lamps")) edits.lamps = parseLamps(json["lamps"]);
+    if (json.contains("bdd") && !json["bdd"].is_null()) {
+        if (!json["bdd"].is_number_unsigned() || json["bdd"].get<uint64_t>() > 1000)
+            throw InputError("bdd is " + json["bdd"].dump() + ", expected a whole number from 0 to 1000");
+        edits.bdd = json["bdd"].get<unsigned>();
+    }
+    edits.variant = text(json, "variant");
+    edits.direct = text(json, "direct");
+    edits.map = text(json, "map");
+    edits.quasiSpecular = text(json, "quasiSpecular");
+    edits.isDraft = json.value("isDraft", nlohmann::json(false)) == true;
+    if (edits.variant) parseVariant(*edits.variant);
+    if (edits.direct) parseDirect(*edits.direct);
+    if (edits.map) parseMapOrder(*edits.map);
+    return edits;
+}
+
+EditedScene::EditedScene(Scene scene) : scene_(std::move(scene)), pivotDistance_(distanceToMiddle()) {
+    original_.view = scene_.sensor.toWorld;
+    for (const auto& shape : scene_.shapes) original_.byShape.push_back(shape.emitter);
+    original_.points = scene_.pointEmitters;
+    original_.beams = scene_.directionalEmitters;
+    original_.surroundings = scene_.surroundings;
+}
+
+std::vector<EditedScene::Lamp> EditedScene::lamps() const {
+    std::vector<Lamp> all;
+    for (size_t k = 0; k < original_.byShape.size(); ++k)
+        if (original_.byShape[k]) all.push_back({scene_.shapes[k].id, "area"});
+    for (const auto& point : original_.points)
+        all.push_back({point.id, point.luminaire   ? "luminaire"
+                                 : point.projector ? "projector"
+                                 : point.spot      ? "spot"
+                                                   : "point"});
+    for (const auto& beam : original_.beams) all.push_back({beam.id, "directional"});
+    if (original_.surroundings) all.push_back({original_.surroundings->id, original_.surroundings->plugin});
+    return all;
+}
+
+// In the order of lamps().
+void EditedScene::apply(const ViewEdits& edits) {
+    size_t next = 0;
+    const auto factor = [&] { // of the lamp that follows
+        const double given = next < edits.lamps.size() ? edits.lamps[next] : 1;
+        ++next;
+        return static_cast<float>(given);
+    };
+    size_t lit = 0;
+    for (size_t k = 0; k < scene_.shapes.size(); ++k) {
+        if (!original_.byShape[k]) continue;
+        auto& emitter = scene_.shapes[k].emitter = original_.byShape[k];
+        scale(emitter->radiance, factor());
+        if (isBlack(emitter->radiance)) emitter.reset();
+        lit += emitter.has_value();
+    }
+    scene_.pointEmitters = original_.points;
+    for (auto& point : scene_.pointEmitters) scale(point.intensity, factor());
+    std::erase_if(scene_.pointEmitters, [](const auto& point) { return isBlack(point.intensity); });
+    scene_.directionalEmitters = original_.beams;
+    for (auto& beam : scene_.directionalEmitters) scale(beam.irradiance, factor());
+    std::erase_if(scene_.directionalEmitters, [](const auto& beam) { return isBlack(beam.irradiance); });
+    lit += scene_.pointEmitters.size() + scene_.directionalEmitters.size();
+    if (original_.surroundings) lit += setSurroundings(factor());
+    if (lit == 0 && next > 0)
+        throw InputError("all lamps are off, so that there is no light to render; raise the power of one of them");
+    if (hasCamera())
+        scene_.sensor.toWorld = moved(original_.view, edits.camera, pivotDistance_, scene_.sensor.orthographic);
+}
+
+bool EditedScene::setSurroundings(float factor) {
+    scene_.surroundings.reset();
+    if (factor == 0) return false;
+    auto& surroundings = scene_.surroundings = original_.surroundings;
+    scale(surroundings->radiance, factor);
+    if (surroundings->image)
+        for (Rgb& pixel : surroundings->image->pixels) scale(pixel, factor);
+    return true;
+}
+
+// The camera turns about the point before it that is as deep as the middle of the scene.
+double EditedScene::distanceToMiddle() const {
+    glm::dvec3 lower(std::numeric_limits<double>::max()), upper = -lower;
+    const auto include = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        lower = glm::min(lower, from);
+        upper = glm::max(upper, to);
+    };
+    for (const auto& shape : scene_.shapes) {
+        for (const auto& position : shape.mesh.positions) include(position, position);
+        if (shape.sphere) {
+            const glm::dvec3 centre = shape.sphere->center, radius(shape.sphere->radius);
+            include(centre - radius, centre + radius);
+        }
+    }
+    if (scene_.shapes.empty()) return 1;
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(scene_.sensor.toWorld[2]));
+    const double depth = glm::dot((lower + upper) / 2.0 - glm::dvec3(scene_.sensor.toWorld[3]), forward);
+    const double size = glm::length(upper - lower);
+    return std::max(depth, 0.05 * size);
+}
+
+glm::dmat4 moved(const glm::dmat4& toWorld, const CameraMove& move, double distance, bool isOrthographic) {
+    const glm::dmat3 axes(toWorld);
+    const glm::dvec3 eye(toWorld[3]), forward = glm::normalize(axes[2]), up = glm::normalize(axes[1]);
+    const glm::dvec3 upright = uprightAxis(up), pivot = eye + distance * forward;
+    // Seen from the point, the camera rises by the pitch; not over the top.
+    const double before = std::asin(std::clamp(-glm::dot(forward, upright), -1.0, 1.0));
+    const double pitch =
+        std::clamp(before + move.pitch, std::min(before, -steepest), std::max(before, steepest)) - before;
+    const glm::dmat3 turn = rotation(move.yaw, upright) * rotation(pitch, glm::normalize(axes[0]));
+    const double closeness = std::exp2(-move.nearer);
+    glm::dmat3 turned = turn * axes;
+    const glm::dvec3 shift =
+        distance * closeness * (move.up * glm::normalize(turned[1]) - move.right * glm::normalize(turned[0]));
+    const double eyeDistance = isOrthographic ? distance : distance * closeness;
+    const glm::dvec3 newEye = pivot - eyeDistance * glm::normalize(turned[2]) + shift;
+    if (isOrthographic) { // the picture grows with what it shows, not with the distance
+        turned[0] *= closeness;
+        turned[1] *= closeness;
+    }
+    glm::dmat4 result(turned);
+    result[3] = glm::dvec4(newEye, 1);
+    return result;
+}
+
+} // namespace quasilux

@@ -1,0 +1,104 @@
+#include "view/live_view.h"
+
+#include "render/film_cut.h"
+#include "view/browser.h"
+#include "view/frame.h"
+#include "view/server.h"
+
+#include <filesystem>
+#include <thread>
+
+namespace quasilux {
+
+namespace {
+
+constexpr std::chrono::milliseconds whileWaiting{10};
+
+} // namespace
+
+LiveView::LiveView(const ViewOptions& options, const std::atomic<bool>& signalled)
+    : signalled_(signalled), server_(std::make_unique<ViewServer>(options, *this)) {
+    if (options.opensBrowser && hasDesktop()) page_ = std::make_unique<OpenedPage>(address());
+}
+
+LiveView::~LiveView() {
+    state_.close();
+    errands_.close();
+    server_.reset(); // before what it uses
+}
+
+std::string LiveView::address() const { return server_->address(); }
+
+void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& settings, const StopRule& stop,
+                     bool isEndless) {
+    if (device_ != &device) cutter_ = std::make_unique<FilmCutter>(device);
+    device_ = &device;
+    isStopped_ = false;
+    ++renders_;
+    interrupted_ = signalled_.load();
+    record_ = {};
+    record_.scene = std::filesystem::path(scene.path).filename().string();
+    record_.device = device.info();
+    record_.workGroupSize = device.workGroupSize();
+    record_.stop = stop;
+    record_.meter = scene.sensor.meter;
+    record_.pixelFormat = scene.sensor.pixelFormat;
+    state_.begin({record_.scene, scene.sensor.width, scene.sensor.height, isEndless, isIrradiance(scene.sensor.meter)});
+    state_.setSettings(settings);
+}
+
+void LiveView::onProgress(const Progress& progress) {
+    syncSignal();
+    state_.setProgress(progress);
+}
+
+void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
+    syncSignal();
+    const auto passes = static_cast<unsigned>(renderer.counters().passes);
+    if (passes == 0) { // the method has been chosen
+        state_.setSettings(soFar.settings);
+        state_.setLayers(layersOf(renderer.film().layout()));
+        state_.setPhase("rendering");
+        return;
+    }
+    state_.setPasses(passes, seconds);
+    if (isLast) state_.setPhase(isStopped_ ? "stopped" : "done");
+    errands_.doDue({renderer, soFar, ++moment_});
+}
+
+void LiveView::waitWith(const AutoRender& soFar, const Renderer& renderer, const std::function<bool()>& isOver) {
+    while (!signalled_ && !hasEdits_ && !isOver()) {
+        errands_.doDue({renderer, soFar, moment_});
+        std::this_thread::sleep_for(whileWaiting);
+    }
+}
+
+std::optional<ViewEdits> LiveView::takeEdits() {
+    const std::lock_guard lock(mutex_);
+    hasEdits_ = false;
+    return std::exchange(edits_, std::nullopt);
+}
+
+void LiveView::stop() {
+    isStopped_ = true;
+    interrupted_ = true;
+}
+
+void LiveView::edit(const ViewEdits& edits) {
+    const std::lock_guard lock(mutex_);
+    edits_ = edits;
+    hasEdits_ = true;
+    interrupted_ = true;
+}
+
+LiveView::Saved LiveView::saved(const RenderMoment& moment) const {
+    Saved saved{moment.renderer.develop(), record_};
+    saved.record.settings = moment.soFar.settings;
+    saved.record.search = moment.soFar.search;
+    saved.record.report = moment.renderer.report();
+    saved.record.counters = moment.renderer.counters();
+    saved.record.interrupted = isStopped_;
+    return saved;
+}
+
+} // namespace quasilux

@@ -1,0 +1,352 @@
+// The only file that knows the HTTP library.
+#include "view/server.h"
+
+#include "output/exr.h"
+#include "util/temporary_folder.h"
+#include "view/frame.h"
+#include "view/page_files.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <httplib.h>
+#include <sstream>
+#include <thread>
+
+namespace quasilux {
+
+namespace {
+
+using Clock = Errands::Clock;
+using httplib::Request;
+using httplib::Response;
+
+// Threads, of which each request that waits for something new takes one.
+constexpr size_t serverThreads = 24;
+constexpr std::chrono::milliseconds patience{3000}, patienceOfSaving{600000};
+// Pictures of a render that goes on come no more often than this, and take at most this share of its time.
+constexpr double secondsBetweenFrames = 0.4, mostOfTime = 0.02;
+
+constexpr int badRequest = 400, forbidden = 403, notFound = 404, noContent = 204, unsupportedType = 415;
+
+// A page from elsewhere can neither be shown ours in a frame nor read anything of it; ours runs only what lies here.
+const httplib::Headers safetyHeaders{
+    {"Content-Security-Policy",
+     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src "
+     "'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+    {"X-Content-Type-Options", "nosniff"},
+    {"Referrer-Policy", "no-referrer"},
+    {"Cross-Origin-Resource-Policy", "same-origin"},
+    {"Cache-Control", "no-store"}};
+
+std::string typeOf(const std::string& file) {
+    const std::string end = file.substr(file.rfind('.') + 1);
+    return end == "html"  ? "text/html; charset=utf-8"
+           : end == "js"  ? "text/javascript; charset=utf-8"
+           : end == "css" ? "text/css; charset=utf-8"
+                          : "image/svg+xml";
+}
+
+uint64_t wholeParameter(const Request& request, const char* name, uint64_t otherwise) {
+    if (!request.has_param(name)) return otherwise;
+    const std::string text = request.get_param_value(name);
+    const bool isNumber =
+        !text.empty() && text.size() < 16 && text.find_first_not_of("0123456789") == std::string::npos;
+    if (!isNumber) throw InputError(fmt::format("{} is '{}', expected a whole number", name, text));
+    return std::stoull(text);
+}
+
+double numberParameter(const Request& request, const char* name, double otherwise) {
+    if (!request.has_param(name)) return otherwise;
+    std::istringstream text(request.get_param_value(name));
+    double value = 0;
+    if (!(text >> value) || !text.eof() || !std::isfinite(value) || value <= 0)
+        throw InputError(fmt::format("{} is '{}', expected a number above 0", name, text.str()));
+    return value;
+}
+
+void reply(Response& response, const nlohmann::json& json) {
+    response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "application/json");
+}
+
+std::string contentOf(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream content;
+    content << stream.rdbuf();
+    if (!stream) throw std::runtime_error("cannot read " + file.string());
+    return content.str();
+}
+
+} // namespace
+
+struct ViewServer::Http {
+    Http(const ViewOptions& options, LiveView& view_) : view(view_), access(options.listen), listen(options.listen) {
+        server.new_task_queue = [] { return new httplib::ThreadPool(serverThreads); }; // the library deletes it
+        // By default another program could listen on the same port.
+        server.set_socket_options([](socket_t socket) {
+            const int yes = 1;
+            setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+        });
+        server.set_default_headers(safetyHeaders);
+        server.set_keep_alive_timeout(1); // as long may the end of the program have to wait for an idle browser
+        server.set_keep_alive_max_count(1000);
+        server.set_payload_max_length(1u << 18);
+        server.set_tcp_nodelay(true);
+        setHandlers();
+        port = options.port == 0                                             ? server.bind_to_any_port(listen)
+               : server.bind_to_port(listen, static_cast<int>(options.port)) ? static_cast<int>(options.port)
+                                                                             : -1;
+        if (port <= 0)
+            throw InputError(
+                fmt::format("--listen {} --port {}: the system refuses this address (another program may have it); "
+                            "give another one, or --port 0 for any that is free",
+                            listen, options.port));
+        thread = std::thread([this] { server.listen_after_bind(); });
+        while (!server.is_running()) std::this_thread::yield(); // or else stop() may come too early
+    }
+
+    ~Http() {
+        server.stop();
+        thread.join();
+    }
+
+    Http(const Http&) = delete;
+    Http& operator=(const Http&) = delete;
+
+    void setHandlers() {
+        server.set_pre_routing_handler([this](const Request& request, Response& response) {
+            if (mayAsk(request)) return httplib::Server::HandlerResponse::Unhandled;
+            response.status = forbidden;
+            response.set_content("The address lacks the token that `quasilux` printed, or names another computer.\n",
+                                 "text/plain");
+            return httplib::Server::HandlerResponse::Handled;
+        });
+        const auto get = [this](const std::string& name, void (Http::*answer)(const Request&, Response&)) {
+            server.Get("/" + access.token() + name, guarded(answer));
+        };
+        get("/state", &Http::state);
+        get("/frame", &Http::frame);
+        get("/pixel", &Http::pixel);
+        get("/image\\.(exr|png)", &Http::image);
+        get("/([a-z_]*(?:\\.[a-z]+)?)", &Http::file);
+        server.Post("/" + access.token() + "/stop", guarded(&Http::stop));
+        server.Post("/" + access.token() + "/edit", guarded(&Http::edit));
+    }
+
+    // The first part of the path is the token.
+    bool mayAsk(const Request& request) const {
+        if (!access.isOurHost(request.get_header_value("Host"), port)) return false;
+        const auto end = request.path.find('/', 1);
+        return end != std::string::npos && access.isToken(request.path.substr(1, end - 1));
+    }
+
+    httplib::Server::Handler guarded(void (Http::*answer)(const Request&, Response&)) {
+        return [this, answer](const Request& request, Response& response) {
+            try {
+                (this->*answer)(request, response);
+            } catch (const InputError& error) {
+                response.status = badRequest;
+                reply(response, {{"error", error.what()}});
+            } catch (const std::exception& error) {
+                response.status = 500;
+                reply(response, {{"error", error.what()}});
+            }
+        };
+    }
+
+    void file(const Request& request, Response& response) {
+        const std::string name = request.matches[1].length() == 0 ? "index.html" : request.matches[1].str();
+        const auto& files = pageFiles();
+        const auto found = files.find(name);
+        if (found == files.end())
+            response.status = notFound;
+        else
+            response.set_content(found->second, typeOf(name));
+    }
+
+    void state(const Request& request, Response& response) {
+        reply(response, view.state().wait(wholeParameter(request, "seen", 0), patience));
+    }
+
+    // A picture newer than `after`; 204 where there is none for a while.
+    void frame(const Request& request, Response& response) {
+        FrameWish wish;
+        if (request.has_param("layer")) wish.layer = request.get_param_value("layer");
+        const auto size = [&](const char* name, uint64_t otherwise) {
+            return static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, name, otherwise), 1u << 30));
+        };
+        wish.x = size("x", 0);
+        wish.y = size("y", 0);
+        wish.width = size("width", 1u << 30);
+        wish.height = size("height", 1u << 30);
+        wish.step = size("step", 1);
+        const uint64_t after = wholeParameter(request, "after", 0);
+        FilmCutChoice choice;
+        FilmImage cut;
+        uint64_t moment = 0;
+        bool isWhole = false;
+        const bool isDone = view.errands().run(
+            [&](const RenderMoment& now) {
+                const auto start = Clock::now();
+                const Film& film = now.renderer.film();
+                choice = cutFor(wish, film);
+                isWhole = choice.width == film.width() && choice.height == film.height();
+                cut = view.cutter().develop(film, static_cast<unsigned>(now.renderer.counters().passes), choice);
+                moment = now.number;
+                noteCost(start);
+            },
+            {after, after > 0 ? nextFrame() : Clock::time_point{}}, patience);
+        if (!isDone) {
+            response.status = noContent;
+            return;
+        }
+        const Frame made = makeFrame(wish, choice, cut, isWhole && !choice.component ? 0 : meanRadiance.load());
+        if (isWhole && !choice.component) meanRadiance = made.meanRadiance;
+        sendFrame(made, wish.layer, moment, response);
+    }
+
+    static void sendFrame(const Frame& frame, const std::string& layer, uint64_t moment, Response& response) {
+        const nlohmann::json header{{"x", frame.x},
+                                    {"y", frame.y},
+                                    {"step", frame.step},
+                                    {"width", frame.width},
+                                    {"height", frame.height},
+                                    {"channels", frame.channels},
+                                    {"layer", layer},
+                                    {"passes", frame.passes},
+                                    {"moment", moment},
+                                    {"scale", frame.scale},
+                                    {"exposure", frame.curve.scale},
+                                    {"white", frame.curve.white}};
+        response.set_header("X-Frame", header.dump());
+        response.set_content(reinterpret_cast<const char*>(frame.halves.data()), frame.halves.size() * sizeof(uint16_t),
+                             "application/octet-stream");
+    }
+
+    void pixel(const Request& request, Response& response) {
+        FilmCutChoice choice;
+        choice.x = static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, "x", 0), 1u << 30));
+        choice.y = static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, "y", 0), 1u << 30));
+        choice.width = choice.height = 1;
+        choice.content = FilmCutChoice::Content::all;
+        FilmImage one;
+        const bool isDone = view.errands().run(
+            [&](const RenderMoment& now) {
+                const Film& film = now.renderer.film();
+                if (choice.x >= film.width() || choice.y >= film.height())
+                    throw InputError(fmt::format("pixel {}, {} is none of {} x {}", choice.x, choice.y, film.width(),
+                                                 film.height()));
+                one = view.cutter().develop(film, static_cast<unsigned>(now.renderer.counters().passes), choice);
+            },
+            {}, patience);
+        if (!isDone) {
+            response.status = noContent;
+            return;
+        }
+        nlohmann::json json{{"x", choice.x},
+                            {"y", choice.y},
+                            {"value", one.radiance},
+                            {"stderr", one.standardError},
+                            {"passes", one.passes}};
+        json["bias"] = one.bias.empty() ? nlohmann::json() : nlohmann::json(one.bias);
+        json["biasStderr"] = one.biasError.empty() ? nlohmann::json() : nlohmann::json(one.biasError);
+        json["components"] = nlohmann::json::object();
+        for (unsigned c = 0; c < FILM_COMPONENTS; ++c)
+            if (!one.components[c].empty()) json["components"][componentName(c)] = one.components[c];
+        reply(response, json);
+    }
+
+    // Made in a folder of our own, which nobody else can name.
+    void image(const Request& request, Response& response) {
+        const bool isExr = request.matches[1] == "exr";
+        std::optional<LiveView::Saved> saved;
+        view.errands().run([&](const RenderMoment& now) { saved = view.saved(now); }, {}, patienceOfSaving);
+        if (!saved) {
+            response.status = noContent;
+            return;
+        }
+        saved->record.error = estimateError(saved->image);
+        const TemporaryFolder folder;
+        const auto path = folder.path() / (isExr ? "image.exr" : "image.png");
+        if (isExr) {
+            writeExr(path.string(), saved->image, saved->record);
+        } else {
+            ToneCurve curve = chooseToneCurve(saved->image, {});
+            curve.scale = numberParameter(request, "exposure", curve.scale);
+            curve.white = numberParameter(request, "white", curve.white);
+            writePng(path.string(), saved->image, curve, saved->record);
+        }
+        const std::string name = std::filesystem::path(saved->record.scene).stem().string();
+        response.set_header("Content-Disposition",
+                            "attachment; filename=\"" + plainName(name) + (isExr ? ".exr\"" : ".png\""));
+        response.set_content(contentOf(path), isExr ? "image/x-exr" : "image/png");
+    }
+
+    // Of a header, so without quotes and control characters.
+    static std::string plainName(std::string name) {
+        for (char& c : name)
+            if (c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e)
+                c = '_';
+        return name;
+    }
+
+    void stop(const Request&, Response& response) {
+        view.stop();
+        reply(response, nlohmann::json::object());
+    }
+
+    void edit(const Request& request, Response& response) {
+        if (!view.isEditable()) {
+            response.status = forbidden;
+            reply(response,
+                  {{"error", "this render is only looked at; `quasilux view` serves one that can be changed"}});
+            return;
+        }
+        if (request.get_header_value("Content-Type").rfind("application/json", 0) != 0) {
+            response.status = unsupportedType;
+            return;
+        }
+        const auto json = nlohmann::json::parse(request.body, nullptr, false);
+        if (json.is_discarded()) throw InputError("expected JSON");
+        view.edit(parseEdits(json));
+        reply(response, nlohmann::json::object());
+    }
+
+    // Both are called with errands' lock or without; a torn order would only shift a picture.
+    void noteCost(Clock::time_point start) {
+        const double cost = std::chrono::duration<double>(Clock::now() - start).count();
+        const double pause = std::max(secondsBetweenFrames, cost / mostOfTime);
+        framedRender = view.renders();
+        next = start.time_since_epoch() +
+               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(pause));
+    }
+    // The first picture of a render is not put off.
+    Clock::time_point nextFrame() const {
+        return framedRender == view.renders() ? Clock::time_point(next.load()) : Clock::time_point{};
+    }
+
+    LiveView& view;
+    Access access;
+    std::string listen;
+    int port = 0;
+    std::atomic<Clock::duration> next{};   // since the clock's epoch: when the next picture may be made
+    std::atomic<uint64_t> framedRender{0}; // which that was a picture of
+    std::atomic<double> meanRadiance{0};   // of the whole image, by its last picture
+    httplib::Server server;
+    std::thread thread;
+};
+
+ViewServer::ViewServer(const ViewOptions& options, LiveView& view) : http_(std::make_unique<Http>(options, view)) {}
+
+ViewServer::~ViewServer() = default;
+
+std::string ViewServer::address() const {
+    const std::string& listen = http_->listen;
+    const bool isAny = listen == "0.0.0.0" || listen == "::";
+    const std::string host = isAny                                   ? computerName()
+                             : listen.find(':') == std::string::npos ? listen
+                                                                     : '[' + listen + ']';
+    return fmt::format("http://{}:{}/{}/", host, http_->port, http_->access.token());
+}
+
+} // namespace quasilux

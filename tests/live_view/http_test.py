@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""The live view by plain requests: who may ask, that the picture is the image, that it sharpens, that changes begin anew.
+http_test.py PROGRAM SOURCE_FOLDER. Renders have a seed, so that figures are the same on every run."""
+
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+import OpenImageIO
+
+from viewed import Viewed
+
+PROGRAM, SOURCE = sys.argv[1:3]
+SCENE = SOURCE + "/scenes/cornell_phong.xml"
+SMALL = ["-D", "resolution=48", "--photons", "4000"]
+PASSES = 6
+
+
+def pixels_of(content):
+    """R, G, B of an image that came by HTTP."""
+    with tempfile.NamedTemporaryFile(suffix=".exr") as file:
+        file.write(content)
+        file.flush()
+        image = OpenImageIO.ImageInput.open(file.name)
+        pixels = image.read_image(0, 3, OpenImageIO.FLOAT)
+        image.close()
+    return pixels
+
+
+class DoneRender(unittest.TestCase):
+    """Of a render that has come to its end, which stays until something is changed."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.view = Viewed(PROGRAM, SCENE, *SMALL, "--passes", str(PASSES))
+        cls.addClassCleanup(cls.view.__exit__)
+        cls.view.wait(lambda state: state["phase"] == "done")
+
+    def setUp(self):
+        self.view.edit()  # without changes
+
+    def test_only_who_has_the_token_is_answered(self):
+        view = self.view
+        almost = view.token[:-1] + ("0" if view.token[-1] != "0" else "1")
+        for path in ["/", "/state", f"/{almost}/", f"/{almost}/state", f"/{view.token}", f"//{view.token}/state"]:
+            self.assertEqual(view.ask(path)[0], 403, path)
+        self.assertEqual(view.ask(f"/{almost}/stop", "{}")[0], 403)
+        self.assertEqual(view.ask(f"/{view.token}/state")[0], 200, "control")
+
+    def test_only_under_its_own_name(self):
+        path = f"/{self.view.token}/state"
+        for host in ["evil.example", f"evil.example:{self.view.port}", "127.0.0.1", "127.0.0.1:1", f"127.0.0.1.evil.example:{self.view.port}", ""]:
+            self.assertEqual(self.view.ask(path, headers={"Host": host})[0], 403, host)
+        for host in [f"127.0.0.1:{self.view.port}", f"localhost:{self.view.port}"]:
+            self.assertEqual(self.view.ask(path, headers={"Host": host})[0], 200, host)
+
+    def test_no_request_reads_a_file(self):
+        for name in ["scene.xml", "../scene.xml", "..%2fscene.xml", "%2e%2e/%2e%2e/etc/passwd", "/etc/passwd", "view.cpp"]:
+            self.assertIn(self.view.get(name)[0], (403, 404), name)
+        status, headers, _ = self.view.get("view.js")
+        self.assertEqual(status, 200, "control: a file of the page")
+        self.assertIn("script-src 'self'", headers["Content-Security-Policy"])
+        self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+
+    def test_changes_are_only_taken_as_json_of_the_page(self):
+        path = f"/{self.view.token}/edit"
+        self.assertEqual(self.view.ask(path, "{}", {"Content-Type": "text/plain"})[0], 415)
+        for wrong in ['{"bdd": -1}', '{"bdd": 1001}', '{"variant": "best"}', '{"camera": 3}', '{"lamps": [-1]}', '{"lamps": ["x"]}', "[]", "{"]:
+            status, _, body = self.view.ask(path, wrong, {"Content-Type": "application/json"})
+            self.assertEqual(status, 400, wrong)
+            self.assertTrue(json.loads(body)["error"])
+        self.assertEqual(self.view.get("frame", layer="stdrr")[0], 400)
+        self.assertEqual(self.view.get("frame", step="-1")[0], 400)
+        self.assertEqual(self.view.get("pixel", x=48, y=0)[0], 400)
+
+    def test_picture_and_pixel_are_those_of_the_image(self):
+        image = pixels_of(self.view.get("image.exr")[2])
+        header, frame = self.view.frame()
+        self.assertEqual((header["passes"], frame.shape), (PASSES, image.shape))
+        numpy.testing.assert_allclose(frame, image, rtol=2 ** -11, atol=2 ** -25 / header["scale"])
+        pixel = json.loads(self.view.get("pixel", x=20, y=30)[2])
+        self.assertEqual(pixel["value"], image[30, 20].tolist())
+        self.assertGreater(min(pixel["stderr"]), 0)
+
+    def test_thinned_pictures_are_means_of_blocks(self):
+        image = pixels_of(self.view.get("image.exr")[2])
+        header, frame = self.view.frame(x=3, y=5, width=12, height=8, step=4)
+        self.assertEqual((header["x"], header["y"], header["step"]), (3, 5, 4))
+        blocks = image[5:13, 3:15].reshape(2, 4, 3, 4, 3).mean(axis=(1, 3))
+        numpy.testing.assert_allclose(frame, blocks, rtol=2 ** -10)
+
+    def test_components_add_up(self):
+        layers = self.view.state()["layers"]
+        self.assertEqual(layers, ["image", "direct", "caustic", "quasi_caustic", "diffuse", "emission", "stderr", "bias", "relative_error"])
+        total = sum(self.view.frame(layer=layer)[1] for layer in layers[1:6])
+        numpy.testing.assert_allclose(total, self.view.frame()[1], rtol=2 ** -9, atol=1e-6)
+
+    def test_nothing_new_is_waited_for_in_vain(self):
+        header, _ = self.view.frame()
+        self.assertEqual(self.view.frame(after=header["moment"]), (None, None))
+
+    def test_method_and_back(self):
+        _, before = self.view.frame()
+        state = self.view.edit(bdd=1, variant="alternative")
+        self.assertEqual((state["settings"]["bdd"], state["settings"]["variant"]), (1, "alternative"))
+        self.assertFalse(numpy.array_equal(self.view.frame()[1], before))
+        self.view.edit()
+        numpy.testing.assert_array_equal(self.view.frame()[1], before)
+
+    def test_layers_are_those_that_the_film_has(self):
+        self.assertNotIn("bias", self.view.edit(map="camera")["layers"])
+        self.assertEqual(self.view.get("frame", layer="bias")[0], 400)
+        self.assertIn("bias", self.view.edit()["layers"])
+
+    def test_a_lamp_of_twice_the_power(self):
+        _, before = self.view.frame()
+        self.view.edit(lamps=[2])
+        self.assertAlmostEqual(self.view.frame()[1].mean() / before.mean(), 2, delta=0.02)
+        self.view.post("edit", lamps=[0])
+        self.view.wait(lambda state: "all lamps are off" in state["problem"])
+
+    def test_camera_turns_about_the_scene(self):
+        _, before = self.view.frame()
+        self.view.edit(camera={"yaw": 0.3, "pitch": 0.2})
+        _, turned = self.view.frame()
+        self.assertGreater(numpy.abs(turned - before).mean(), 0.1 * before.mean())
+        self.view.edit(camera={"yaw": 0})
+        numpy.testing.assert_array_equal(self.view.frame()[1], before)
+
+    def test_what_cannot_be_rendered_is_said(self):
+        before = self.view.state()["render"]
+        self.view.post("edit", quasiSpecular="nowhere")
+        state = self.view.wait(lambda state: state["render"] > before and state["problem"])
+        self.assertIn("nowhere", state["problem"])
+        self.assertEqual(self.view.edit()["problem"], "")
+
+    def test_a_broken_scene_shows_its_line_and_the_picture_stays(self):
+        before = self.view.state()["render"]
+        line, good = self.view.break_scene()
+        state = self.view.wait(lambda state: state["problem"])
+        self.assertIn(f"scene.xml:{line}:", state["problem"])
+        self.assertEqual(state["render"], before)
+        self.assertEqual(self.view.frame()[0]["passes"], PASSES)
+        self.view.scene.write_text(good)
+        self.view.wait(lambda state: state["render"] > before and state["phase"] == "done" and not state["problem"])
+
+
+class RunningRender(unittest.TestCase):
+    def test_it_sharpens_and_stops(self):
+        with Viewed(PROGRAM, SCENE, *SMALL) as view:
+            early, noise_early = view.frame(layer="relative_error", after=1)
+            view.wait(lambda state: state["passes"] >= 16 * early["passes"])
+            late, noise_late = view.frame(layer="relative_error")
+            # The noise falls by the root of the passes, to a quarter; less as radii shrink meanwhile.
+            self.assertLess(noise_late.mean(), 0.6 * noise_early.mean())
+            self.assertGreater(late["passes"], early["passes"])
+            self.assertEqual(view.post("stop")[0], 200)
+            stopped = view.wait(lambda state: state["phase"] == "stopped")
+            self.assertIsNone(stopped["secondsLeft"])
+            self.assertEqual(view.frame()[0]["passes"], stopped["passes"])
+
+    def test_a_watched_render_writes_the_same_image(self):
+        options = [*SMALL, "--passes", "40", "-o", "out.exr"]
+        with Viewed(PROGRAM, SCENE, *options, "--view", command="render") as view:
+            self.assertEqual(view.post("edit", bdd=2)[0], 403, "only `view` can be changed")
+            header, moment = {"moment": 0}, []
+            while header:
+                header, _ = view.frame(after=header["moment"]) if view.process.poll() is None else (None, None)
+                moment.append(header and header["passes"])
+                if header and header["passes"] >= 30:
+                    break
+            view.process.wait(20)
+            watched = pixels_of((view.folder / "out.exr").read_bytes())
+        self.assertGreater(len(moment), 1)
+        with Viewed(PROGRAM, SCENE, *options, "--view", command="render") as view:
+            view.process.wait(20)
+            numpy.testing.assert_array_equal(pixels_of((view.folder / "out.exr").read_bytes()), watched)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
