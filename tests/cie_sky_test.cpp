@@ -3,6 +3,7 @@
 #include "output/meter_reading.h"
 #include "scene/emitters/cie_sky.h"
 #include "support/meter_readings.h"
+#include "support/sky_directions.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -14,12 +15,6 @@ namespace {
 using glm::dvec3;
 using std::numbers::pi;
 using testing::HasSubstr;
-constexpr double degree = pi / 180;
-
-dvec3 towards(double zenith, double azimuth) {
-    return {std::sin(zenith * degree) * std::cos(azimuth * degree),
-            std::sin(zenith * degree) * std::sin(azimuth * degree), std::cos(zenith * degree)};
-}
 
 TEST(CieSky, LuminancesAreThoseOfTheStandard) {
     const dvec3 sun = towards(45, 0);

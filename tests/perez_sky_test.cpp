@@ -6,22 +6,17 @@
 #include "scene/skies/sun_position.h"
 #include "scene/skies/weather_file.h"
 #include "support/scene_files.h"
+#include "support/sky_directions.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <numbers>
 
 namespace quasilux {
 namespace {
 
 using glm::dvec3;
-using std::numbers::pi;
 using testing::HasSubstr;
-constexpr double degree = pi / 180;
-
-/// In the plane of the sun, beyond the zenith where it is negative.
-dvec3 at(double zenith) { return {std::sin(zenith * degree), 0, std::cos(zenith * degree)}; }
 
 struct Case {
     double directNormal, diffuseHorizontal, sunZenith;
@@ -34,15 +29,15 @@ const Case cases[] = {
     {800, 90, 35, 8.18414, 0.08028, 2.68123, 0.56085},
 };
 
-PerezSky skyOf(const Case& c) { return {{c.directNormal, c.diffuseHorizontal, 11, 1}, at(c.sunZenith)}; }
+PerezSky skyOf(const Case& c) { return {{c.directNormal, c.diffuseHorizontal, 11, 1}, towards(c.sunZenith)}; }
 
 TEST(PerezSky, LuminancesAreThoseOfThePaper) {
     for (const Case& c : cases) {
         const PerezSky sky = skyOf(c);
         EXPECT_NEAR(sky.clearness(), c.clearness, 1e-4);
         EXPECT_NEAR(sky.brightness(), c.brightness, 1e-4);
-        EXPECT_NEAR(sky.luminance(at(80)) / sky.luminance(at(0)), c.below, 2e-4 * c.below) << c.directNormal;
-        EXPECT_NEAR(sky.luminance(at(-c.sunZenith)) / sky.luminance(at(0)), c.opposite, 2e-4 * c.opposite);
+        EXPECT_NEAR(sky.luminance(towards(80)) / sky.luminance(towards(0)), c.below, 2e-4 * c.below) << c.directNormal;
+        EXPECT_NEAR(sky.luminance(towards(-c.sunZenith)) / sky.luminance(towards(0)), c.opposite, 2e-4 * c.opposite);
         EXPECT_EQ(sky.luminance({1, 0, -1e-9}), 0);
     }
 }
@@ -50,9 +45,9 @@ TEST(PerezSky, LuminancesAreThoseOfThePaper) {
 // What the papers say of skies: an overcast one falls towards the horizon, a clear one rises, and is brightest around the sun.
 TEST(PerezSky, LooksOvercastAndClear) {
     const PerezSky overcast = skyOf(cases[0]), clear = skyOf(cases[4]);
-    EXPECT_LT(overcast.luminance(at(-85)), overcast.luminance(at(0)));
-    EXPECT_GT(clear.luminance(at(-85)), clear.luminance(at(0)));
-    EXPECT_GT(clear.luminance(at(35)), 5 * clear.luminance(at(-35)));
+    EXPECT_LT(overcast.luminance(towards(-85)), overcast.luminance(towards(0)));
+    EXPECT_GT(clear.luminance(towards(-85)), clear.luminance(towards(0)));
+    EXPECT_GT(clear.luminance(towards(35)), 5 * clear.luminance(towards(-35)));
 }
 
 // 1990, figures: some 105 to 125 lm/W of an overcast sky, 130 to 145 of a blue one, and 95 to 105 of the sun's own light.
@@ -67,7 +62,7 @@ TEST(PerezSky, IlluminancesHaveTheirRadiation) {
         const PerezSky sky = skyOf(c);
         const Radiation found =
             radiationOfIlluminances(sky.directEfficacy() * c.directNormal, sky.diffuseEfficacy() * c.diffuseHorizontal,
-                                    {0, 0, 11, 1}, at(c.sunZenith));
+                                    {0, 0, 11, 1}, towards(c.sunZenith));
         EXPECT_NEAR(found.directNormal, c.directNormal, 0.01 * c.directNormal + 1e-6);
         EXPECT_NEAR(found.diffuseHorizontal, c.diffuseHorizontal, 0.01 * c.diffuseHorizontal);
     }

@@ -7,6 +7,7 @@
 #include "scene/skies/sky_image.h"
 #include "scene/skies/sun_position.h"
 #include "support/meter_readings.h"
+#include "support/sky_directions.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -18,12 +19,6 @@ namespace {
 using glm::dvec3;
 using std::numbers::pi;
 using testing::HasSubstr;
-constexpr double degree = pi / 180;
-
-dvec3 at(double zenith, double azimuth) {
-    return {std::sin(zenith * degree) * std::cos(azimuth * degree),
-            std::sin(zenith * degree) * std::sin(azimuth * degree), std::cos(zenith * degree)};
-}
 
 void expectRadiance(const dvec3& found, const dvec3& truth, double allowed, const std::string& what) {
     const double brightest = std::max({truth.x, truth.y, truth.z});
@@ -62,8 +57,8 @@ const SkyCase skyCases[] = {
 
 dvec3 skyRadiance(const SkyCase& c, double turbidity) {
     const HosekWilkieSky sky(turbidity, c.albedo, (90 - c.sunZenith) * degree);
-    const dvec3 direction = at(c.zenith, c.azimuth);
-    return sky.radiance(direction.z, glm::dot(direction, at(c.sunZenith, 0)));
+    const dvec3 direction = towards(c.zenith, c.azimuth);
+    return sky.radiance(direction.z, glm::dot(direction, towards(c.sunZenith, 0)));
 }
 
 TEST(HosekWilkie, SkyIsMitsubas) {
