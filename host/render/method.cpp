@@ -126,6 +126,10 @@ Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settin
     return all;
 }
 
+bool sharesSamples(const Features& features, const RenderSettings& settings) {
+    return features.filterTable && settings.map == MapOrder::photons && !isMeter(features);
+}
+
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings) {
     std::string options = compiledFeatures(scene, settings).options() + ' ' + bvhOptions(scene.bvh);
     options += fmt::format(" -DPHOTON_CLASSES={}u", compiledClasses(scene.features, settings));
@@ -134,6 +138,7 @@ std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settin
     if (estimatesBias(scene.features, settings)) options += " -DESTIMATE_BIAS=1";
     if (learns(scene.features, settings)) options += " -DLEARNS";
     if (adaptsRadius(scene.features, settings)) options += " -DADAPTIVE_RADIUS";
+    if (sharesSamples(scene.features, settings)) options += " -DSHARES_SAMPLES";
     if (settings.mediumRule != MediumRule::right)
         options += fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(settings.mediumRule));
     if (settings.energyBalance) options += " -DENERGY_BALANCE";

@@ -27,6 +27,8 @@ uint64_t largestFilmBuffer(const Features& features, const RenderSettings& setti
 bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);
 /// Is it chosen by pixel? Only where mayAdaptRadius(), and kernels know photons.
 bool adaptsRadius(const Features& features, const RenderSettings& settings);
+/// Do pixels share samples, as their filter is wider than one (kernels/shared_samples.clh)?
+bool sharesSamples(const Features& features, const RenderSettings& settings);
 
 /// Is it learned before pass 0 where photons serve the image? Only where kernels know photons.
 bool learns(const Features& features, const RenderSettings& settings);

@@ -40,8 +40,7 @@ SharedSamples::SharedSamples(Device& device, const Program& pass, const shared::
       filterSamples_(pass.kernel("filterSamples")) {}
 
 unsigned SharedSamples::floatsPerSample(const DeviceScene& scene, const RenderSettings& settings) {
-    const Features features = compiledFeatures(scene, settings);
-    if (!features.filterTable || settings.map != MapOrder::photons || scene.offsets.meter.kind != METER_NONE) return 0;
+    if (!sharesSamples(scene.features, settings)) return 0;
     return 3 * (FILM_COMPONENTS + (estimatesBias(scene.features, settings) ? LIGHT_CLASSES : 0));
 }
 
