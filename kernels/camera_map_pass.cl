@@ -8,4 +8,6 @@
 
 #ifdef LEARNS
 #include "pilot_paths.cl"
+
+#include "pilot_records.cl"
 #endif

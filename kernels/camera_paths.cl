@@ -103,7 +103,7 @@ inline PathPlace pathPlace(const World* world, uint index, float2 even) {
     PathPlace place;
 #ifdef SHARES_SAMPLES
     const int columns = gridColumns(&params->camera);
-    const int2 at = (int2)(index % columns, index / columns) - gridBorder(&params->camera);
+    const int2 at = (int2)(index % columns, index / columns) - (int)SAMPLE_BORDER(&params->camera);
     const int2 nearest = clamp(at, 0, (int2)(params->camera.width, params->camera.height) - 1);
     place.pixel = nearest.y * params->camera.width + nearest.x;
     place.inside.offset = gridPlace(params) - 0.5f + convert_float2(at - nearest);
@@ -177,7 +177,8 @@ inline void countCut(__global CameraCounters* counters, float cut) {
     atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
 }
 
-/* The mean of the paths of a pixel, or place of the grid, in this pass. They look up the same photons, so photons, which cost more, are traced once for all. */
+/* The mean of the paths of a pixel, or of a place in the grid of samples, in this pass. They look up the same photons, so photons, which cost
+ * more, are traced once for all. */
 inline void tracePixel(const World* world, uint index, __global CameraCounters* counters, float3* mean) {
     const uint paths = world->params->cameraPaths;
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] = 0;

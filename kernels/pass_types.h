@@ -139,6 +139,11 @@ typedef struct {
     SceneTables scene;
 } CameraParams;
 
+/* Samples that pixels share (shared_samples.clh): pixels to either side whose samples a filter may reach, and samples that their grid has
+ * beyond each edge of the image. */
+#define FILTER_TAPS(camera) (((camera)->filterReach + FILTER_CELLS / 2 - 1) / FILTER_CELLS)
+#define SAMPLE_BORDER(camera) ((camera)->filterEnds ? 0 : FILTER_TAPS(camera))
+
 /* ---- density radius by pixel (kernels/adaptive_radius.cl) ---- */
 
 /* What the pilot measures of one class of light in one of its pixels, relative to the radiance there. */

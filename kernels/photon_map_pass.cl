@@ -8,6 +8,8 @@
 
 #ifdef LEARNS
 #include "pilot_paths.cl"
+
+#include "pilot_records.cl"
 #endif
 
 #ifdef ADAPTIVE_RADIUS

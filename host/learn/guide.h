@@ -14,7 +14,7 @@ namespace quasilux {
 /// An emitter's light through an opening, as GuideSource.
 shared::GuideSource openingSource(unsigned emitter, unsigned first, const Opening& opening);
 
-/// Learns from records; `invert` runs invertEmission of kernels/pilot_paths.cl.
+/// Learns from records; `invert` runs invertEmission of kernels/pilot_records.cl.
 class GuideLearner {
 public:
     using Invert = std::function<std::vector<shared::EmissionPoint>(const std::vector<shared::EmissionRecord>&,

@@ -49,7 +49,7 @@ struct LearnedScene {
 
 class Learning {
 public:
-    /// `program` has kernels/pilot_paths.cl; `params` as camera paths have them.
+    /// `program` has kernels/pilot_paths.cl and pilot_records.cl; `params` as camera paths have them.
     Learning(Device& device, const Program& program, DeviceScene& scene, SceneBuffers buffers,
              const shared::CameraParams& params);
 

@@ -357,7 +357,7 @@ struct Renderer::Stages {
     std::optional<PhotonStage> photons;     // this and one of the next two, or
     bool mapIsEmpty = false;                // and stays so
     std::optional<AdaptiveRadius> adaptive; // where the camera stage has it
-    std::optional<SharedSamples> samples;   ///< of a filter wider than a pixel
+    std::optional<SharedSamples> samples;   // of a filter wider than a pixel
     std::optional<CameraStage> camera;
     std::optional<MeterStage> meter;
     std::optional<CameraMapStage> cameraMap; // this

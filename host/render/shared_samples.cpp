@@ -9,10 +9,9 @@ namespace {
 // A larger film is traced in bands of rows.
 constexpr uint64_t mostBytes = 64u << 20, shareOfAllocation = 8;
 
-// As kernels/shared_samples.clh has them.
 struct Grid {
     explicit Grid(const shared::Camera& camera)
-        : taps((camera.filterReach + FILTER_CELLS / 2 - 1) / FILTER_CELLS), border(camera.filterEnds ? 0 : taps),
+        : taps(FILTER_TAPS(&camera)), border(SAMPLE_BORDER(&camera)),
           columns(size_t{camera.width} + 2 * size_t{border}), rows(size_t{camera.height} + 2 * size_t{border}) {}
 
     unsigned taps, border;
