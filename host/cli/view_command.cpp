@@ -25,7 +25,7 @@ constexpr unsigned endless = 1u << 30;
 class ViewSession {
 public:
     explicit ViewSession(const RenderOptions& options)
-        : options_(options), progress_(stderr, !options.quiet), scene_(load()), savedAt_(timeOfFile()),
+        : options_(options), progress_(stderr, !options.quiet), savedAt_(timeOfFile()), scene_(load()),
           device_(options.device, options.workGroupSize, options.deviceMemory), view_(options.view, interruptFlag()) {
         options_.fixed = !options_.autoAll;
         StopRule& stop = options_.stop;
@@ -88,7 +88,6 @@ private:
         view_.begin(device_, scene_->scene(), now.settings(scene_->scene()), now.stop, isEndless_);
         catchInterrupt();
         const bool isKnown = learned_ && edits_.learnsAs(learnedFor_);
-        if (!isKnown) learnedFor_ = edits_;
         StartedRender started(now, device_, scene_->scene(), isKnown ? learned_ : nullptr);
         warn(started.warnings());
         view_.state().setProblem("");
@@ -101,11 +100,12 @@ private:
         const auto afterPass = [&](const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
             keep(soFar.settings);
             learned_ = renderer.learned();
+            if (!isKnown) learnedFor_ = edits_;
             view_.afterPass(soFar, renderer, seconds, isLast);
             if (reloadIfSaved()) view_.interrupt();
             if (!isLast) return;
             progress_.clear();
-            view_.waitWith(soFar, renderer, [&] { return isReloaded_ || reloadIfSaved(); });
+            view_.waitWith(soFar, renderer, [&] { return hasNewScene(); });
         };
         const AutoRender result = started.render(onProgress, {}, view_.interrupted(), afterPass);
         if (result.failure) std::rethrow_exception(result.failure);
@@ -131,20 +131,21 @@ private:
         savedAt_ = time;
         const auto why = failureOf([&] { reloaded_ = load(); });
         view_.state().setProblem(why.value_or(""));
-        isReloaded_ = isReloaded_ || !why;
         return !why;
     }
 
+    bool hasNewScene() { return reloaded_ || reloadIfSaved(); }
+
     void waitForChange() {
-        while (!interruptFlag() && !view_.hasEdits() && !reloadIfSaved())
+        while (!interruptFlag() && !view_.hasEdits() && !hasNewScene())
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
 
     void takeChanges() {
-        if (isReloaded_) {
+        if (reloaded_) {
+            if (reloaded_->lamps() != scene_->lamps()) edits_.lamps.clear(); // they go by number
             scene_ = std::move(reloaded_);
             learned_ = nullptr;
-            isReloaded_ = false;
             warn(scene_->scene().warnings);
             tellEditable();
         }
@@ -153,9 +154,9 @@ private:
 
     RenderOptions options_;
     ProgressLine progress_;
+    fs::file_time_type savedAt_; ///< of what was loaded, or saved while it was
     std::unique_ptr<EditedScene> scene_, reloaded_;
-    bool isReloaded_ = false, isEndless_ = false;
-    fs::file_time_type savedAt_;
+    bool isEndless_ = false;
     Device device_;
     LiveView view_;
     ViewEdits edits_, learnedFor_;

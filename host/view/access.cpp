@@ -25,9 +25,16 @@ bool isNumeric(const std::string& address) {
     return inet_pton(AF_INET, address.c_str(), &bytes) == 1 || inet_pton(AF_INET6, address.c_str(), &bytes) == 1;
 }
 
+// Of host names only these letters differ in case; browsers send small ones.
+std::string inSmallLetters(std::string name) {
+    for (char& c : name)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return name;
+}
+
 } // namespace
 
-Access::Access(std::string listen) : listen_(std::move(listen)), token_(randomToken()) {}
+Access::Access(const std::string& listen) : listen_(inSmallLetters(listen)), token_(randomToken()) {}
 
 bool Access::isToken(const std::string& said) const {
     if (said.size() != token_.size()) return false; // its length is no secret
@@ -44,7 +51,7 @@ bool Access::isOurHost(const std::string& host, int port) const {
     else if (port != 80)
         return false;
     if (name.size() > 2 && name.front() == '[' && name.back() == ']') name = name.substr(1, name.size() - 2);
-    return isOurName(name);
+    return isOurName(inSmallLetters(name));
 }
 
 bool Access::isOurName(const std::string& name) const {
@@ -55,7 +62,7 @@ bool Access::isOurName(const std::string& name) const {
 
 std::string computerName() {
     std::array<char, 256> name{};
-    return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+    return gethostname(name.data(), name.size() - 1) == 0 ? inSmallLetters(name.data()) : "";
 }
 
 bool isLoopback(const std::string& address) {

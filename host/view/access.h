@@ -8,7 +8,7 @@ namespace quasilux {
 class Access {
 public:
     /// `listen`: the address that the server listens on. Throws std::runtime_error where the system has no random bytes.
-    explicit Access(std::string listen);
+    explicit Access(const std::string& listen);
 
     /// 128 random bits, hexadecimal.
     const std::string& token() const { return token_; }
@@ -26,7 +26,7 @@ private:
 
 /// Whether only programs of this computer reach the address.
 bool isLoopback(const std::string& address);
-/// By which others know this computer.
+/// By which others know this computer, in small letters.
 std::string computerName();
 
 } // namespace quasilux

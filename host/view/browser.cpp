@@ -17,15 +17,19 @@ bool isSet(const char* variable) {
     return value != nullptr && *value != 0;
 }
 
-// Says nothing on our terminal.
+// Apart from our terminal: it says nothing there, and Ctrl-C is not for it.
 void start(std::string program, std::string argument) {
     std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
+    posix_spawnattr_t apart;
+    posix_spawnattr_init(&apart);
+    posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETSID);
     pid_t process = 0;
-    posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawnp(&process, program.c_str(), &actions, &apart, arguments.data(), environ);
+    posix_spawnattr_destroy(&apart);
     posix_spawn_file_actions_destroy(&actions);
 }
 

@@ -1,5 +1,8 @@
 #include "view/edits.h"
 
+#include "prepare/box.h"
+#include "scene/color.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -56,10 +59,6 @@ glm::dvec3 uprightAxis(const glm::dvec3& up) {
 glm::dmat3 rotation(double angle, const glm::dvec3& axis) {
     return glm::dmat3(glm::rotate(glm::dmat4(1), angle, axis));
 }
-
-void scale(Rgb& colour, float factor) { colour = {factor * colour.r, factor * colour.g, factor * colour.b}; }
-
-bool isBlack(const Rgb& colour) { return colour.r == 0 && colour.g == 0 && colour.b == 0; }
 
 } // namespace
 
@@ -118,15 +117,15 @@ void EditedScene::apply(const ViewEdits& edits) {
     for (size_t k = 0; k < scene_.shapes.size(); ++k) {
         if (!original_.byShape[k]) continue;
         auto& emitter = scene_.shapes[k].emitter = original_.byShape[k];
-        scale(emitter->radiance, factor());
+        emitter->radiance = emitter->radiance * factor();
         if (isBlack(emitter->radiance)) emitter.reset();
         lit += emitter.has_value();
     }
     scene_.pointEmitters = original_.points;
-    for (auto& point : scene_.pointEmitters) scale(point.intensity, factor());
+    for (auto& point : scene_.pointEmitters) point.intensity = point.intensity * factor();
     std::erase_if(scene_.pointEmitters, [](const auto& point) { return isBlack(point.intensity); });
     scene_.directionalEmitters = original_.beams;
-    for (auto& beam : scene_.directionalEmitters) scale(beam.irradiance, factor());
+    for (auto& beam : scene_.directionalEmitters) beam.irradiance = beam.irradiance * factor();
     std::erase_if(scene_.directionalEmitters, [](const auto& beam) { return isBlack(beam.irradiance); });
     lit += scene_.pointEmitters.size() + scene_.directionalEmitters.size();
     if (original_.surroundings) lit += setSurroundings(factor());
@@ -140,31 +139,26 @@ bool EditedScene::setSurroundings(float factor) {
     scene_.surroundings.reset();
     if (factor == 0) return false;
     auto& surroundings = scene_.surroundings = original_.surroundings;
-    scale(surroundings->radiance, factor);
+    surroundings->radiance = surroundings->radiance * factor;
     if (surroundings->image)
-        for (Rgb& pixel : surroundings->image->pixels) scale(pixel, factor);
+        for (Rgb& pixel : surroundings->image->pixels) pixel = pixel * factor;
     return true;
 }
 
 // The camera turns about the point before it that is as deep as the middle of the scene.
 double EditedScene::distanceToMiddle() const {
-    glm::dvec3 lower(std::numeric_limits<double>::max()), upper = -lower;
-    const auto include = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        lower = glm::min(lower, from);
-        upper = glm::max(upper, to);
-    };
+    Box box;
     for (const auto& shape : scene_.shapes) {
-        for (const auto& position : shape.mesh.positions) include(position, position);
+        for (const auto& position : shape.mesh.positions) box.add(glm::dvec3(position));
         if (shape.sphere) {
             const glm::dvec3 centre = shape.sphere->center, radius(shape.sphere->radius);
-            include(centre - radius, centre + radius);
+            box.add(Box{centre - radius, centre + radius});
         }
     }
-    if (scene_.shapes.empty()) return 1;
+    if (box.lower.x > box.upper.x) return 1; // nothing
     const glm::dvec3 forward = glm::normalize(glm::dvec3(scene_.sensor.toWorld[2]));
-    const double depth = glm::dot((lower + upper) / 2.0 - glm::dvec3(scene_.sensor.toWorld[3]), forward);
-    const double size = glm::length(upper - lower);
-    return std::max(depth, 0.05 * size);
+    const double depth = glm::dot(box.center() - glm::dvec3(scene_.sensor.toWorld[3]), forward);
+    return std::max(depth, 0.05 * box.diagonal());
 }
 
 glm::dmat4 moved(const glm::dmat4& toWorld, const CameraMove& move, double distance, bool isOrthographic) {

@@ -48,6 +48,7 @@ public:
 
     struct Lamp {
         std::string id, kind;
+        bool operator==(const Lamp&) const = default;
     };
     std::vector<Lamp> lamps() const;
     /// Whether the sensor is one that can be moved.

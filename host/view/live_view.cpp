@@ -35,7 +35,10 @@ void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& s
     device_ = &device;
     isStopped_ = false;
     ++renders_;
-    interrupted_ = signalled_.load();
+    errands_.hurry(); // its first picture is not put off
+    interrupted_ = false;
+    if (signalled_ || hasEdits_)
+        interrupted_ = true; // an edit that comes now is not lost: edit() says so before it interrupts
     record_ = {};
     record_.scene = std::filesystem::path(scene.path).filename().string();
     record_.device = device.info();
@@ -55,14 +58,15 @@ void LiveView::onProgress(const Progress& progress) {
 void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
     syncSignal();
     const auto passes = static_cast<unsigned>(renderer.counters().passes);
+    const char* over = isStopped_ ? "stopped" : "done";
     if (passes == 0) { // the method has been chosen
         state_.setSettings(soFar.settings);
         state_.setLayers(layersOf(renderer.film().layout()));
-        state_.setPhase("rendering");
+        state_.setPhase(isLast ? over : "rendering");
         return;
     }
     state_.setPasses(passes, seconds);
-    if (isLast) state_.setPhase(isStopped_ ? "stopped" : "done");
+    if (isLast) state_.setPhase(over);
     errands_.doDue({renderer, soFar, ++moment_});
 }
 

@@ -2,13 +2,13 @@
 #include "view/server.h"
 
 #include "output/exr.h"
+#include "scene/xml/xml_document.h"
 #include "util/temporary_folder.h"
 #include "view/frame.h"
 #include "view/page_files.h"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <httplib.h>
 #include <sstream>
 #include <thread>
@@ -56,6 +56,13 @@ uint64_t wholeParameter(const Request& request, const char* name, uint64_t other
     return std::stoull(text);
 }
 
+// More than any film has along a side.
+constexpr unsigned longestSide = 1u << 30;
+
+unsigned pixelsParameter(const Request& request, const char* name, unsigned otherwise) {
+    return static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, name, otherwise), longestSide));
+}
+
 double numberParameter(const Request& request, const char* name, double otherwise) {
     if (!request.has_param(name)) return otherwise;
     std::istringstream text(request.get_param_value(name));
@@ -67,14 +74,6 @@ double numberParameter(const Request& request, const char* name, double otherwis
 
 void reply(Response& response, const nlohmann::json& json) {
     response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "application/json");
-}
-
-std::string contentOf(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    if (!stream) throw std::runtime_error("cannot read " + file.string());
-    return content.str();
 }
 
 } // namespace
@@ -172,14 +171,11 @@ struct ViewServer::Http {
     void frame(const Request& request, Response& response) {
         FrameWish wish;
         if (request.has_param("layer")) wish.layer = request.get_param_value("layer");
-        const auto size = [&](const char* name, uint64_t otherwise) {
-            return static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, name, otherwise), 1u << 30));
-        };
-        wish.x = size("x", 0);
-        wish.y = size("y", 0);
-        wish.width = size("width", 1u << 30);
-        wish.height = size("height", 1u << 30);
-        wish.step = size("step", 1);
+        wish.x = pixelsParameter(request, "x", 0);
+        wish.y = pixelsParameter(request, "y", 0);
+        wish.width = pixelsParameter(request, "width", longestSide);
+        wish.height = pixelsParameter(request, "height", longestSide);
+        wish.step = pixelsParameter(request, "step", 1);
         const uint64_t after = wholeParameter(request, "after", 0);
         FilmCutChoice choice;
         FilmImage cut;
@@ -225,8 +221,8 @@ struct ViewServer::Http {
 
     void pixel(const Request& request, Response& response) {
         FilmCutChoice choice;
-        choice.x = static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, "x", 0), 1u << 30));
-        choice.y = static_cast<unsigned>(std::min<uint64_t>(wholeParameter(request, "y", 0), 1u << 30));
+        choice.x = pixelsParameter(request, "x", 0);
+        choice.y = pixelsParameter(request, "y", 0);
         choice.width = choice.height = 1;
         choice.content = FilmCutChoice::Content::all;
         FilmImage one;
@@ -279,7 +275,7 @@ struct ViewServer::Http {
         const std::string name = std::filesystem::path(saved->record.scene).stem().string();
         response.set_header("Content-Disposition",
                             "attachment; filename=\"" + plainName(name) + (isExr ? ".exr\"" : ".png\""));
-        response.set_content(contentOf(path), isExr ? "image/x-exr" : "image/png");
+        response.set_content(readFile(path.string(), {}, "picture"), isExr ? "image/x-exr" : "image/png");
     }
 
     // Of a header, so without quotes and control characters.

@@ -88,7 +88,7 @@ export class Picture {
     return {x, y, step: all.step, width: Math.max(1, Math.min(width, Math.ceil(to.x)) - x), height: Math.max(1, Math.min(height, Math.ceil(to.y)) - y)};
   }
 
-  /** A frame of the same layer as the others takes the place of what it covers. */
+  /** A frame of the same layer as the others takes the place of what it covers. To be drawn when its tone is set. */
   show(frame, isWhole) {
     frame.bitmap = document.createElement('canvas');
     frame.bitmap.width = frame.width;
@@ -99,8 +99,7 @@ export class Picture {
     } else {
       this.part = frame;
     }
-    this.paint(frame);
-    this.draw();
+    frame.tone = null;
   }
 
   /** Frames of another layer are no use. */
@@ -111,20 +110,18 @@ export class Picture {
   /** The whole picture as it is; false where there is none. */
   keep() {
     if (!this.whole) return false;
-    this.keptFrame = {...this.whole, bitmap: document.createElement('canvas')};
+    this.keptFrame = {...this.whole, bitmap: document.createElement('canvas'), tone: null};
     Object.assign(this.keptFrame.bitmap, {width: this.whole.width, height: this.whole.height});
-    this.paint(this.keptFrame);
     return true;
   }
 
   setTone(tone) {
-    if (tone.exposure === this.tone.exposure && tone.white === this.tone.white) return;
-    this.tone = tone;
-    for (const frame of [this.whole, this.part, this.keptFrame]) if (frame) this.paint(frame);
+    if (tone.exposure !== this.tone.exposure || tone.white !== this.tone.white) this.tone = tone;
     this.draw();
   }
 
   paint(frame) {
+    frame.tone = this.tone;
     frame.bitmap.getContext('2d').putImageData(paint(frame, this.tone), 0, 0);
   }
 
@@ -139,7 +136,9 @@ export class Picture {
   }
 
   drawFrame(context, frame) {
-    if (frame) context.drawImage(frame.bitmap, frame.x, frame.y, frame.width * frame.step, frame.height * frame.step);
+    if (!frame) return;
+    if (frame.tone !== this.tone) this.paint(frame);
+    context.drawImage(frame.bitmap, frame.x, frame.y, frame.width * frame.step, frame.height * frame.step);
   }
 
   // Left of a line, over the other one.

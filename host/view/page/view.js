@@ -18,7 +18,9 @@ let drawn = {}; // what the chart shows
 let pending = null; // the frame that is waited for, to be given up where another one is wanted
 let refusal = ''; // why the last change was not taken
 
-const picture = new Picture(byId('picture'), () => pending?.abort());
+let changes = 0; // of what is to be seen
+
+const picture = new Picture(byId('picture'), () => { ++changes; pending?.abort(); });
 const controls = new Controls(message => { refusal = message; showProblem(); });
 const stopRender = () => stop().catch(error => { refusal = error.message; showProblem(); });
 const comparison = new Comparison(picture, stopRender);
@@ -118,6 +120,14 @@ function showFrame(frame) {
   lookAtPixel();
 }
 
+// Until the finger does: the server keeps each request that was given up for a while.
+async function rest() {
+  for (let seen = -1; seen !== changes;) {
+    seen = changes;
+    await wait(60);
+  }
+}
+
 async function followPicture() {
   let last = '', moment = 0;
   for (;;) {
@@ -135,7 +145,8 @@ async function followPicture() {
         showFrame(frame);
       }
     } catch (error) {
-      await wait(error.name === 'AbortError' ? 60 : 1000); // until the finger rests
+      if (error.name === 'AbortError') await rest();
+      else await wait(1000);
     }
   }
 }
