@@ -201,6 +201,9 @@ TEST(PerezSkyEmitter, SaysWhatIsWrong) {
     files.write("short.epw", head + "2005,6,21,12,60\n");
     files.write("word.epw", head + hourLine(12, "much", "1"));
     files.write("negative.epw", head + hourLine(12, "5", "-1"));
+    std::string halves = weather;
+    halves.replace(halves.find("PERIODS,1,1"), 11, "PERIODS,1,2");
+    files.write("halves.epw", halves);
     files.write("no.epw", "DATA\n");
     files.write("empty.epw", "");
     const auto file = [](const std::string& name, int hour) {
@@ -218,6 +221,13 @@ TEST(PerezSkyEmitter, SaysWhatIsWrong) {
          "name=\"diffuse_horizontal_irradiance\" value=\"1\"/>",
          {"scene.xml:5:1", "has latitude but no longitude"}},
         {measured(1, 1) + "\n<float name=\"hour\" value=\"12\"/>", {"scene.xml:6:1", "both sun_direction and hour"}},
+        {measured(1, 1) + "\n<float name=\"dew_point\" value=\"285\"/>",
+         {"scene.xml:6:1", "'dew_point' is 285; expected -90 to 70"}},
+        {"<vector name=\"sun_direction\" value=\"0,0,1\"/><float name=\"direct_normal_illuminance\" "
+         "value=\"1\"/><float "
+         "name=\"diffuse_horizontal_illuminance\" value=\"1\"/>\n<float name=\"direct_normal_irradiance\" "
+         "value=\"1\"/>",
+         {"scene.xml:6:1", "has direct_normal_irradiance alone"}},
         {"<string name=\"weather\" value=\"w.epw\"/>", {"say month, day and hour"}},
         {file("w.epw", 12) + "<float name=\"latitude\" value=\"50\"/>", {"both weather and latitude"}},
         {file("w.epw", 25), {"'hour' is 25; expected 1 to 24"}},
@@ -227,14 +237,12 @@ TEST(PerezSkyEmitter, SaysWhatIsWrong) {
         {file("short.epw", 12), {"short.epw:9:1", "has 5 fields"}},
         {file("word.epw", 12), {"word.epw:9:1", "much"}},
         {file("negative.epw", 12), {"negative.epw:9:1", "diffuse horizontal radiation is -1"}},
+        {file("halves.epw", 12), {"halves.epw:8:1", "the number of records an hour is 2; expected 1 to 1"}},
         {file("no.epw", 12), {"no.epw:1:1", "begins with LOCATION"}},
         {file("empty.epw", 12), {"begins with LOCATION"}},
         {file("none.epw", 12), {"scene.xml:5:1", "none.epw"}},
         {measured(1, 1) + "<float name=\"dewpoint\" value=\"1\"/>", {"Did you mean 'dew_point'"}}};
-    for (const auto& [parameters, messages] : errors) {
-        const std::string error = test::errorOf(files.write("scene.xml", test::sceneWith(perez(parameters))));
-        for (const auto& message : messages) EXPECT_THAT(error, HasSubstr(message)) << parameters;
-    }
+    test::expectErrors(files, errors, perez);
 }
 
 } // namespace

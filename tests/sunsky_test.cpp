@@ -18,7 +18,6 @@ namespace {
 
 using glm::dvec3;
 using std::numbers::pi;
-using testing::HasSubstr;
 
 void expectRadiance(const dvec3& found, const dvec3& truth, double allowed, const std::string& what) {
     const double brightest = std::max({truth.x, truth.y, truth.z});
@@ -237,10 +236,7 @@ TEST(SunSkyReader, SaysWhatIsWrong) {
         {"<float name=\"latitude\" value=\"91\"/>", {"scene.xml:5:1", "'latitude' is 91"}},
         {"<integer name=\"year\" value=\"1900\"/>", {"scene.xml:5:1", "expected 1950 to 2100"}},
         {"<float name=\"turbidty\" value=\"3\"/>", {"Did you mean 'turbidity'"}}};
-    for (const auto& [parameters, messages] : cases) {
-        const std::string error = test::errorOf(files.write("scene.xml", test::sceneWith(sunsky(parameters))));
-        for (const auto& message : messages) EXPECT_THAT(error, HasSubstr(message));
-    }
+    test::expectErrors(files, cases, sunsky);
 }
 
 } // namespace

@@ -221,10 +221,10 @@ int renderSensor(const RenderOptions& options) {
     const auto start = Clock::now();
     Scene scene = loadScene(options.scene, options.parameters(), options.choice());
     if (!options.grid.empty()) measureGrid(scene);
-    const auto daylight = skyOfDaylightFactor(options, scene);
     const double loadSeconds = secondsSince(start);
     progress.clear();
     for (const auto& warning : scene.warnings) warn(options, warning);
+    const auto daylight = skyOfDaylightFactor(options, scene);
 
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();

@@ -29,8 +29,7 @@ void writeSettings(std::ostream& out, const RenderRecord& record) {
 void writeFigures(std::ostream& out, const RenderRecord& record, const FilmImage& image) {
     const GridFigures figures = gridFigures(image, record.settings.photometric);
     const auto line = [&](const char* key, double value, double error, const char* unit) {
-        const std::string spread = image.passes > 1 ? fmt::format(" +- {:.2g}", error) : "";
-        fmt::print(out, "# {}: {:.6g}{}{}\n", key, value, spread, unit);
+        fmt::print(out, "# {}: {:.6g}{}{}\n", key, value, errorText(image, error), unit);
     };
     line("mean", figures.mean, figures.meanStandardError, " lx");
     line("minimum", figures.minimum.photometricValue, figures.minimum.photometricStandardError, " lx");

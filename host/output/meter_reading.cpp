@@ -65,8 +65,10 @@ double errorOfRatio(const MeterReading& over, double under, double underError) {
            std::hypot(over.photometricStandardError / over.photometricValue, underError / under);
 }
 
-nlohmann::json known(const FilmImage& image, double value) {
-    return image.passes > 1 ? nlohmann::json(value) : nlohmann::json(); // one pass gives no estimate of the error
+/// An error, or null after a single pass, which gives no estimate of it.
+template <typename Value>
+nlohmann::json known(const FilmImage& image, const Value& error) {
+    return image.passes > 1 ? nlohmann::json(error) : nlohmann::json();
 }
 
 nlohmann::json gridJson(const FilmImage& image, bool units) {
@@ -103,6 +105,10 @@ GridFigures gridFigures(const FilmImage& image, bool unitsArePhotometric) {
     return found;
 }
 
+std::string errorText(const FilmImage& image, double error) {
+    return image.passes > 1 ? fmt::format(" +- {:.2g}", error) : "";
+}
+
 nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image) {
     const bool units = record.settings.photometric;
     const MeterReading reading = meanReading(image, units);
@@ -112,15 +118,11 @@ nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image) {
     nlohmann::json json{{"quantity", quantityName(record.meter)},
                         {"unit", valueUnit(record.meter, units)},
                         {"value", reading.value},
-                        {"standardError", nullptr},
+                        {"standardError", known(image, reading.standardError)},
                         {"components", components}};
     const std::string key = isIrradiance(record.meter) ? "illuminance" : "luminance";
     json[key] = reading.photometricValue;
-    json[key + "StandardError"] = nullptr;
-    if (image.passes > 1) { // one pass gives no estimate of the error
-        json["standardError"] = reading.standardError;
-        json[key + "StandardError"] = reading.photometricStandardError;
-    }
+    json[key + "StandardError"] = known(image, reading.photometricStandardError);
     if (record.unobstructedIlluminance) {
         const double percent = 100 / *record.unobstructedIlluminance;
         json["unobstructedIlluminance"] = *record.unobstructedIlluminance;
@@ -135,8 +137,7 @@ std::string meterText(const RenderRecord& record, const FilmImage& image) {
     const bool units = record.settings.photometric;
     const MeterReading reading = meanReading(image, units);
     const auto line = [&](const char* what, double value, double error, const char* unit) {
-        const std::string spread = image.passes > 1 ? fmt::format(" +- {:.2g}", error) : "";
-        return fmt::format("{} {:.6g}{} {}\n", what, value, spread, unit);
+        return fmt::format("{} {:.6g}{} {}\n", what, value, errorText(image, error), unit);
     };
     std::string text;
     if (image.radiance.size() > 3) text += fmt::format("mean over {} pixels:\n", image.radiance.size() / 3);

@@ -39,6 +39,9 @@ GridFigures gridFigures(const FilmImage& image, bool unitsArePhotometric);
 /// "irradiance" or "radiance".
 const char* quantityName(MeterKind meter);
 
+/// " +- ERROR", or nothing after a single pass, which gives no estimate of it.
+std::string errorText(const FilmImage& image, double error);
+
 /// Keys: docs/reference/command-line.md.
 nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image);
 /// A few lines for people.

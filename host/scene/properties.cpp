@@ -81,10 +81,26 @@ double Properties::share(const std::string& name, double missing) {
     return value;
 }
 
+InputError Properties::outside(const std::string& name, double value, double lowest, double highest) {
+    return {where(name), fmt::format("parameter '{}' is {}; expected {} to {}.", name, value, lowest, highest)};
+}
+
+double Properties::numberWithin(const std::string& name, double missing, double lowest, double highest) {
+    const double value = number(name, missing);
+    if (!(value >= lowest && value <= highest)) throw outside(name, value, lowest, highest);
+    return value;
+}
+
 int64_t Properties::integer(const std::string& name, int64_t missing) {
     const Element* parameter = find(name, {"integer"});
     if (!parameter) return missing;
     return parseInteger(parameter->get("value"), parameter->where, fmt::format("parameter '{}'", name));
+}
+
+int Properties::integerWithin(const std::string& name, int missing, int lowest, int highest) {
+    const int64_t value = integer(name, missing);
+    if (value < lowest || value > highest) throw outside(name, static_cast<double>(value), lowest, highest);
+    return static_cast<int>(value);
 }
 
 bool Properties::boolean(const std::string& name, bool missing) {

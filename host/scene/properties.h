@@ -31,7 +31,10 @@ public:
     double numberAbove(const std::string& name, double missing, double lowest, bool open);
     /// A number within [0, 1].
     double share(const std::string& name, double missing);
+    /// A number from `lowest` to `highest`.
+    double numberWithin(const std::string& name, double missing, double lowest, double highest);
     int64_t integer(const std::string& name, int64_t missing);
+    int integerWithin(const std::string& name, int missing, int lowest, int highest);
     bool boolean(const std::string& name, bool missing);
     std::string string(const std::string& name, const std::string& missing);
     /// One of `known`, or InputError with the nearest name.
@@ -74,6 +77,7 @@ public:
     void finish() const;
 
 private:
+    InputError outside(const std::string& name, double value, double lowest, double highest);
     const Element* find(const std::string& name, const Names& tags);
     const Element* constantTexture(const std::string& name);
     std::optional<Rgb> color(const std::string& name, ColorUse use);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string>
@@ -60,12 +61,12 @@ inline std::string sceneWith(const std::string& body) {
     return std::string("<scene version=\"3.0.0\">\n") + minimalSensor + minimalLight + body + "\n</scene>\n";
 }
 
-/// Each body makes a scene that is refused, with a message that has all these parts.
-template <typename Cases>
-void expectErrors(const SceneFiles& files, const Cases& cases) {
+/// Each body, or what `wrap` makes of it, makes a scene that is refused, with a message that has all these parts.
+template <typename Cases, typename Wrap = std::identity>
+void expectErrors(const SceneFiles& files, const Cases& cases, const Wrap& wrap = {}) {
     for (const auto& [body, messages] : cases) {
-        const std::string error = errorOf(files.write("scene.xml", sceneWith(body)));
-        for (const auto& message : messages) EXPECT_THAT(error, ::testing::HasSubstr(message));
+        const std::string error = errorOf(files.write("scene.xml", sceneWith(wrap(body))));
+        for (const auto& message : messages) EXPECT_THAT(error, ::testing::HasSubstr(message)) << body;
     }
 }
 

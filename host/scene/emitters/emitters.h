@@ -26,6 +26,8 @@ PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties);
 glm::dmat4 roundPlacement(Properties& properties);
 /// Of `tint` or `colour_temperature`, with luminance 1; white where neither is given.
 Rgb readLightColour(Properties& properties);
+/// Are the scene's units photometric?
+bool isPhotometric(const Properties& properties);
 /// Radiant units by photometric ones: 1 / (683 lm/W), or 1 where the scene's units are photometric.
 double radiantFactor(const Properties& properties);
 

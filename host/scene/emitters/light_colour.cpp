@@ -38,8 +38,8 @@ Rgb readLightColour(Properties& properties) {
     return tint * static_cast<float>(1 / all);
 }
 
-double radiantFactor(const Properties& properties) {
-    return properties.context().scene.settings.units == "photometric" ? 1 : 1 / luminousEfficacy;
-}
+bool isPhotometric(const Properties& properties) { return properties.context().scene.settings.units == "photometric"; }
+
+double radiantFactor(const Properties& properties) { return isPhotometric(properties) ? 1 : 1 / luminousEfficacy; }
 
 } // namespace quasilux

@@ -21,8 +21,8 @@ int readSkyType(Properties& properties) {
     return static_cast<int>(type);
 }
 
-/// cd/m² at the zenith.
-double readZenith(Properties& properties, int type, const glm::dvec3& sun) {
+/// cd/m² at the zenith; `perZenith` lx come from a sky with 1 cd/m² there.
+double readZenith(Properties& properties, double perZenith) {
     if (properties.has("zenith_luminance")) {
         if (properties.has("illuminance"))
             throw InputError(
@@ -30,7 +30,7 @@ double readZenith(Properties& properties, int type, const glm::dvec3& sun) {
                 fmt::format("{} has both zenith_luminance and illuminance; keep one.", properties.describe()));
         return properties.numberAbove("zenith_luminance", 0, 0, true);
     }
-    return properties.numberAbove("illuminance", 10000, 0, true) / cieSkyIlluminance(type, sun);
+    return properties.numberAbove("illuminance", 10000, 0, true) / perZenith;
 }
 
 } // namespace
@@ -40,11 +40,12 @@ void readCieSky(Properties& properties) {
     const int type = readSkyType(properties);
     Daylight daylight;
     daylight.sun = readSunOfMap(properties).towards;
-    const double zenith = readZenith(properties, type, daylight.sun);
+    const double perZenith = cieSkyIlluminance(type, daylight.sun);
+    const double zenith = readZenith(properties, perZenith);
     daylight.luminance = [&](const glm::dvec3& direction) {
         return zenith * cieSkyLuminance(type, direction, daylight.sun);
     };
-    daylight.skyIlluminance = zenith * cieSkyIlluminance(type, daylight.sun);
+    daylight.skyIlluminance = zenith * perZenith;
     daylight.sunIlluminance = properties.numberAbove("sun_illuminance", 0, 0, false);
     addDaylight(properties, surroundings, daylight);
 }

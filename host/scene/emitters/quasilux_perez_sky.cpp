@@ -6,29 +6,26 @@
 #include "scene/skies/weather_file.h"
 #include "scene/xml/xml_document.h"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
 
+constexpr double lowestDewPoint = -90, highestDewPoint = 70; // degrees Celsius, as EnergyPlus has them
+
 struct Conditions {
     SunOfMap sun;
     Radiation radiation;
 };
 
-int timeOfWeather(Properties& properties, const std::string& name, int64_t highest) {
+int timeOfWeather(Properties& properties, const std::string& name, int highest) {
     if (!properties.has(name))
         throw InputError(properties.element().where,
                          fmt::format("{} has a weather file; say month, day and hour (1 to 24, the one that ends then) "
                                      "too.",
                                      properties.describe()));
-    const int64_t value = properties.integer(name, 1);
-    if (value < 1 || value > highest)
-        throw InputError(properties.where(name),
-                         fmt::format("parameter '{}' is {}; expected 1 to {}.", name, value, highest));
-    return static_cast<int>(value);
+    return properties.integerWithin(name, 1, 1, highest);
 }
 
 Conditions readFromWeather(Properties& properties) {
@@ -45,7 +42,7 @@ Conditions readFromWeather(Properties& properties) {
     const WeatherHour found = readWeatherHour(path, readFile(path, where, "weather"), month, day, hour, where);
     Conditions conditions{sunOfMap(found.place, found.time), found.radiation};
     conditions.radiation.sunNearness = conditions.sun.nearness;
-    checkSunIsUp(properties, std::asin(conditions.sun.towards.z));
+    checkSunIsUp(properties, conditions.sun.towards);
     return conditions;
 }
 
@@ -57,7 +54,7 @@ Conditions readMeasured(Properties& properties) {
     Conditions conditions{readSunOfMap(properties), {}};
     Radiation& radiation = conditions.radiation;
     radiation.sunNearness = conditions.sun.nearness;
-    radiation.dewPoint = properties.number("dew_point", radiation.dewPoint);
+    radiation.dewPoint = properties.numberWithin("dew_point", radiation.dewPoint, lowestDewPoint, highestDewPoint);
     const auto areGiven = [&](const std::string& unit) {
         return properties.has("direct_normal_" + unit) && properties.has("diffuse_horizontal_" + unit);
     };
@@ -65,6 +62,11 @@ Conditions readMeasured(Properties& properties) {
         radiation.directNormal = properties.numberAbove("direct_normal_irradiance", 0, 0, false);
         radiation.diffuseHorizontal = properties.numberAbove("diffuse_horizontal_irradiance", 0, 0, true);
     } else if (areGiven("illuminance")) {
+        for (const char* alone : {"direct_normal_irradiance", "diffuse_horizontal_irradiance"})
+            if (properties.has(alone))
+                throw InputError(
+                    properties.where(alone),
+                    fmt::format("{} has {} alone; give both irradiances, or none.", properties.describe(), alone));
         radiation = radiationOfIlluminances(properties.numberAbove("direct_normal_illuminance", 0, 0, false),
                                             properties.numberAbove("diffuse_horizontal_illuminance", 0, 0, true),
                                             radiation, conditions.sun.towards);

@@ -17,21 +17,13 @@ namespace {
 using std::numbers::pi;
 
 struct SunSky {
-    double turbidity = 3;
+    double turbidity = 3; // 1 clear, 10 hazy
     Rgb albedo{};
     double sunScale = 1, skyScale = 1;
     double sunHalfAngle = 0; // radians
     bool complexSun = false;
     glm::dvec3 sun{}; // towards it, up is +z
 };
-
-double readTurbidity(Properties& properties) {
-    const double turbidity = properties.number("turbidity", 3);
-    if (!(turbidity >= 1 && turbidity <= 10))
-        throw InputError(properties.where("turbidity"),
-                         fmt::format("parameter 'turbidity' is {}; expected 1 (clear) to 10 (hazy).", turbidity));
-    return turbidity;
-}
 
 /// Mitsuba's default is the angle for which the sun's radiance is known; with others its irradiance stays the same.
 double readSunHalfAngle(Properties& properties) {
@@ -48,22 +40,19 @@ glm::dvec3 readSun(Properties& properties, const glm::dmat3& axes) {
     glm::dvec3 sun;
     if (properties.has("sun_direction")) {
         const std::string other = givenPlaceOrTime(properties);
-        if (!other.empty())
-            throw InputError(properties.where(other),
-                             fmt::format("{} has both sun_direction and {}; keep the direction, or place and time.",
-                                         properties.describe(), other));
+        if (!other.empty()) refuseBesideDirection(properties, other);
         sun = glm::transpose(axes) * properties.direction("sun_direction", {0, 0, 1});
     } else {
         const glm::dvec3 onMap = towards(readSunPosition(properties));
         sun = {-onMap.y, -onMap.x, onMap.z};
     }
-    checkSunIsUp(properties, std::asin(glm::clamp(sun.z, -1.0, 1.0)));
+    checkSunIsUp(properties, sun);
     return sun;
 }
 
 SunSky readSunSky(Properties& properties, const glm::dmat3& axes) {
     SunSky found;
-    found.turbidity = readTurbidity(properties);
+    found.turbidity = properties.numberWithin("turbidity", 3, 1, 10);
     found.albedo = properties.reflectance("albedo", 0.3F);
     found.sunScale = properties.numberAbove("sun_scale", 1, 0, false);
     found.skyScale = properties.numberAbove("sky_scale", 1, 0, false);
@@ -107,11 +96,10 @@ void readSunSky(Properties& properties) {
     Surroundings& surroundings = addSurroundings(properties);
     const glm::dmat3 axes = axesOfSurroundings(properties);
     const SunSky given = readSunSky(properties, axes);
-    const bool photometric = radiantFactor(properties) == 1;
-    const double factor = photometric ? luminousEfficacy * hosekWilkieResponse() : 1;
+    const double factor = isPhotometric(properties) ? luminousEfficacy * hosekWilkieResponse() : 1;
     const HosekWilkieSky sky(given.turbidity, given.albedo, std::asin(std::min(given.sun.z, 1.0)));
     const bool hasSun = given.sunScale > 0;
-    const unsigned height = hasSun ? skyHeightFor(given.sunHalfAngle) : skyHeightFor(pi / 4);
+    const unsigned height = hasSun ? skyHeightFor(given.sunHalfAngle) : coarsestSkyHeight;
     EnvironmentImage image = makeSkyImage(height, axes, {0, 0, 0}, [&](const glm::dvec3& direction) {
         return withinGamut(sky.radiance(direction.z, glm::dot(direction, given.sun)) * (given.skyScale * factor));
     });

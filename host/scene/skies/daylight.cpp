@@ -12,8 +12,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr unsigned skyHeight = 721; // rows: a quarter of a degree each
-
 void addSun(Properties& properties, const glm::dvec3& towards, Rgb irradiance) {
     DirectionalEmitter emitter;
     emitter.id = idOf(properties.element()) + ".sun";
@@ -51,7 +49,7 @@ void addDaylight(Properties& properties, Surroundings& surroundings, const Dayli
     };
     const double onGround = daylight.skyIlluminance + daylight.sunIlluminance * daylight.sun.z;
     surroundings.image =
-        makeSkyImage(skyHeight, axes, coloured(albedo / pi * onGround),
+        makeSkyImage(coarsestSkyHeight, axes, coloured(albedo / pi * onGround),
                      [&](const glm::dvec3& direction) { return coloured(daylight.luminance(direction)); });
     if (daylight.sunIlluminance > 0) addSun(properties, axes * daylight.sun, coloured(daylight.sunIlluminance));
 }

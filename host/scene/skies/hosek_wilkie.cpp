@@ -19,7 +19,7 @@ constexpr double responseIntegral = 106.75025939941406;
 // From the unit of the sun's data to that of the sky's (Mitsuba 3).
 constexpr double sunFactor = 467.069280386;
 
-/// TablePlace two entries of a table that belong to whole numbers.
+/// Between two entries of a table, which belong to whole numbers.
 struct TablePlace {
     int below;
     double share; ///< of the entry above

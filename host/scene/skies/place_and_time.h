@@ -9,6 +9,9 @@ namespace quasilux {
 /// The first of these parameters that is given, or an empty string.
 std::string givenPlaceOrTime(Properties& properties);
 
+/// Throws the InputError that one of them, `given`, stands beside a sun_direction.
+[[noreturn]] void refuseBesideDirection(Properties& properties, const std::string& given);
+
 /// Missing ones are as in Mitsuba's sunsky: Tokyo on 10 July 2010 at 15:00. Throws InputError where a value is no such thing.
 SunPosition readSunPosition(Properties& properties);
 
@@ -23,7 +26,7 @@ SunOfMap readSunOfMap(Properties& properties);
 /// Likewise, of a time and place that are known.
 SunOfMap sunOfMap(const PlaceOnEarth& place, const LocalTime& time);
 
-/// The sun at this elevation in radians must not be below the horizon: throws InputError.
-void checkSunIsUp(Properties& properties, double elevation);
+/// The sun in this direction, up is +z, must not be below the horizon: throws InputError.
+void checkSunIsUp(Properties& properties, const glm::dvec3& towards);
 
 } // namespace quasilux

@@ -9,6 +9,9 @@
 
 namespace quasilux {
 
+/// Rows of an image whose sky has no sun's disc: a quarter of a degree each.
+inline constexpr unsigned coarsestSkyHeight = 721;
+
 /// Solid angle over which the rows of an image of latitude and longitude count: the integral of what is 1 on a row and falls linearly to 0 at
 /// those beside it. Sums to 4 pi.
 std::vector<double> solidAnglesOfRows(unsigned height);

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr unsigned coarsestRows = 720, finestRows = 1440; // half a turn
+constexpr unsigned coarsestRows = coarsestSkyHeight - 1, finestRows = 2 * coarsestRows; // half a turn
 constexpr double pixelsAcross = 4;
 constexpr int samplesAcrossPixel = 8; // along each side of a pixel
 

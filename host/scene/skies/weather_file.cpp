@@ -22,6 +22,7 @@ enum DataField : size_t {
     diffuseField
 };
 enum LocationField : size_t { latitudeField = 6, longitudeField, zoneField };
+constexpr size_t recordsField = 2; // of the line DATA PERIODS
 
 constexpr double missingRadiation = 9999, missingDewPoint = 99.9;
 
@@ -75,6 +76,9 @@ WeatherHour readWeatherHour(const std::string& path, const std::string& content,
     found.place.latitude = location.at(latitudeField, "the latitude", -90, 90);
     found.place.longitude = location.at(longitudeField, "the longitude", -180, 180);
     found.time.zone = location.at(zoneField, "the time zone", -14, 14);
+    if (lines.size() >= headLines)
+        WeatherLine{path, headLines, splitFields(lines[headLines - 1])}.wholeAt(recordsField,
+                                                                                "the number of records an hour", 1, 1);
     for (size_t k = headLines; k < lines.size(); ++k) {
         if (lines[k].empty()) continue;
         const WeatherLine line{path, static_cast<int>(k) + 1, splitFields(lines[k])};
