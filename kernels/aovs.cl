@@ -94,7 +94,7 @@ __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveB
     float sums[AOV_FLOATS];
     for (uint k = 0; k < AOV_FLOATS; ++k) sums[k] = 0;
     for (uint sample = 0; sample < samples; ++sample) {
-        const FilterPlace place = filterPlace(camera, tables, pixel, pixelNumbers(pixel, sample, seed).xy);
+        const FilterPlace place = filterPlace(camera, tables, pixel, pixelPlace(pixel, sample, seed));
         const float2 lens = lensNumbers(pixel, sample, seed);
         const Ray ray = cameraRay(camera, pixel, place.offset, lens);
         const Hit hit = intersectClosest(nodes, blocks, ray);

@@ -122,13 +122,13 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, number, STREAM_CAMERA, index);
     CameraPath path;
-    const float4 even = pixelNumbers(index, number, seed);
-    const PathPlace place = pathPlace(world, index, even.xy);
+    const PathPlace place = pathPlace(world, index, pixelPlace(index, number, seed));
     const uint pixel = place.pixel;
     path.ray = cameraRay(&params->camera, pixel, place.inside.offset, lensNumbers(index, number, seed));
-    path.firstChoice = even.z;
-    path.lightChoice = evenChoice(pixelChoiceShift(index, seed), number * params->directSamples);
-    path.strata = strataOfPath(seed, number, index);
+    path.net = netOfPath(seed, number, params->cameraPaths, index);
+    const float3 ofLobe = netNumbers(&path.net, NET_LOBE);
+    path.firstChoice = ofLobe.x;
+    path.firstPair = ofLobe.yz;
 #ifdef ADAPTIVE_RADIUS
     path.radiusBlock = radiusBlock(params, pixel);
 #endif
@@ -147,7 +147,7 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     path.onlyEmission = 0;
 #ifdef HAS_MEDIA
     path.medium = params->camera.medium;
-    path.roulette.number = even.w;
+    path.roulette.number = pixelRoulette(index, number, seed);
     path.roulette.survival = 1;
 #endif
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;

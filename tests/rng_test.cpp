@@ -1,5 +1,5 @@
 // The kernels' random numbers: known values, uniformity in one and two dimensions, and independence of the launch.
-// 23 chi-squared tests; false-alarm rate of the program 1e-4 (support/chi_squared.h).
+// 27 chi-squared tests; false-alarm rate of the program 1e-4 (support/chi_squared.h).
 #include "support/chi_squared.h"
 #include "support/test_kernels.h"
 
@@ -12,7 +12,7 @@
 namespace quasilux {
 namespace {
 
-constexpr int tests = 23;
+constexpr int tests = 27;
 constexpr size_t sequences = 7; // of a pixel (kernels/rng.cl)
 constexpr int mostWaves = 6;
 
@@ -147,6 +147,59 @@ TEST(Rng, ChoicesOfEmittersAreEvenOverThePasses) {
         << "negative control: numbers that know nothing of each other";
 }
 
+/// Six numbers of each point: a pair and a choice for emitters, and for lobes.
+std::vector<float> drawNets(uint64_t seed, unsigned paths, unsigned place, unsigned points) {
+    Buffer<float> result(testDevice(), size_t{6} * points, "nets");
+    program()
+        .kernel("drawNets")
+        .launch(points, cl_ulong(seed), cl_uint(paths), cl_uint(place), result, cl_uint(points));
+    return result.read();
+}
+
+// Is one of the `size` points from `first` on in each of the boxes 1 / columns wide and columns / size high of two of their six numbers?
+bool isEven(const std::vector<float>& numbers, unsigned first, unsigned size, unsigned columns, size_t x, size_t y) {
+    const unsigned rows = size / columns;
+    std::vector<unsigned> counts(size);
+    for (unsigned i = first; i < first + size; ++i)
+        ++counts.at(unsigned(numbers[6 * i + x] * float(columns)) * rows + unsigned(numbers[6 * i + y] * float(rows)));
+    return std::all_of(counts.begin(), counts.end(), [](unsigned count) { return count == 1; });
+}
+
+// (0, m, 2)-nets: nothing is left to chance.
+TEST(Rng, FirstEventsOfFourPassesLieOnNets) {
+    for (const unsigned paths : {1u, 2u, 6u, 16u, 64u}) {
+        const unsigned size = paths % 4 == 0 ? 4 * (paths & -paths) : 4;
+        const auto numbers = drawNets(11, paths, 3, 2 * size);
+        for (const unsigned first : {0u, size})
+            for (const size_t use : {0u, 3u}) {
+                for (unsigned columns = 1; columns <= size; columns *= 2)
+                    EXPECT_TRUE(isEven(numbers, first, size, columns, use, use + 1)) << paths << " " << columns;
+                if (size >= 16) EXPECT_TRUE(isEven(numbers, first, size, size, use + 2, use)) << paths;
+            }
+    }
+    EXPECT_FALSE(isEven(drawNets(11, 16, 3, 128), 32, 64, 8, 0, 1)) << "negative control: halves of two nets";
+    EXPECT_FALSE(isEven(drawNets(11, 16, 3, 128), 0, 64, 8, 0, 3)) << "negative control: numbers of two uses";
+}
+
+// The same point of many pixels' nets.
+TEST(Rng, PointsOfNetsAreUniformAndIndependent) {
+    const unsigned pixels = 1 << 14;
+    std::vector<float> points;
+    for (unsigned pixel = 0; pixel < pixels; ++pixel) {
+        const auto numbers = drawNets(12, 4, pixel, 6);
+        points.insert(points.end(), numbers.begin() + 30, numbers.end());
+    }
+    const auto expectEven = [&](size_t a, size_t b) {
+        EXPECT_GT(uniformPValue2(pixels, [&](size_t i) { return std::pair(points[6 * i + a], points[6 * i + b]); }),
+                  significanceLevel(tests))
+            << a << " " << b;
+    };
+    expectEven(0, 1);
+    expectEven(0, 3);
+    expectEven(1, 4);
+    expectEven(0, 4);
+}
+
 // Largest |mean of exp(2 pi i (h a + k b))| over small h, k: 1 where the pairs (a, b) keep to lines, however many they are.
 double largestWave(const std::vector<float>& numbers, size_t a, size_t b) {
     const size_t count = numbers.size() / sequences;
@@ -173,8 +226,8 @@ TEST(Rng, SequencesOfAPixelDoNotFollowEachOther) {
         for (size_t b = a + 1; b < sequences; ++b)
             EXPECT_LT(largestWave(numbers, a, b), 0.2) << "sequences " << a << " and " << b;
     for (size_t i = 0; i < passes; ++i)
-        numbers[sequences * i + 2] = std::fmod(numbers[sequences * i + 6] + 0.25f, 1.0f);
-    EXPECT_GT(largestWave(numbers, 2, 6), 0.9) << "negative control: two sequences with the same step";
+        numbers[sequences * i + 5] = std::fmod(numbers[sequences * i + 4] + 0.25f, 1.0f);
+    EXPECT_GT(largestWave(numbers, 4, 5), 0.9) << "negative control: two sequences with the same step";
 }
 
 } // namespace

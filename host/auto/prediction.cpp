@@ -110,6 +110,7 @@ struct Common {
 
 // More camera paths than this leave too few passes for the estimate of the error, whatever else they do.
 constexpr unsigned fewestPassesOfImage = 64, mostCameraPaths = 64;
+constexpr double sameError = 0.01; // of relMSE
 
 // Of the total noise; all of it where the film keeps no components. Classes of light that photons carry have noise of camera paths too,
 // which counts as the photons' here.
@@ -210,10 +211,10 @@ unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double
         const double passes = passesAfter(changed, seconds) - pilot.passes; // those of the pilot are discarded
         if (paths > 1 && passes < fewestPassesOfImage) break;
         const double error = predictAfterPasses(changed, std::max(passes, 1.0)).relativeMse();
-        if (error < least) {
-            least = error;
-            best = paths;
-        }
+        // Of equally good ones the most: what a pass's paths draw is spread the more evenly (kernels/lattice.clh), which the prediction does
+        // not know.
+        if (error < (1 + sameError) * least) best = paths;
+        least = std::min(least, error);
     }
     return best;
 }

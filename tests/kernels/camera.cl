@@ -5,7 +5,7 @@
 __kernel void cameraRays(const Camera camera, const uint pass, __global float* result) {
     const uint pixel = get_global_id(0);
     if (pixel >= camera.width * camera.height) return;
-    const FilterPlace place = filterPlace(&camera, 0, pixel, pixelNumbers(pixel, pass, 7).xy);
+    const FilterPlace place = filterPlace(&camera, 0, pixel, pixelPlace(pixel, pass, 7));
     const Ray ray = cameraRay(&camera, pixel, place.offset, lensNumbers(pixel, pass, 7));
     vstore3(ray.origin, 0, result + 8 * pixel);
     vstore3(ray.direction, 0, result + 8 * pixel + 3);

@@ -36,8 +36,7 @@ __kernel void latticePoints(__global float2* points, const uint count, const uin
     const uint i = get_global_id(0);
     if (i >= count) return;
     const Lattice lattice = latticeOfPass(99, mode == 1 ? 0 : i);
-    points[i] = mode == 0 ? latticePoint4(i, (float4)(shift.x, shift.y, 0.5f, 0.5f)).xy
-                          : latticePoint2(&lattice, mode == 1 ? i : 12345, first);
+    points[i] = mode == 0 ? latticePlace(i, shift) : latticePoint2(&lattice, mode == 1 ? i : 12345, first);
 }
 
 #ifdef HAS_FILTER_TABLE

@@ -24,19 +24,28 @@ __kernel void mixNumbers(__global const ulong* input, __global ulong* result, ui
     if (i < count) result[i] = rngMix(input[i]);
 }
 
-/* Choices among emitters of `passes` passes of a pixel. */
+/* Choices among emitters of `passes` passes of a pixel with one path each. */
 __kernel void chooseEvenly(uint shift, __global float* result, uint passes) {
     const uint i = get_global_id(0);
-    if (i < passes) result[i] = evenChoice(shift, i);
+    if (i >= passes) return;
+    const Net net = netOfPath(shift, i, 1, 0);
+    result[i] = netNumbers(&net, NET_EMITTER).x;
 }
 
-/* All that one path of a pixel draws from sequences over the passes: its place, first choice, roulette, lens and emitter. */
+/* Both pairs and choices of the nets of a pixel with `paths` paths a pass: six numbers a point. */
+__kernel void drawNets(ulong seed, uint paths, uint place, __global float* result, uint points) {
+    const uint i = get_global_id(0);
+    if (i >= points) return;
+    const Net net = netOfPath(seed, i, paths, place);
+    for (uint use = 0; use < 2; ++use) vstore3(netNumbers(&net, use).yzx, 0, result + 6 * i + 3 * use);
+}
+
+/* All that one path of a pixel draws from sequences over the passes: its place, lens, choices and roulette. */
 __kernel void drawSequences(__global float* result, uint passes) {
     const uint i = get_global_id(0);
     if (i >= passes) return;
-    const float4 pixel = latticePoint4(i, (float4)(0.1f, 0.7f, 0.3f, 0.5f));
-    const float2 lens = latticeLens(i, (float2)(0.9f, 0.2f));
-    vstore4(pixel, 0, result + 7 * i);
-    vstore2(lens, 0, result + 7 * i + 4);
-    result[7 * i + 6] = evenChoice(123456789u, i);
+    vstore2(latticePlace(i, (float2)(0.1f, 0.7f)), 0, result + 7 * i);
+    vstore2(latticeLens(i, (float2)(0.9f, 0.2f)), 0, result + 7 * i + 2);
+    vstore2(latticeChoices(i, (uint2)(123456789u, 2345678901u)), 0, result + 7 * i + 4);
+    result[7 * i + 6] = latticeRoulette(i, 3456789012u);
 }
