@@ -143,6 +143,7 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     path.passed = 0;
     path.from = path.ray.origin;
     path.specularSoFar = 1;
+    path.takesCaustics = path.specularSince = 0;
     path.directPdf = 0;
     path.onlyEmission = 0;
 #ifdef HAS_MEDIA

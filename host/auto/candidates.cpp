@@ -52,15 +52,33 @@ struct Scatterings {
     bool anyQuasiSpecular() const { return quasiSpecularLobes || quasiSpecularMedia; }
 };
 
-// Of photons that some camera path can use.
-unsigned classesOf(const Scatterings& has, const RenderSettings& settings) {
+Features featuresOf(const Scatterings& has) {
     Features features;
     features.genuineDiffuse = has.diffuseLobes;
     features.quasiSpecular = has.quasiSpecularLobes;
     features.specular = has.specularLobes;
     features.genuineDiffuseMedia = has.diffuseMedia;
     features.quasiSpecularMedia = has.quasiSpecularMedia;
-    return photonClasses(features, settings);
+    return features;
+}
+
+// Of photons that some camera path can use.
+unsigned classesOf(const Scatterings& has, const RenderSettings& settings) {
+    return photonClasses(featuresOf(has), settings);
+}
+
+bool hasEmittersThatNoPathMeets(const Scene& scene) {
+    return !scene.pointEmitters.empty() || !scene.directionalEmitters.empty() ||
+           std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                       [](const ShapeDescription& shape) { return shape.emitter && shape.emitter->alongNormal; });
+}
+
+// Can camera paths find the caustic light, and is there any? How much is seen in the film's components.
+bool mayFindCaustics(const Scene& scene, const RenderSettings& settings) {
+    if (!settings.film.components || settings.caustics == CausticLight::paths || hasEmittersThatNoPathMeets(scene))
+        return false;
+    const Scatterings has(splitOf(scene, settings));
+    return has.specularLobes && whyNotCausticsByPaths(featuresOf(has), settings).empty();
 }
 
 // With nothing genuine diffuse the main variant is the standard method with BDD 0, as if everything were
@@ -123,8 +141,8 @@ public:
         // BDD counts genuine diffuse events, and those of the standard method.
         const bool bddMatters = has.diffuseLobes || has.diffuseMedia || settings.variant == Variant::main;
         const std::string key =
-            fmt::format("{} {} {}", bddMatters ? settings.bdd : 0, variantsAreOne ? "" : name(settings.variant),
-                        splitKey(split, settings.variant, settings.bdd));
+            fmt::format("{} {} {} {}", bddMatters ? settings.bdd : 0, variantsAreOne ? "" : name(settings.variant),
+                        name(settings.caustics), splitKey(split, settings.variant, settings.bdd));
         if (std::find(known_.begin(), known_.end(), key) != known_.end()) return;
         known_.push_back(key);
         methods_.push_back(settings);
@@ -161,6 +179,15 @@ std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& sc
     std::vector<RenderSettings> found;
     MethodList list(scene, found);
     list.add(start);
+    // Where paths can find the caustics they mostly should: first of both, as short renders have no time for all.
+    const auto add = [&](const RenderSettings& method) {
+        if (freedom.caustics && mayFindCaustics(scene, method)) {
+            RenderSettings byPaths = method;
+            byPaths.caustics = CausticLight::paths;
+            list.add(byPaths);
+        }
+        list.add(method);
+    };
     const auto addSplits = [&](std::vector<std::string> splits) {
         if (!freedom.split) splits = {start.quasiSpecular};
         for (const unsigned bdd : freedom.bdd ? std::vector{0u, 1u} : std::vector{start.bdd})
@@ -173,7 +200,7 @@ std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& sc
                         method.quasiSpecular = split;
                         method.quasiSpecularFromCommandLine = true;
                     }
-                    list.add(method);
+                    add(method);
                 }
     };
     addSplits(firstSplits(scene, start));
@@ -210,9 +237,9 @@ std::vector<std::string> firstCandidates(const Freedom& freedom, const RenderSet
 }
 
 std::string text(const RenderSettings& settings, unsigned photons) {
-    const std::string method =
-        fmt::format("BDD {}, {}, split {}, {} photons/pass, radius {:.3g}", settings.bdd, name(settings.variant),
-                    settings.quasiSpecular, photons, settings.radiusScale);
+    std::string method = fmt::format("BDD {}, {}, split {}, {} photons/pass, radius {:.3g}", settings.bdd,
+                                     name(settings.variant), settings.quasiSpecular, photons, settings.radiusScale);
+    if (settings.caustics == CausticLight::paths) method += ", caustics by paths";
     return settings.cameraPaths == 1 ? method : fmt::format("{}, {} camera paths", method, settings.cameraPaths);
 }
 

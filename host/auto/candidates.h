@@ -17,7 +17,7 @@ inline constexpr double photonsStep = 2, radiusStep = 1.4;
 RenderSettings searchStart(const RenderSettings& settings, const Scene& scene, const Freedom& freedom,
                            const StopRule& stop);
 
-/// Splits, variants and BDDs in all combinations that `freedom` allows, `start` first. Those that come to the same as another
+/// Splits, variants, BDDs and ways to caustic light in all combinations that `freedom` allows, `start` first. Those that come to the same as another
 /// one are left out: with nothing quasi-specular the variants are one, with nothing genuine diffuse the main variant is the
 /// standard method. Those that follow little come last.
 std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& scene, const Freedom& freedom);

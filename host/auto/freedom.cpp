@@ -23,9 +23,9 @@ bool statesSplit(const Scene& scene) {
 
 Freedom freedomOf(const Scene& scene, AutoMode mode) {
     if (mode == AutoMode::off) return {};
-    if (mode == AutoMode::all) return {true, true, true, true, true, true};
+    if (mode == AutoMode::all) return {true, true, true, true, true, true, true};
     const SceneSettings& said = scene.settings;
-    return {!said.bdd, !statesSplit(scene), !said.variant, !said.photons, true, !said.cameraPaths};
+    return {!said.bdd, !statesSplit(scene), !said.variant, !said.photons, true, !said.cameraPaths, !said.caustics};
 }
 
 std::string whyNotSearched(const Scene& scene, const RenderSettings& settings, const StopRule& stop) {
@@ -45,6 +45,7 @@ std::string text(const Freedom& freedom) {
     if (freedom.photons) names.emplace_back("photons per pass");
     if (freedom.radius) names.emplace_back("radius");
     if (freedom.cameraPaths) names.emplace_back("camera paths");
+    if (freedom.caustics) names.emplace_back("caustics");
     return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -16,9 +16,10 @@ enum class AutoMode {
 
 /// true: may be changed by the search.
 struct Freedom {
-    bool bdd = false, split = false, variant = false, photons = false, radius = false, cameraPaths = false;
+    bool bdd = false, split = false, variant = false, photons = false, radius = false, cameraPaths = false,
+         caustics = false;
 
-    bool any() const { return bdd || split || variant || photons || radius || cameraPaths; }
+    bool any() const { return bdd || split || variant || photons || radius || cameraPaths || caustics; }
 };
 
 /// What the scene leaves open in this mode; options of the command line close more.

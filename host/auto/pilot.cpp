@@ -25,6 +25,16 @@ double radiusOf(const SceneReport& report) {
     return radius > 0 ? radius : 1;
 }
 
+// Of all emitters.
+double radianceByFlux(const SceneReport& report) {
+    double power = 0, sum = 0;
+    for (const auto& emitter : report.emitters) {
+        power += emitter.power;
+        sum += emitter.power * emitter.radiance;
+    }
+    return power > 0 ? sum / power : 0;
+}
+
 } // namespace
 
 void RendererPilot::renderPass() {
@@ -43,9 +53,12 @@ void RendererPilot::renderPass() {
 
 PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const {
     const double photons = lateMedian(&PassSeconds::photons), camera = lateMedian(&PassSeconds::camera);
-    PilotMeasure pilot = measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness);
+    const SceneReport& report = renderer_->report();
+    PilotMeasure pilot =
+        measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness, radianceByFlux(report));
+    if (report.photonClasses.empty()) pilot.noiseOfPhotons = 0; // of caustics that paths find
     pilot.secondsOfPhotons = photons;
-    pilot.radius = radiusOf(renderer_->report());
+    pilot.radius = radiusOf(report);
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());
     return pilot;
 }

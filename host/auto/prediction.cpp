@@ -110,17 +110,26 @@ struct Common {
 
 // More camera paths than this leave too few passes for the estimate of the error, whatever else they do.
 constexpr unsigned fewestPassesOfImage = 64, mostCameraPaths = 64;
-constexpr double sameError = 0.01; // of relMSE
 
-// Of the total noise; all of it where the film keeps no components. Classes of light that photons carry have noise of camera paths too,
-// which counts as the photons' here.
-double shareOfPhotons(const ErrorEstimate& error, bool hasComponents) {
+// Variance of a mean of n camera paths of a pass goes as this power of n: -1 of paths that know nothing of each other, and what is gained by nets, which
+// are larger then (kernels/lattice.clh): the variance of one path on them falls to 0.3 to 0.75 of that of a single one with 16, a half in the mean of ten scenes.
+constexpr double noiseByPaths = -1.25;
+
+// Of the total noise, that of components from `first` on; all of it where the film keeps none.
+double shareFrom(unsigned first, unsigned end, const ErrorEstimate& error, bool hasComponents) {
     if (!hasComponents) return 1;
-    double ofPhotons = 0;
-    for (unsigned c = LIGHT_DIRECT + 1; c < LIGHT_CLASSES; ++c)
-        ofPhotons += error.components[c].noiseRms * error.components[c].noiseRms;
+    double part = 0;
+    for (unsigned c = first; c < end; ++c) part += error.components[c].noiseRms * error.components[c].noiseRms;
     const double total = error.total.noiseRms * error.total.noiseRms;
-    return total > 0 ? std::min(1.0, ofPhotons / total) : 1;
+    return total > 0 ? std::min(1.0, part / total) : 1;
+}
+
+// The square of their sum over its variance; pixels are independent where paths meet them.
+double causticsMet(const FilmImage& image) {
+    double light = 0, variance = 0;
+    for (const float value : image.components[LIGHT_CAUSTIC]) light += value;
+    for (const float error : image.componentError[LIGHT_CAUSTIC]) variance += double(error) * error;
+    return variance > 0 ? light * light / variance : 0;
 }
 
 // Biases of radius 1.
@@ -142,12 +151,16 @@ std::vector<Estimate> biasesOf(const std::vector<PilotMeasure>& pilots) {
 } // namespace
 
 PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass,
-                          const std::vector<float>& brightness) {
+                          const std::vector<float>& brightness, double radiance) {
     const ErrorEstimate error = estimateError(image);
     const TileErrors tiles = errorByTile(image, tilesPerSide, brightness);
     PilotMeasure pilot;
     pilot.passes = image.passes;
-    pilot.noiseOfPhotons = shareOfPhotons(error, image.hasComponents());
+    // Classes of light that photons carry have noise of camera paths too, which counts as the photons' here.
+    pilot.noiseOfPhotons = shareFrom(LIGHT_DIRECT + 1, LIGHT_CLASSES, error, image.hasComponents());
+    pilot.noiseOfCaustics = shareFrom(LIGHT_CAUSTIC, LIGHT_CAUSTIC + 1, error, image.hasComponents());
+    pilot.causticsByPaths = noiseOfFinding(image, LIGHT_CAUSTIC, radiance, brightness);
+    pilot.causticsMet = causticsMet(image);
     pilot.secondsPerPass = secondsPerPass;
     pilot.noise = tiles.noise;
     pilot.bias = tiles.bias;
@@ -195,11 +208,20 @@ std::vector<double> predictedErrors(const std::vector<PilotMeasure>& pilots, dou
 
 PilotMeasure withCameraPaths(PilotMeasure pilot, double factor) {
     const double ofCamera = pilot.secondsPerPass - pilot.secondsOfPhotons;
-    const double noise = pilot.noiseOfPhotons + (1 - pilot.noiseOfPhotons) / factor;
+    const double noise = pilot.noiseOfPhotons + (1 - pilot.noiseOfPhotons) * std::pow(factor, noiseByPaths);
     pilot.secondsPerPass = pilot.secondsOfPhotons + factor * ofCamera;
     pilot.secondsWithRadius *= factor;
     for (double& ofTile : pilot.noise) ofTile *= noise;
     pilot.noiseOfPhotons /= noise;
+    return pilot;
+}
+
+PilotMeasure withRareCaustics(PilotMeasure pilot, double noiseOfOnePath, unsigned cameraPaths) {
+    const double all = sum(pilot.noise), seen = pilot.noiseOfCaustics * all,
+                 before = noiseOfOnePath / (double(pilot.passes) * cameraPaths);
+    const double caustics = (pilot.causticsMet * seen + before) / (pilot.causticsMet + 1);
+    if (all > 0)
+        for (double& ofTile : pilot.noise) ofTile *= (all - seen + caustics) / all;
     return pilot;
 }
 
@@ -211,10 +233,10 @@ unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double
         const double passes = passesAfter(changed, seconds) - pilot.passes; // those of the pilot are discarded
         if (paths > 1 && passes < fewestPassesOfImage) break;
         const double error = predictAfterPasses(changed, std::max(passes, 1.0)).relativeMse();
-        // Of equally good ones the most: what a pass's paths draw is spread the more evenly (kernels/lattice.clh), which the prediction does
-        // not know.
-        if (error < (1 + sameError) * least) best = paths;
-        least = std::min(least, error);
+        if (error < least) {
+            least = error;
+            best = paths;
+        }
     }
     return best;
 }

@@ -15,14 +15,18 @@ struct PilotMeasure {
     double secondsWithRadius = 0;    ///< the part of them that falls as radii shrink, in proportion to the discs
     std::vector<double> noise, bias; ///< by tile; the bias of a tile is net of noise and may come out below 0
     double noiseOfPhotons = 0;       ///< share of the noise that more camera paths with the same photons do not lower
-    double biasNoise = 0;            ///< relMSE that the estimate of the bias has as noise
-    double radius = 1;               ///< of the first pass's density estimate, in any unit
-    bool inVolume = false;           ///< kernels shrink in three dimensions
+    double noiseOfCaustics = 0;      ///< share of the noise that is in their component
+    double causticsByPaths =
+        0;                  ///< relMSE of their noise at most, did one camera path a pixel find them (noiseOfFinding)
+    double causticsMet = 0; ///< as many equal ones would have their noise, were they met one by one
+    double biasNoise = 0;   ///< relMSE that the estimate of the bias has as noise
+    double radius = 1;      ///< of the first pass's density estimate, in any unit
+    bool inVolume = false;  ///< kernels shrink in three dimensions
 };
 
-/// `image` of passes 0, 1, …; `brightness` as of errorByTile().
+/// `image` of passes 0, 1, …; `brightness` as of errorByTile(); `radiance`: of emitters, as noiseOfFinding() takes it.
 PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsPerPass,
-                          const std::vector<float>& brightness = {});
+                          const std::vector<float>& brightness = {}, double radiance = 0);
 
 struct Prediction {
     double passes = 0;
@@ -59,6 +63,10 @@ PilotMeasure withCameraPaths(PilotMeasure pilot, double factor);
 /// Camera paths of a pixel in a pass, a power of 2, with which a render of so many seconds by this pilot's settings, which have
 /// `cameraPaths` of them, has the least error. Photons, which all paths of a pass share, cost the same however many there are.
 unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double seconds);
+
+/// Of camera paths, `cameraPaths` of a pixel in a pass, that find caustic light: those that seldom meet an emitter have little noise until one does. So what
+/// is known of it before, `noiseOfOnePath` at most (causticsByPaths of a pilot by photons), counts as one that was met.
+PilotMeasure withRareCaustics(PilotMeasure pilot, double noiseOfOnePath, unsigned cameraPaths);
 
 /// Seconds until relMSE falls to the square of `relativeError`; never above `limit`.
 double secondsToError(const PilotMeasure& pilot, double relativeError, double limit);

@@ -101,6 +101,7 @@ void Search::chooseCameraPaths() {
 
 bool Search::raceOfNumbers(double seconds) {
     const RenderSettings base = best_.pilot ? best_.settings : start_;
+    if (base.caustics == CausticLight::paths) return false; // no photons
     const unsigned photons = best_.pilot ? best_.pilot->photonsPerPass() : startPhotons_;
     auto candidates = untried(numbersBeside(base, photons, freedom_));
     if (candidates.empty()) return false;
@@ -217,8 +218,16 @@ bool Search::renderUpTo(Contender& contender, unsigned passes) {
         contender.pilot->renderPass();
         if (world_.onPass) world_.onPass(contender.pilot->passes());
     }
-    if (contender.pilot->passes() >= fewestPasses) contender.measure = contender.pilot->measure({});
+    if (contender.pilot->passes() >= fewestPasses) contender.measure = measureOf(contender, {});
     return contender.pilot->passes() >= passes;
+}
+
+PilotMeasure Search::measureOf(const Contender& contender, const std::vector<float>& brightness) {
+    const PilotMeasure measure = contender.pilot->measure(brightness);
+    if (contender.settings.caustics == CausticLight::paths)
+        return withRareCaustics(measure, causticsByPaths_, contender.settings.cameraPaths);
+    causticsByPaths_ = std::max(causticsByPaths_, measure.causticsByPaths);
+    return measure;
 }
 
 // Relative to the mean of all their images: one that is noisy is too bright where it has its noise, and that would make it look better.
@@ -226,8 +235,7 @@ void Search::measureTogether(Field& field) {
     Brightness brightness;
     for (auto& contender : field)
         dare(contender, [&] { brightness.add(contender.pilot->radiance(), contender.measure); });
-    for (auto& contender : field)
-        dare(contender, [&] { contender.measure = contender.pilot->measure(brightness.mean()); });
+    for (auto& contender : field) dare(contender, [&] { contender.measure = measureOf(contender, brightness.mean()); });
     dropFailed(field);
 }
 

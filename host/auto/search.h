@@ -77,6 +77,7 @@ private:
     void dropFailed(Field& field);
     void openContender(Field& field, const RenderSettings& settings, unsigned passes, double leastGain);
     bool renderUpTo(Contender& contender, unsigned passes);
+    PilotMeasure measureOf(const Contender& contender, const std::vector<float>& brightness);
     void measureTogether(Field& field);
     void giveUpWorst(Field& field, size_t kept);
     void note(const Contender& contender, const std::string& outcome);
@@ -92,8 +93,9 @@ private:
     RenderSettings start_;
     unsigned startPhotons_ = 0;
     double startPassSeconds_ = 0;
-    double openingSeconds_ = 0; ///< of the last contender; its kernels are those of the start
-    Contender best_;            ///< without a pilot before the first race
+    double openingSeconds_ = 0;  ///< of the last contender; its kernels are those of the start
+    Contender best_;             ///< without a pilot before the first race
+    double causticsByPaths_ = 0; ///< PilotMeasure's, the largest of the pilots by photons
     SearchReport report_;
 };
 

@@ -45,6 +45,16 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->check(oneOf({"emitters", "photons"}))
         ->group(group);
     command
+        .add_option("--caustics", options.caustics,
+                    "Caustic light, that came by mirrors and lenses alone, from photons or found by camera paths, "
+                    "which need no photons then "
+                    "(everything quasi-specular by the alternative variant): photons or paths (default: the scene's, "
+                    "else searched, "
+                    "else photons)")
+        ->type_name("NAME")
+        ->check(oneOf({"photons", "paths"}))
+        ->group(group);
+    command
         .add_option("--map", options.map,
                     "What is stored and indexed in each pass: photons, found by camera paths, or camera (points of "
                     "camera paths, found by photons) (default: the scene's, else photons)")
@@ -289,6 +299,7 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (bdd) result.bdd = *bdd;
     if (variant) result.variant = parseVariant(*variant);
     if (direct) result.direct = parseDirect(*direct);
+    if (caustics) result.caustics = parseCaustics(*caustics);
     if (map) result.map = parseMapOrder(*map);
     if (emission) result.emission = parseEmission(*emission);
     if (photons) result.photonsPerPass = *photons;
@@ -320,6 +331,7 @@ Freedom SceneOptions::freedom(const Scene& loaded) const {
     freedom.split &= !quasiSpecular;
     freedom.variant &= !variant;
     freedom.photons &= !photons;
+    freedom.caustics &= !caustics;
     freedom.cameraPaths &= !cameraPaths;
     freedom.radius &= !radiusScale;
     return freedom;

@@ -25,7 +25,7 @@ struct SceneOptions {
     bool lenient = false;                 ///< what the scene says and is not known is left out
     std::optional<unsigned> bdd, photons, cameraPaths;
     std::optional<uint64_t> seed;
-    std::optional<std::string> variant, direct, map, emission, quasiSpecular, radius;
+    std::optional<std::string> variant, direct, caustics, map, emission, quasiSpecular, radius;
     std::optional<double> radiusScale;
     bool energyBalance = false;
     bool autoAll = false, fixed = false;

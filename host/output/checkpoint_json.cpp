@@ -151,6 +151,7 @@ Json toJson(const RenderSettings& settings) {
     visitSettings(writer, settings);
     writer.out["variant"] = name(settings.variant);
     writer.out["direct"] = name(settings.direct);
+    writer.out["caustics"] = name(settings.caustics);
     writer.out["map"] = name(settings.map);
     writer.out["emission"] = name(settings.emission);
     writer.out["radius"] = name(settings.radius);
@@ -162,6 +163,7 @@ void fromJson(const Json& from, RenderSettings& settings) {
     visitSettings(reader, settings);
     settings.variant = parseVariant(from.at("variant"));
     settings.direct = parseDirect(from.at("direct"));
+    settings.caustics = parseCaustics(from.at("caustics"));
     settings.map = parseMapOrder(from.at("map"));
     settings.emission = parseEmission(from.at("emission"));
     settings.radius = parseRadiusChoice(from.at("radius"));

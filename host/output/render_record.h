@@ -44,6 +44,7 @@ struct RenderRecord {
         visit("bdd", settings.bdd);
         visit("variant", name(settings.variant));
         visit("direct", name(settings.direct));
+        visit("caustics", name(settings.caustics));
         visit("map", name(settings.map));
         visit("quasiSpecular", settings.quasiSpecular);
         visit("seed", settings.seed);

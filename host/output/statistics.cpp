@@ -113,6 +113,7 @@ json searchJson(const SearchReport& search) {
         rows.push_back({{"bdd", row.settings.bdd},
                         {"variant", name(row.settings.variant)},
                         {"quasiSpecular", row.settings.quasiSpecular},
+                        {"caustics", name(row.settings.caustics)},
                         {"photonsPerPass", row.photonsPerPass},
                         {"cameraPaths", row.settings.cameraPaths},
                         {"radiusScale", row.settings.radiusScale},
@@ -136,6 +137,7 @@ json settingsJson(const RenderSettings& settings) {
     return {{"bdd", settings.bdd},
             {"variant", name(settings.variant)},
             {"direct", name(settings.direct)},
+            {"caustics", name(settings.caustics)},
             {"map", name(settings.map)},
             {"emission", name(settings.emission)},
             {"quasiSpecular", settings.quasiSpecular},
@@ -152,7 +154,7 @@ json settingsJson(const RenderSettings& settings) {
 json sceneReportJson(const SceneReport& report) {
     json emitters = json::array(), lobes = json::array(), media = json::array();
     for (const auto& row : report.emitters)
-        emitters.push_back({{"id", row.id}, {"type", row.type}, {"power", row.power}});
+        emitters.push_back({{"id", row.id}, {"type", row.type}, {"power", row.power}, {"radiance", row.radiance}});
     for (const auto& row : report.lobes)
         lobes.push_back({{"bsdf", row.bsdf}, {"lobe", row.lobe}, {"scattering", row.scattering}, {"why", row.why}});
     for (const auto& row : report.media)

@@ -23,6 +23,7 @@ struct EmitterTables {
     std::vector<uint32_t> goniograms;         ///< a shared::GoniogramTable with its tables for each luminaire type
     std::vector<unsigned> emitterOfShape;     ///< by shape, QL_NONE for none
     std::vector<double> power;                ///< W, mean of R, G, B
+    std::vector<double> radiance; ///< mean of R, G, B, over what it sends; 0 where no path can meet the emitter
     std::vector<std::string> ids;
 
     /// Emitters in the tree, the first ones; 0: there is none.

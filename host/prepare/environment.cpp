@@ -95,6 +95,17 @@ Rgb meanRadiance(const EnvironmentImage& image) {
     return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
 }
 
+double radianceByFlux(const EnvironmentImage& image) {
+    const std::vector<double> weights = solidAnglesOfRows(image.height);
+    double sum = 0, squares = 0;
+    for (size_t k = 0; k < image.pixels.size(); ++k) {
+        const double radiance = mean(image.pixels[k]), weight = weights[k / image.width];
+        sum += weight * radiance;
+        squares += weight * radiance * radiance;
+    }
+    return sum > 0 ? squares / sum : 0;
+}
+
 template <typename T>
 unsigned append(const std::vector<T>& records, std::vector<uint32_t>& words) {
     const auto first = static_cast<unsigned>(words.size());
@@ -119,6 +130,7 @@ EnvironmentTable makeEnvironmentTable(const EnvironmentImage& image) {
     head.blocks = append(probabilities.blocks, table.words);
     std::memcpy(table.words.data(), &head, sizeof head);
     table.meanRadiance = meanRadiance(image);
+    table.radianceByFlux = radianceByFlux(image);
     return table;
 }
 

@@ -12,6 +12,7 @@ namespace quasilux {
 struct EnvironmentTable {
     std::vector<uint32_t> words; ///< a shared::EnvironmentMap and what it has
     Rgb meanRadiance{};          ///< over the sphere
+    double radianceByFlux = 0;   ///< mean of R, G, B, weighted by what comes from where
 };
 EnvironmentTable makeEnvironmentTable(const EnvironmentImage& image);
 

@@ -203,11 +203,14 @@ shared::Emitter distantEmitter(unsigned type, const Rgb& radiance, const Sphere&
     return emitter;
 }
 
-/// `words`: of their image, if they have one.
-shared::Emitter surroundings(const Surroundings& from, const Sphere& bounds, std::vector<uint32_t>& words) {
+/// `words`: of their image, if they have one; `radiance` as in EmitterTables.
+shared::Emitter surroundings(const Surroundings& from, const Sphere& bounds, std::vector<uint32_t>& words,
+                             double& radiance) {
+    radiance = mean(from.radiance);
     if (!from.image) return distantEmitter(EMITTER_CONSTANT, from.radiance, bounds);
     EnvironmentTable table = makeEnvironmentTable(*from.image);
     words = std::move(table.words);
+    radiance = table.radianceByFlux;
     auto emitter = distantEmitter(EMITTER_ENVMAP, table.meanRadiance, bounds);
     emitter.edgeU = pack(from.image->axes[0]);
     emitter.edgeV = pack(from.image->axes[1]);
@@ -218,20 +221,22 @@ shared::Emitter surroundings(const Surroundings& from, const Sphere& bounds, std
 void addDistantEmitters(const Scene& scene, EmitterTables& tables) {
     if (scene.directionalEmitters.empty() && !scene.surroundings) return;
     const Sphere bounds = boundingSphere(scene);
-    const auto add = [&](shared::Emitter emitter, double power, const std::string& id) {
+    const auto add = [&](shared::Emitter emitter, double power, double radiance, const std::string& id) {
         tables.emitters.push_back(emitter);
         tables.power.push_back(power);
+        tables.radiance.push_back(radiance);
         tables.ids.push_back(id);
     };
     for (const auto& light : scene.directionalEmitters) {
         auto emitter = distantEmitter(EMITTER_DIRECTIONAL, light.irradiance, bounds);
         emitter.normal = pack(light.direction);
-        add(emitter, emitter.area * mean(light.irradiance), light.id);
+        add(emitter, emitter.area * mean(light.irradiance), 0, light.id);
     }
     if (scene.surroundings) { // last, where the kernels look for it
-        const auto emitter = surroundings(*scene.surroundings, bounds, tables.environment);
+        double radiance = 0;
+        const auto emitter = surroundings(*scene.surroundings, bounds, tables.environment, radiance);
         // pi L by area on the sphere about the scene is 4 pi^2 R^2 L = 4 pi L times the great disc.
-        add(emitter, 4 * pi * emitter.area * mean(emitter.radiance), scene.surroundings->id);
+        add(emitter, 4 * pi * emitter.area * mean(emitter.radiance), radiance, scene.surroundings->id);
     }
 }
 
@@ -251,6 +256,7 @@ void sortIntoTree(EmitterTables& tables) {
     LightTree tree = buildLightTree(tables);
     reorder(tables.emitters, tree.order);
     reorder(tables.power, tree.order);
+    reorder(tables.radiance, tree.order);
     reorder(tables.ids, tree.order);
     for (unsigned k = 0; k < tables.emitters.size(); ++k)
         if (tables.emitters[k].shape != QL_NONE) tables.emitterOfShape[tables.emitters[k].shape] = k;
@@ -280,8 +286,9 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
         tables.emitters.push_back(areaEmitter(shape, k, tables.triangles));
         tables.emitters.back().medium = placement.shapeEmitters[k];
         const double solidAngle = shape.emitter->alongNormal ? 1 : pi; // by the cosine
-        tables.power.push_back(solidAngle * tables.emitters.back().area *
-                               mean(shape.emitter->radiance * meanOfRadiance(shape, scene)));
+        const double radiance = mean(shape.emitter->radiance * meanOfRadiance(shape, scene));
+        tables.power.push_back(solidAngle * tables.emitters.back().area * radiance);
+        tables.radiance.push_back(shape.emitter->alongNormal ? 0 : radiance);
         tables.ids.push_back(shape.id);
     }
     std::vector<GoniogramKind> luminaires;
@@ -292,6 +299,7 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
         tables.emitters.push_back(pointEmitter(point, scene.textures, luminaires, &power));
         tables.emitters.back().medium = placement.pointEmitters[k];
         tables.power.push_back(power);
+        tables.radiance.push_back(0);
         tables.ids.push_back(point.id);
     }
     sortIntoTree(tables);

@@ -157,4 +157,14 @@ TileErrors errorByTile(const FilmImage& image, unsigned perSide, const std::vect
     return tiles;
 }
 
+double noiseOfFinding(const FilmImage& image, unsigned component, double radiance,
+                      const std::vector<float>& brightness) {
+    const auto& light = image.components.at(component);
+    if (light.empty()) return 0;
+    const auto scales = relativeScales(image, brightness.empty() ? image.radiance : brightness);
+    double sum = 0;
+    for (size_t k = 0; k < light.size(); ++k) sum += double(scales[k]) * scales[k] * light[k];
+    return radiance * sum * 3 / static_cast<double>(light.size());
+}
+
 } // namespace quasilux

@@ -39,4 +39,9 @@ struct TileErrors {
 /// what errors are relative to; empty: that of `image`.
 TileErrors errorByTile(const FilmImage& image, unsigned perSide, const std::vector<float>& brightness = {});
 
+/// relMSE of the noise, at most, with which one camera path a pixel finds the light of `component` by meeting emitters of this mean radiance. What a path
+/// brings is the emitter's radiance times a throughput of at most 1, so the mean of its square is at most the pixel's light times the radiance.
+double noiseOfFinding(const FilmImage& image, unsigned component, double radiance,
+                      const std::vector<float>& brightness = {});
+
 } // namespace quasilux

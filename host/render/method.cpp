@@ -30,8 +30,10 @@ bool meterIsGenuineDiffuse(const Features& features, const RenderSettings& setti
 unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& settings) {
     const Features features = settings.genericKernels ? Features::generic() : sceneFeatures;
     unsigned exist = 0; // classes that photons of this scene can have
-    if (settings.direct == DirectLight::photons || sceneFeatures.directByPhotons) exist |= bit(LIGHT_DIRECT);
-    if (features.specular) exist |= bit(LIGHT_CAUSTIC);
+    // Of some emitters genuine diffuse scattering alone takes it from photons (kernels/camera_surface.clh).
+    if (settings.direct == DirectLight::photons || (sceneFeatures.directByPhotons && features.genuineDiffuse))
+        exist |= bit(LIGHT_DIRECT);
+    if (features.specular && settings.caustics == CausticLight::photons) exist |= bit(LIGHT_CAUSTIC);
     if (features.quasiSpecular || features.quasiSpecularMedia) exist |= bit(LIGHT_QUASI_CAUSTIC);
     if (features.genuineDiffuse || features.genuineDiffuseMedia) exist |= bit(LIGHT_DIFFUSE);
     const bool byPhotons = meterIsGenuineDiffuse(sceneFeatures, settings);
@@ -46,6 +48,21 @@ unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& sett
 unsigned compiledClasses(const Features& features, const RenderSettings& settings) {
     const unsigned some = photonClasses(features, settings) | settings.furtherClasses;
     return some == 0 || !features.directByPhotons ? some : some | bit(LIGHT_DIRECT);
+}
+
+std::string whyNotCausticsByPaths(const Features& features, const RenderSettings& settings) {
+    RenderSettings byPaths = settings;
+    byPaths.caustics = CausticLight::paths;
+    if (settings.map == MapOrder::camera) return "--map camera is there for photons";
+    if (features.irradianceMeter) return "irradiance meters count photons";
+    if (photonClasses(features, byPaths) != 0)
+        return "photons of other classes are in use, and need them to bring all light; take --quasi-specular all, "
+               "--variant alternative and --direct emitters with it";
+    for (const unsigned type : {EMITTER_POINT, EMITTER_SPOT, EMITTER_PROJECTOR, EMITTER_DIRECTIONAL,
+                                EMITTER_DIRECTIONALAREA, EMITTER_GONIOGRAM})
+        if (features.emitterTypes.contains(type))
+            return "the scene has emitters that no path can meet: points, parallel beams or luminaires";
+    return {};
 }
 
 namespace {

@@ -56,6 +56,7 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     params.maxDepth = maxDepth;
     params.cameraPaths = mayHaveCameraPaths(flat.offsets.meter.kind != METER_NONE, settings) ? settings.cameraPaths : 1;
     params.directSamples = 1;
+    params.causticsByPaths = settings.caustics == CausticLight::paths;
     params.camera = flat.camera;
     params.scene = sceneTables(flat, settings);
     return params;

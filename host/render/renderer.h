@@ -35,7 +35,8 @@ struct SceneReport {
     std::vector<std::string> features; ///< compiled in, such as "lobe phong", "emitter rectangle"
     struct EmitterRow {
         std::string id, type;
-        double power = 0; /* W, mean of R, G, B */
+        double power = 0;    ///< W, mean of R, G, B
+        double radiance = 0; ///< EmitterTables::radiance
     };
     std::vector<EmitterRow> emitters;
     struct LobeRow {

@@ -69,8 +69,8 @@ SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const Ren
     report.borderSegments = flat.borderSegments;
     report.features = compiledFeatures(flat, settings).names();
     for (size_t k = 0; k < flat.emitters.emitters.size(); ++k)
-        report.emitters.push_back(
-            {flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type), flat.emitters.power[k]});
+        report.emitters.push_back({flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type),
+                                   flat.emitters.power[k], flat.emitters.radiance[k]});
     for (size_t k = 0; k < scene.bsdfs.size(); ++k) {
         describeLobes(scene.bsdfs[k], "", scene.bsdfs[k].front, flat.split[k].front, report);
         describeLobes(scene.bsdfs[k], " (behind)", scene.bsdfs[k].back, flat.split[k].back, report);

@@ -15,6 +15,7 @@ RenderSettings settingsFromScene(const Scene& scene) {
         if (said.bdd) settings.bdd = *said.bdd;
         if (said.variant) settings.variant = parseVariant(*said.variant);
         if (said.direct) settings.direct = parseDirect(*said.direct);
+        if (said.caustics) settings.caustics = parseCaustics(*said.caustics);
         if (said.map) settings.map = parseMapOrder(*said.map);
         if (said.quasiSpecular) settings.quasiSpecular = *said.quasiSpecular;
         if (said.photons) settings.photonsPerPass = *said.photons;
@@ -30,6 +31,8 @@ RenderSettings settingsFromScene(const Scene& scene) {
 const char* name(Variant variant) { return variant == Variant::main ? "main" : "alternative"; }
 
 const char* name(DirectLight direct) { return direct == DirectLight::emitters ? "emitters" : "photons"; }
+
+const char* name(CausticLight caustics) { return caustics == CausticLight::photons ? "photons" : "paths"; }
 
 const char* name(MapOrder map) { return map == MapOrder::photons ? "photons" : "camera"; }
 
@@ -48,6 +51,13 @@ DirectLight parseDirect(const std::string& text) {
     if (text == "photons") return DirectLight::photons;
     throw InputError("unknown way to estimate direct light '" + text + "', " +
                      expectedNames(text, {"emitters", "photons"}));
+}
+
+CausticLight parseCaustics(const std::string& text) {
+    if (text == "photons") return CausticLight::photons;
+    if (text == "paths") return CausticLight::paths;
+    throw InputError("unknown way to estimate caustic light '" + text + "', " +
+                     expectedNames(text, {"photons", "paths"}));
 }
 
 MapOrder parseMapOrder(const std::string& text) {

@@ -12,6 +12,7 @@ namespace quasilux {
 
 enum class Variant { main, alternative };     ///< of the law, kernels/law.clh
 enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
+enum class CausticLight { photons, paths };   ///< how E0's caustic part is; see takesCausticsByPaths() in method.h
 enum class RadiusChoice { adaptive, fixed };  ///< density radius by pixel, or one for all
 enum class Emission { guided, plain };        ///< photons begin by what was learned of the scene, or by power alone
 enum class MapOrder { photons, camera };      ///< what is stored and indexed, for the other to find
@@ -44,6 +45,7 @@ struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
     Variant variant = Variant::main;
     DirectLight direct = DirectLight::emitters;
+    CausticLight caustics = CausticLight::photons;
     MapOrder map = MapOrder::photons;
     Emission emission = Emission::plain;       ///< settingsFromScene: guided
     std::string quasiSpecular = "auto";        ///< auto | none | all | ID,ID,…
@@ -88,12 +90,14 @@ RenderSettings settingsFromScene(const Scene& scene);
 
 const char* name(Variant variant);
 const char* name(DirectLight direct);
+const char* name(CausticLight caustics);
 const char* name(MapOrder map);
 const char* name(Emission emission);
 const char* name(RadiusChoice radius);
 /// Throw InputError that lists the known names.
 Variant parseVariant(const std::string& text);
 DirectLight parseDirect(const std::string& text);
+CausticLight parseCaustics(const std::string& text);
 MapOrder parseMapOrder(const std::string& text);
 Emission parseEmission(const std::string& text);
 RadiusChoice parseRadiusChoice(const std::string& text);

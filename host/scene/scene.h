@@ -288,6 +288,7 @@ struct SceneSettings {
     std::optional<std::string> variant;       ///< "main", "alternative"
     std::optional<std::string> quasiSpecular; ///< "auto", "none", "all", "level:NUMBER", "ID,ID"
     std::optional<std::string> direct;        ///< "emitters", "photons"
+    std::optional<std::string> caustics;      ///< "photons", "paths"
     std::optional<std::string> map;           ///< "photons", "camera"
     std::optional<unsigned> photons;          ///< emitted per pass
     std::optional<unsigned> cameraPaths;      ///< of a pixel in each pass

@@ -14,8 +14,8 @@ namespace quasilux {
 
 namespace {
 
-const Names settingNames = {"bdd",     "variant",      "quasi-specular", "direct", "map",
-                            "photons", "camera-paths", "seed",           "units"};
+const Names settingNames = {"bdd", "variant", "quasi-specular", "direct", "caustics",
+                            "map", "photons", "camera-paths",   "seed",   "units"};
 
 std::string oneOf(const Attribute& entry, const Names& known, const SourceLocation& where) {
     if (std::find(known.begin(), known.end(), entry.value) == known.end())
@@ -44,6 +44,8 @@ void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& s
         settings.quasiSpecular = parseQuasiSpecular(entry, where);
     else if (entry.name == "direct")
         settings.direct = oneOf(entry, {"emitters", "photons"}, where);
+    else if (entry.name == "caustics")
+        settings.caustics = oneOf(entry, {"photons", "paths"}, where);
     else if (entry.name == "map")
         settings.map = oneOf(entry, {"photons", "camera"}, where);
     else if (entry.name == "units")
