@@ -70,6 +70,7 @@ struct Options {
     PhotometryOptions photometry;
     BenchOptions bench;
     bool devicesJson = false, doctorJson = false;
+    std::string manualFolder;
 };
 
 /// Declares the commands and all their options, filled into `options` (which must outlive `app`) by app.parse().

@@ -109,6 +109,7 @@ py::tuple compare(const py::handle& first, const py::handle& second, const std::
     const py::gil_scoped_release release;
     requireEqualSizes(image, reference);
     std::vector<RegionGroup> named;
+    named.reserve(groups.size());
     for (const auto& [name, values] : groups) named.push_back({name, values});
     CompareSettings settings;
     settings.referenceNoise = referenceNoise;
