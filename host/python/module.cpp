@@ -87,6 +87,7 @@ void save(const Rendered& rendered, const std::string& path, std::optional<doubl
 
 std::string devicesJson() {
     const py::gil_scoped_release release;
+    const DelayedSignals delayed;
     nlohmann::json rows = nlohmann::json::array();
     for (const DeviceInfo& device : listDevices()) {
         rows.push_back(deviceJson(device));

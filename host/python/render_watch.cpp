@@ -19,6 +19,18 @@ void SignalHandlers::putBack() const {
     for (size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
 }
 
+DelayedSignals::DelayedSignals() {
+    sigset_t delayed;
+    sigemptyset(&delayed);
+    for (const int signal : signals) sigaddset(&delayed, signal);
+    pthread_sigmask(SIG_BLOCK, &delayed, &before_);
+}
+
+DelayedSignals::~DelayedSignals() {
+    putBack();
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
 template <typename Action>
 void RenderWatch::inPython(const Action& action) {
     last_ = Clock::now();

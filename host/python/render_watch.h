@@ -12,15 +12,29 @@
 namespace quasilux {
 
 /// The handlers of signals as they were. An OpenCL runtime that compiles in this process may put in handlers of its own (PoCL's LLVM
-/// does), with which Python would not learn of Ctrl-C.
+/// does, when it looks for devices), with which Python would not learn of Ctrl-C.
 class SignalHandlers {
 public:
     SignalHandlers();
     void putBack() const;
 
-private:
+protected:
     static constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
+
+private:
     std::array<struct sigaction, signals.size()> before_{};
+};
+
+/// While it lives, such signals wait: for what puts in handlers that would end the process.
+class DelayedSignals : SignalHandlers {
+public:
+    DelayedSignals();
+    ~DelayedSignals();
+    DelayedSignals(const DelayedSignals&) = delete;
+    DelayedSignals& operator=(const DelayedSignals&) = delete;
+
+private:
+    sigset_t before_{};
 };
 
 /// Made and destroyed with the GIL; look() and onProgress() are called without it.

@@ -27,7 +27,10 @@ RenderOptions optionsOf(const std::vector<std::string>& arguments, const Scene& 
 std::shared_ptr<const Rendered> render(const RenderOptions& options, const Scene& scene, double loadSeconds,
                                        const std::optional<double>& daylight, std::vector<std::string> warnings,
                                        RenderWatch& watch) {
-    Device device(options.device, options.workGroupSize, options.deviceMemory);
+    Device device = [&] {
+        const DelayedSignals delayed;
+        return Device(options.device, options.workGroupSize, options.deviceMemory);
+    }();
     watch.look();
     StartedRender started(options, device, scene);
     watch.look();

@@ -261,11 +261,26 @@ class Behaviour(unittest.TestCase):
             time.sleep(1)
 
     def test_control_c_while_it_prepares(self):
-        signal.setitimer(signal.ITIMER_REAL, 0)
         timer = threading.Timer(0.02, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
             ql.render(cornell(), time=600, fixed=True, bdd=3, **CHOICE)
+
+    def test_control_c_while_the_device_is_opened(self):
+        """In a process that has not opened one yet: the runtime must not get hold of the signal."""
+        ask = f"ql.render(ql.load({CORNELL!r}), time=600, fixed=True)"
+        for delay, what in ((0.0, ask), (0.03, ask), (0.06, ask), (0.1, ask), (0.2, ask), (0.0, "ql.devices(); os.kill(os.getpid(), 2); time.sleep(1)")):
+            code = "\n".join([
+                "import os, threading, time",
+                "import quasilux as ql",
+                "try:",
+                f"    threading.Timer({delay}, os.kill, (os.getpid(), 2)).start()" if what is ask else "",
+                f"    {what}",
+                "except KeyboardInterrupt:",
+                "    print('caught')",
+            ])
+            done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (0, "caught\n"), (delay, done.stderr))
 
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
