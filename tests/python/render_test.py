@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The Python package against the program: the same bits; and as Python code is used to: exceptions, Ctrl-C, threads, memory.
-render_test.py PROGRAM SOURCE_FOLDER. Renders have a seed, so that figures are the same on every run."""
+render_test.py PROGRAM SOURCE_FOLDER [FAILING_OPENCL]. Renders have a seed, so that figures are the same on every run."""
 
 import ctypes
 import gc
@@ -23,6 +23,7 @@ import quasilux as ql
 from scenes import GRID, cornell_phong, layers_of, lit_floor
 
 PROGRAM, SOURCE = sys.argv[1:3]
+FAILING_OPENCL = sys.argv[3] if len(sys.argv) > 3 else None  # tests/shims/failing_opencl.cpp
 CORNELL = SOURCE + "/scenes/cornell_phong.xml"
 SIZE = 48
 CHOICE = {"photons": 4000, "seed": 7}  # of renders that are compared with each other
@@ -281,6 +282,24 @@ class Behaviour(unittest.TestCase):
             ])
             done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout), (0, "caught\n"), (delay, done.stderr))
+
+    @unittest.skipUnless(FAILING_OPENCL, "the library of failing calls is not built")
+    def test_device_that_fails(self):
+        """From a certain launch on, after some passes, or at once."""
+        code = "\n".join([
+            "import quasilux as ql",
+            "try:",
+            f"    ql.render(ql.load({CORNELL!r}, parameters={{'resolution': 32}}), passes=100000, fixed=True, photons=4000)",
+            "except ql.DeviceError as error:",
+            "    print(error, '|', getattr(error, 'result', None))",
+        ])
+        for at, found in (("40", "<quasilux.Render 32 x 32, "), ("2", "None")):
+            # Both for all: Python loads modules, and what they need, each for itself.
+            environment = {**os.environ, "LD_PRELOAD": FAILING_OPENCL + " libOpenCL.so.1", "QUASILUX_FAIL_CALL": "clEnqueueNDRangeKernel",
+                           "QUASILUX_FAIL_KERNEL": "tracePhotons", "QUASILUX_FAIL_AT": at}
+            done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+            self.assertIn("tracePhotons", done.stdout, done.stderr)
+            self.assertIn(found, done.stdout.split("|")[1], done.stderr)
 
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:
