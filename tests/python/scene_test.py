@@ -69,6 +69,7 @@ class Errors(unittest.TestCase):
             (lit_floor(8, lamp={**lamp, "intensity": {"type": "rgb", "values": 1}}), "scene.lamp.intensity.values: "),
             (lit_floor(8, lamp={**lamp, "intensity": {"type": "rgb", "value": [-1, 2, 1]}}), "scene.lamp.intensity: "),
             (lit_floor(8, lamp={**lamp, "intensity": {"type": "spectrum", "value": [(400, 1), 3]}}), "scene.lamp.intensity.value: "),
+            (lit_floor(8, sky={"type": "constant"}, glow={"type": "constant"}), "scene.glow: a second emitter", "at scene.sky; keep one"),
             (lit_floor(8, size=3), "scene.size: "),
             (lit_floor(8, quasilux={"bdt": 1}), "scene.quasilux: ", "'bdt'", "bdd"),
             (lit_floor(8, quasilux={"illuminance_grid": {"origin": [0, 0, 0]}}), "scene.quasilux.illuminance_grid: "),

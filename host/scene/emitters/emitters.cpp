@@ -72,10 +72,9 @@ Surroundings& addSurroundings(Properties& properties) {
     auto& surroundings = properties.context().scene.surroundings;
     const Element& element = properties.element();
     if (surroundings)
-        throw InputError(
-            element.where,
-            fmt::format("a second emitter all around the scene, after the emitter '{}' of line {}; keep one.",
-                        surroundings->plugin, surroundings->where.line));
+        throw InputError(element.where,
+                         fmt::format("a second emitter all around the scene, after the emitter '{}' at {}; keep one.",
+                                     surroundings->plugin, surroundings->where.text()));
     surroundings.emplace();
     surroundings->id = idOf(element);
     surroundings->where = element.where;
