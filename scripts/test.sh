@@ -128,6 +128,7 @@ cmake --preset ci
 cmake --build --preset ci
 check "layout of the sources (clang-format)" formatIsRight
 check "static analysis (clang-tidy)" analysisIsClean
+check "types of the Python package (mypy)" /usr/bin/python3 -m mypy
 
 phase "kernels under Oclgrind"
 check "memory and data races of the kernels (Oclgrind)" bash scripts/oclgrind.sh build/ci/quasilux

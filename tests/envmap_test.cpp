@@ -413,7 +413,8 @@ TEST(EnvmapReader, SaysWhatIsWrong) {
         {envmap(skyFile + "<transform name=\"to_world\"><scale value=\"2\"/></transform>"),
          {"scene.xml:6:1", "may turn and mirror it, not scale"}},
         {"<emitter type=\"constant\"/>\n" + envmap(skyFile),
-         {"scene.xml:5:1", "a second emitter all around the scene, after the emitter 'constant' of line 4"}},
+         {"scene.xml:5:1", "a second emitter all around the scene, after the emitter 'constant' at ",
+          "scene.xml:4:1; keep"}},
         {"<shape type=\"cube\">\n" + envmap(skyFile) + "</shape>", {"scene.xml:5:1", "put it directly into <scene>"}}};
     test::expectErrors(files, cases);
 }

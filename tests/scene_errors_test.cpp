@@ -186,7 +186,7 @@ const BadBody badBodies[] = {
      {"scene.xml:5:1: to_world of the sensor scales"}},
     {"SecondSky",
      "<emitter type=\"constant\"/>\n<emitter type=\"constant\"/>",
-     {"scene.xml:5:1: a second emitter all around the scene, after the emitter 'constant' of line 4"}},
+     {"scene.xml:5:1: a second emitter all around the scene, after the emitter 'constant' at ", "scene.xml:4:1; keep"}},
     {"NegativeSky",
      "<emitter type=\"constant\">\n<rgb name=\"radiance\" value=\"1,-1,1\"/></emitter>",
      {"scene.xml:5:1"}},

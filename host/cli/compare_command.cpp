@@ -19,14 +19,10 @@ void warn(const CompareOptions& options, const std::string& message) {
     if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
 }
 
-std::vector<Region> chooseRegions(const CompareOptions& options, const RadianceImage& image) {
-    std::vector<Region> regions{wholePicture(image.width, image.height)};
-    if (options.mask.empty()) return regions;
+std::vector<Region> regionsOf(const CompareOptions& options, const RadianceImage& image) {
     std::vector<RegionGroup> groups;
     for (const auto& text : options.regions) groups.push_back(parseRegionGroup(text));
-    for (auto& region : readRegions(options.mask, image.width, image.height, groups))
-        regions.push_back(std::move(region));
-    return regions;
+    return chooseRegions(options.mask, groups, image.width, image.height);
 }
 
 /// "X" or "NAME=X".
@@ -168,7 +164,7 @@ int compareCommand(const CompareOptions& options) {
     else if (!reference.warning.empty())
         warn(options, reference.warning);
     if (!image.warning.empty()) warn(options, image.warning);
-    const std::vector<Region> regions = chooseRegions(options, image);
+    const std::vector<Region> regions = regionsOf(options, image);
 
     CompareSettings settings;
     for (const auto& text : options.referenceNoise) addReferenceNoise(text, regions, settings.referenceNoise);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 #include <sstream>
 
@@ -82,12 +83,23 @@ CLI::Validator numberBetween(double from, double to) {
 }
 
 CLI::Validator oneOf(std::vector<std::string> names) {
+    const std::string known = fmt::format("{}", fmt::join(names, "|")); // no other validator has a name
     return CLI::Validator(
         [names = std::move(names)](const std::string& text) {
             if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
             return fmt::format("unknown value '{}', {}", text, expectedNames(text, names));
         },
-        "");
+        "", known);
+}
+
+std::vector<std::string> choicesOf(CLI::Option& option) {
+    std::string names;
+    try {
+        for (int index = 0; names.empty(); ++index) names = option.get_validator(index)->get_name();
+    } catch (const CLI::OptionNotFound&) { // there is no further one
+        return {};
+    }
+    return CLI::detail::split(names, '|');
 }
 
 CLI::Validator definition() {

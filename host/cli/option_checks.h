@@ -17,6 +17,8 @@ CLI::Validator passRange(uint64_t to);
 CLI::Validator numberAbove(double above, double to);
 CLI::Validator numberBetween(double from, double to);
 CLI::Validator oneOf(std::vector<std::string> names);
+/// The names of that one; empty for an option without it.
+std::vector<std::string> choicesOf(CLI::Option& option);
 /// "name=value" with a name.
 CLI::Validator definition();
 /// Names and values of such.

@@ -401,6 +401,15 @@ void declareOptions(CLI::App& app, Options& options) {
     CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices");
     devices.add_flag("--json", options.devicesJson, "The list on stdout as a JSON array (default: off, a table)");
 
+    CLI::App& doctor = *app.add_subcommand("doctor", "Say what is wrong with devices and libraries, and what to do");
+    doctor.add_flag("--json", options.doctorJson, "What is found on stdout as a JSON array (default: off, lines)");
+
+    CLI::App& manual =
+        *app.add_subcommand("manual", "Write man pages and completions of bash, zsh and fish, made of these texts");
+    manual.add_option("FOLDER", options.manualFolder, "Where they go, as into /usr/share or ~/.local/share")
+        ->required()
+        ->type_name("FOLDER");
+
     CLI::App& info =
         *app.add_subcommand("info", "Print what a scene needs and what is chosen for it, after a trial pass");
     declareScene(info, options.info, "");

@@ -69,7 +69,8 @@ struct Options {
     MergeOptions merge;
     PhotometryOptions photometry;
     BenchOptions bench;
-    bool devicesJson = false;
+    bool devicesJson = false, doctorJson = false;
+    std::string manualFolder;
 };
 
 /// Declares the commands and all their options, filled into `options` (which must outlive `app`) by app.parse().

@@ -2,6 +2,7 @@
 #include "cli/render_command.h"
 
 #include "cli/interrupt.h"
+#include "cli/render_report.h"
 #include "cli/started_render.h"
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
@@ -10,12 +11,9 @@
 #include "output/meter_reading.h"
 #include "output/progress_line.h"
 #include "output/statistics.h"
-#include "scene/skies/daylight_factor.h"
 #include "util/error.h"
-#include "util/process_memory.h"
 #include "view/live_view.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -42,14 +40,9 @@ void checkOutputs(const RenderOptions& options) {
     checkCheckpointOptions(options);
 }
 
-// As many as passes, whose places in the pixel they take; more would hardly change what is met first.
-unsigned samplesOfAovs(unsigned passes) { return std::min(passes, 256u); }
-
-// Photons of caustics that a pixel of a meter needs for its standard error to mean anything.
-constexpr uint64_t causticsPerPixel = 30;
-
-void warn(const RenderOptions& options, const std::string& message) {
-    if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
+void warn(const RenderOptions& options, const std::vector<std::string>& messages) {
+    if (options.quiet) return;
+    for (const auto& message : messages) fmt::print(stderr, "quasilux: warning: {}\n", message);
 }
 
 WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
@@ -131,88 +124,6 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
                    written.curve->white);
 }
 
-void warnOfCounters(const RenderOptions& options, const RenderCounters& counters, uint64_t pixels) {
-    if (counters.nonFinite > 0)
-        warn(options, fmt::format("{} samples were not finite and were dropped, the image lacks their light",
-                                  counters.nonFinite));
-    if (counters.overflows > 0)
-        warn(options, fmt::format("{} sums of splats left their range: the image is wrong there, use --map photons",
-                                  counters.overflows));
-    if (counters.clipped > 0)
-        warn(options,
-             fmt::format("{} photons carried more flux than can be stored and were cut to that: the image lacks "
-                         "the rest",
-                         counters.clipped));
-    if (counters.meterCaustics && *counters.meterCaustics < causticsPerPixel * pixels)
-        warn(options,
-             fmt::format("{} photons of caustics have hit the meter's {} pixels: too few to estimate that light or "
-                         "its error; use a larger meter or cells, more --photons or passes, or, for "
-                         "quasi-caustics, --variant alternative",
-                         *counters.meterCaustics, pixels));
-    if (counters.cutPaths > 0)
-        warn(options,
-             fmt::format(
-                 "{} paths were cut by the limit on events, with {:.3g} % of the flux and {:.3g} % of the camera "
-                 "paths' throughput",
-                 counters.cutPaths, counters.fluxEmitted > 0 ? 100 * counters.fluxCut / counters.fluxEmitted : 0.0,
-                 counters.cameraPaths > 0 ? 100 * counters.throughputCut / static_cast<double>(counters.cameraPaths)
-                                          : 0.0));
-}
-
-// Light that so few photons have brought is not known, nor its noise; less than this share of the image hardly matters.
-constexpr double fewestEffectivePhotons = 100, lightThatMatters = 0.01;
-
-void warnOfRarePhotons(const RenderOptions& options, const RenderRecord& record) {
-    const auto& learned = record.report.learned;
-    if (!learned.effectivePhotons || learned.lightOfPhotons < lightThatMatters) return;
-    const double effective = *learned.effectivePhotons * static_cast<double>(record.counters.passes);
-    if (effective >= fewestEffectivePhotons) return;
-    warn(options, fmt::format("{:.2g} % of the image's light comes from photons, but effectively only {:.2g} photons "
-                              "contribute: too few to estimate "
-                              "that light or its error; render longer, use more --photons, or follow such paths from "
-                              "the camera (--bdd 1, "
-                              "or --quasi-specular all --variant alternative)",
-                              100 * learned.lightOfPhotons, effective));
-}
-
-RenderRecord makeRecord(const RenderOptions& options, const StopRule& stop, Device& device, const AutoRender& render,
-                        const Sensor& sensor) {
-    RenderRecord record;
-    record.scene = std::filesystem::path(options.scene).filename().string();
-    record.settings = render.settings;
-    record.stop = stop;
-    record.device = device.info();
-    record.workGroupSize = device.workGroupSize();
-    record.report = render.report;
-    record.counters = render.counters;
-    record.gathered = render.gathered;
-    record.search = render.search;
-    record.error = estimateError(render.image);
-    record.meter = sensor.meter;
-    record.pixelFormat = sensor.pixelFormat;
-    record.peakBufferBytes = render.peakBufferBytes;
-    record.peakHostBytes = peakResidentBytes();
-    record.interrupted = interruptFlag();
-    if (render.failure) record.failure = failureOf([&] { std::rethrow_exception(render.failure); }).value_or("");
-    const auto lost = failureOf([&] { record.kernels = device.timings(); });
-    if (lost && record.failure.empty()) record.failure = *lost;
-    return record;
-}
-
-/// Illuminance of free ground, lx, where daylight factors are asked for: then the scene's other lights are left out.
-std::optional<double> skyOfDaylightFactor(const RenderOptions& options, Scene& scene) {
-    if (!options.daylightFactor) return std::nullopt;
-    if (!isIrradiance(scene.sensor.meter))
-        throw InputError(scene.sensor.where,
-                         "--daylight-factor is of points or surfaces: give --grid FILE, or a sensor "
-                         "'irradiancemeter'.");
-    const SkyAlone sky = keepSkyAlone(scene);
-    if (sky.leftOut > 0)
-        warn(options, fmt::format("--daylight-factor: {} emitters besides the sky are left out", sky.leftOut));
-    const glm::dvec3& irradiance = sky.groundIrradiance;
-    return photometric({irradiance.x, irradiance.y, irradiance.z}, options.settings(scene).photometric);
-}
-
 int renderSensor(const RenderOptions& options) {
     exitOnInterrupt();
     checkOutputs(options);
@@ -223,8 +134,10 @@ int renderSensor(const RenderOptions& options) {
     if (!options.grid.empty()) measureGrid(scene);
     const double loadSeconds = secondsSince(start);
     progress.clear();
-    for (const auto& warning : scene.warnings) warn(options, warning);
-    const auto daylight = skyOfDaylightFactor(options, scene);
+    warn(options, scene.warnings);
+    std::vector<std::string> ofSky;
+    const auto daylight = skyOfDaylightFactor(options, scene, ofSky);
+    warn(options, ofSky);
 
     Device device(options.device, options.workGroupSize, options.deviceMemory);
     exitOnInterrupt();
@@ -243,7 +156,7 @@ int renderSensor(const RenderOptions& options) {
     };
     StartedRender started(options, device, scene);
     progress.clear();
-    for (const auto& warning : started.warnings()) warn(options, warning);
+    warn(options, started.warnings());
     catchInterrupt();
     if (options.isViewed) {
         view.emplace(options.view, interruptFlag());
@@ -262,15 +175,13 @@ int renderSensor(const RenderOptions& options) {
     }
 
     progress.update({.phase = "writing"});
-    RenderRecord record = makeRecord(options, started.stop(), device, render, scene.sensor);
+    RenderRecord record = makeRecord(scene, started.stop(), device, render, interruptFlag());
     record.loadSeconds = loadSeconds;
     record.unobstructedIlluminance = daylight;
     record.interrupted |= view && view->isStopped();
-    const WrittenFiles written = writeFiles(
-        options, scene, image, renderAovs(device, scene, render.settings, samplesOfAovs(image.passes)), record);
+    const WrittenFiles written = writeFiles(options, scene, image, renderLayers(device, scene, render), record);
     progress.clear();
-    warnOfCounters(options, record.counters, uint64_t(image.width) * image.height);
-    warnOfRarePhotons(options, record);
+    warn(options, warningsOf(record, image));
     if (options.json)
         printJsonSummary(record, image, written);
     else if (!options.quiet)

@@ -86,14 +86,18 @@ RadianceImage readRadiance(const std::string& path) {
     const std::vector<int> errors{pixels.channel("stderr.R"), pixels.channel("stderr.G"), pixels.channel("stderr.B")};
     if (std::find(errors.begin(), errors.end(), -1) == errors.end()) {
         image.standardError = pixels.select(errors);
-        if (const size_t unusable = countUnusable(image.standardError)) {
-            image.warning = fmt::format("{}: {} values of the stderr layers are negative or not finite, the noise of "
-                                        "this image counts as unknown",
-                                        path, unusable);
-            image.standardError.clear();
-        }
+        dropUnusableErrors(image);
     }
     return image;
+}
+
+void dropUnusableErrors(RadianceImage& image) {
+    const size_t unusable = countUnusable(image.standardError);
+    if (unusable == 0) return;
+    image.warning = fmt::format("{}: {} values of the stderr layers are negative or not finite, the noise of "
+                                "this image counts as unknown",
+                                image.path, unusable);
+    image.standardError.clear();
 }
 
 std::vector<float> readStandardError(const std::string& path, const RadianceImage& image, const std::string& option) {

@@ -22,6 +22,9 @@ struct RadianceImage {
 /// missing channels (the message lists what there is), whole-number pixels, which hold no linear radiance.
 RadianceImage readRadiance(const std::string& path);
 
+/// Standard errors that are not all finite and at least 0, as after a single pass, become unknown, with a warning.
+void dropUnusableErrors(RadianceImage& image);
+
 /// A file of standard errors: channels as of readRadiance(). Throws InputError, also for values that are not finite or
 /// are negative and for another size than `image`'s. `option` is named in messages.
 std::vector<float> readStandardError(const std::string& path, const RadianceImage& image, const std::string& option);

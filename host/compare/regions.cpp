@@ -141,4 +141,12 @@ std::vector<Region> readRegions(const std::string& path, unsigned width, unsigne
     return result;
 }
 
+std::vector<Region> chooseRegions(const std::string& mask, const std::vector<RegionGroup>& groups, unsigned width,
+                                  unsigned height) {
+    std::vector<Region> regions{wholePicture(width, height)};
+    if (mask.empty()) return regions;
+    for (auto& region : readRegions(mask, width, height, groups)) regions.push_back(std::move(region));
+    return regions;
+}
+
 } // namespace quasilux

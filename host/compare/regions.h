@@ -31,4 +31,8 @@ Region wholePicture(unsigned width, unsigned height);
 std::vector<Region> readRegions(const std::string& path, unsigned width, unsigned height,
                                 const std::vector<RegionGroup>& groups);
 
+/// The whole picture, then regions of the mask; `mask` empty: none.
+std::vector<Region> chooseRegions(const std::string& mask, const std::vector<RegionGroup>& groups, unsigned width,
+                                  unsigned height);
+
 } // namespace quasilux

@@ -112,6 +112,8 @@ constexpr IntegratorPlugin integratorPlugins[] = {
 
 } // namespace
 
+Names integratorPluginNames() { return namesOf(integratorPlugins); }
+
 IntegratorChoice readIntegrator(const Element& element, LoadContext& context) {
     const IntegratorPlugin& plugin = findPlugin(integratorPlugins, element);
     Properties properties(element, context);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/load_context.h"
+#include "scene/xml/names.h"
 
 namespace quasilux {
 
@@ -12,5 +13,7 @@ struct IntegratorChoice {
 
 /// Throws InputError for unknown plugins and parameters, and for plugins that mean another image.
 IntegratorChoice readIntegrator(const Element& element, LoadContext& context);
+
+Names integratorPluginNames();
 
 } // namespace quasilux

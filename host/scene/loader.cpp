@@ -1,4 +1,6 @@
 // loadScene: from the tree of elements to a Scene.
+#include "scene/loader.h"
+
 #include "scene/bsdfs/bsdf_plugin.h"
 #include "scene/emitters/emitters.h"
 #include "scene/illuminance_grid.h"
@@ -15,7 +17,6 @@
 #include "scene/volumes/volume_plugin.h"
 #include "scene/xml/numbers.h"
 #include "scene/xml/upgrade.h"
-#include "scene/xml/xml_document.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -264,7 +265,10 @@ Scene readSceneAnywhere(const SceneDocument& document, const std::string& path, 
 
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters,
                 const LoadChoice& choice) {
-    const SceneDocument document = readSceneDocument(path, parameters, choice.unknown);
+    return loadScene(readSceneDocument(path, parameters, choice.unknown), path, choice);
+}
+
+Scene loadScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice) {
     Scene scene = readSceneAnywhere(document, path, choice);
     const glm::dvec3 origin = chooseOrigin(scene);
     return origin == scene.origin ? scene : readScene(document, path, choice, origin);

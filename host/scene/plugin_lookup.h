@@ -21,16 +21,21 @@ namespace quasilux {
                          : fmt::format("{} '{}' is not supported: {}.", element.tag, plugin, instead));
 }
 
+/// All of the table, and `others`, which are known besides.
+template <typename Plugin, size_t count>
+Names namesOf(const Plugin (&plugins)[count], const Names& others = {}) {
+    Names names = others;
+    for (const Plugin& plugin : plugins) names.push_back(plugin.name);
+    return names;
+}
+
 /// The row of `plugins` whose `name` is the element's type. Throws InputError with the nearest name if there is none, of
 /// `others` too, which are known besides.
 template <typename Plugin, size_t count>
 const Plugin& findPlugin(const Plugin (&plugins)[count], const Element& element, const Names& others = {}) {
-    Names known = others;
-    for (const Plugin& plugin : plugins) {
+    for (const Plugin& plugin : plugins)
         if (plugin.name == element.get("type")) return plugin;
-        known.push_back(plugin.name);
-    }
-    throwUnknownPlugin(element, known);
+    throwUnknownPlugin(element, namesOf(plugins, others));
 }
 
 /// The same, or nullptr where the unknown is forgiven; `instead` is what the caller does then.

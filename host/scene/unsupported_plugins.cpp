@@ -49,4 +49,10 @@ std::string_view insteadOfUnsupported(std::string_view tag, std::string_view plu
     return {};
 }
 
+std::string_view tagOfUnsupported(std::string_view plugin) {
+    for (const Unsupported& entry : unsupported)
+        if (entry.plugin == plugin) return entry.tag;
+    return {};
+}
+
 } // namespace quasilux

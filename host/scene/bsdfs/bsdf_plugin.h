@@ -22,6 +22,9 @@ int useBsdf(const Element& element, LoadContext& context);
 /// where it is needed first.
 int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
 
+/// Every bsdf plugin; those of the other kinds have such a function too, for plugin_kinds.h.
+Names bsdfPluginNames();
+
 /// Every bsdf plugin: X(name in the scene, function that reads it).
 #define QUASILUX_BSDF_PLUGINS(X)                                                                                       \
     X(diffuse, readDiffuse)                                                                                            \

@@ -51,6 +51,8 @@ BsdfLobes greyLobes(float reflectance) {
 
 } // namespace
 
+Names bsdfPluginNames() { return namesOf(bsdfPlugins); }
+
 BsdfLobes readBsdfLobes(const Element& element, LoadContext& context) {
     std::vector<const Element*>& open = context.openBsdfs;
     if (std::find(open.begin(), open.end(), &element) != open.end())

@@ -38,23 +38,20 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
 
 [[noreturn]] void throwNotHere(const Element& element) {
     const std::string& plugin = element.get("type");
-    Names known;
-    for (const ShapeEmitterPlugin& entry : shapeEmitters) {
+    for (const ShapeEmitterPlugin& entry : shapeEmitters)
         if (entry.name == plugin)
             throw InputError(element.where,
                              fmt::format("emitter '{}' stands alone; put it into the <shape> that emits.", plugin));
-        known.push_back(entry.name);
-    }
-    for (const SceneEmitterPlugin& entry : sceneEmitters) {
+    for (const SceneEmitterPlugin& entry : sceneEmitters)
         if (entry.name == plugin)
             throw InputError(element.where,
                              fmt::format("emitter '{}' is nested in a shape; put it directly into <scene>.", plugin));
-        known.push_back(entry.name);
-    }
-    throwUnknownPlugin(element, known);
+    throwUnknownPlugin(element, emitterPluginNames());
 }
 
 } // namespace
+
+Names emitterPluginNames() { return namesOf(sceneEmitters, namesOf(shapeEmitters)); }
 
 bool isShapeEmitter(const Element& element) {
     return std::any_of(std::begin(shapeEmitters), std::end(shapeEmitters),
@@ -75,10 +72,9 @@ Surroundings& addSurroundings(Properties& properties) {
     auto& surroundings = properties.context().scene.surroundings;
     const Element& element = properties.element();
     if (surroundings)
-        throw InputError(
-            element.where,
-            fmt::format("a second emitter all around the scene, after the emitter '{}' of line {}; keep one.",
-                        surroundings->plugin, surroundings->where.line));
+        throw InputError(element.where,
+                         fmt::format("a second emitter all around the scene, after the emitter '{}' at {}; keep one.",
+                                     surroundings->plugin, surroundings->where.text()));
     surroundings.emplace();
     surroundings->id = idOf(element);
     surroundings->where = element.where;

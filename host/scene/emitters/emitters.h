@@ -31,6 +31,8 @@ bool isPhotometric(const Properties& properties);
 /// Radiant units by photometric ones: 1 / (683 lm/W), or 1 where the scene's units are photometric.
 double radiantFactor(const Properties& properties);
 
+Names emitterPluginNames();
+
 AreaEmitter readArea(Properties& properties);
 AreaEmitter readDirectionalArea(Properties& properties);
 void readConstant(Properties& properties);

@@ -11,6 +11,8 @@ MediumDescription readMedium(const Element& element, LoadContext& context);
 /// Index into Scene::media of the medium that `element` describes; read once however often it is used.
 unsigned useMedium(const Element& element, LoadContext& context);
 
+Names mediumPluginNames();
+
 void readHomogeneous(Properties& properties, MediumDescription& medium);
 void readHeterogeneous(Properties& properties, MediumDescription& medium);
 

@@ -20,6 +20,8 @@ constexpr MediumPlugin mediumPlugins[] = {{"homogeneous", readHomogeneous}, {"he
 
 } // namespace
 
+Names mediumPluginNames() { return namesOf(mediumPlugins); }
+
 MediumDescription readMedium(const Element& element, LoadContext& context) {
     MediumDescription medium;
     medium.id = idOf(element);

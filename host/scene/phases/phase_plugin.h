@@ -9,6 +9,8 @@ namespace quasilux {
 /// parameters.
 void readPhase(const Element& element, LoadContext& context, MediumDescription& medium);
 
+Names phasePluginNames();
+
 void readIsotropic(Properties& properties, MediumDescription& medium);
 void readHenyeyGreenstein(Properties& properties, MediumDescription& medium);
 void readRayleigh(Properties& properties, MediumDescription& medium);

@@ -22,6 +22,8 @@ constexpr PhasePlugin phasePlugins[] = {{"isotropic", readIsotropic},
 
 } // namespace
 
+Names phasePluginNames() { return namesOf(phasePlugins); }
+
 void readPhase(const Element& element, LoadContext& context, MediumDescription& medium) {
     context.usedPhases.insert(&element);
     const PhasePlugin* plugin = findPlugin(phasePlugins, element, context, "isotropic");

@@ -70,6 +70,8 @@ void readFileFormats(Properties& properties, LoadContext& context) {
 
 } // namespace
 
+Names filmPluginNames() { return {"hdrfilm", "specfilm"}; }
+
 void readFilm(const Element& element, LoadContext& context, Sensor& sensor) {
     if (element.get("type") == "specfilm")
         throw InputError(element.where, "film 'specfilm' records spectral bands, and light is linear RGB here; use "

@@ -85,6 +85,8 @@ constexpr FilterPlugin filterPlugins[] = {
 
 } // namespace
 
+Names filterPluginNames() { return namesOf(filterPlugins); }
+
 void readFilter(const Element* element, LoadContext& context, Sensor& sensor) {
     if (!element) return useGaussian(sensor, 0.5);
     const FilterPlugin& plugin = findPlugin(filterPlugins, *element);

@@ -32,7 +32,16 @@ void checkPlace(const SensorPlugin& plugin, const Element& element, bool inShape
                          fmt::format("sensor '{}' may not stand in a <shape>; put it into the <scene>.", plugin.name));
 }
 
+/// Any of Mitsuba's: quasilux draws its own numbers.
+const Names samplers = {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"};
+
+const Names batch = {"batch"}; // placeSensors takes it apart
+
 } // namespace
+
+Names sensorPluginNames() { return namesOf(sensorPlugins, batch); }
+
+Names samplerPluginNames() { return samplers; }
 
 void refuseResponse(Properties& properties) {
     if (properties.find("srf") || properties.texture("srf"))
@@ -42,7 +51,7 @@ void refuseResponse(Properties& properties) {
 
 Sensor readSensor(const PlacedSensor& placed, LoadContext& context) {
     const Element& element = *placed.element;
-    const SensorPlugin& plugin = findPlugin(sensorPlugins, element, {"batch"});
+    const SensorPlugin& plugin = findPlugin(sensorPlugins, element, batch);
     checkPlace(plugin, element, placed.shape.has_value());
     Properties properties(element, context);
     Sensor sensor;
@@ -70,10 +79,9 @@ Sensor readSensor(const PlacedSensor& placed, LoadContext& context) {
 
 void readSampler(const Element& element, LoadContext& context) {
     Properties properties(element, context);
-    const Names known = {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"};
-    if (std::find(known.begin(), known.end(), properties.plugin()) == known.end())
+    if (std::find(samplers.begin(), samplers.end(), properties.plugin()) == samplers.end())
         throw InputError(element.where, fmt::format("unknown sampler plugin '{}'.{}", properties.plugin(),
-                                                    knownNames(properties.plugin(), known)));
+                                                    knownNames(properties.plugin(), samplers)));
     properties.acceptAll();
 }
 

@@ -31,6 +31,11 @@ void refuseResponse(Properties& properties);
 /// Size, filter and format of one sensor's part of the film. Throws InputError where it cannot be divided.
 void takeShareOfFilm(const SharedFilm& shared, LoadContext& context, Sensor& sensor);
 
+Names sensorPluginNames();
+Names filmPluginNames();
+Names filterPluginNames();
+Names samplerPluginNames();
+
 /// What each plugin has of its own; size of the film and clipping planes are known already.
 void readPerspective(Properties& properties, Sensor& sensor);
 void readThinLens(Properties& properties, Sensor& sensor);

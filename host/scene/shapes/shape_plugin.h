@@ -41,6 +41,8 @@ struct MeshSource;
 Mesh placeMeshFile(const MeshFile& file, const std::function<MeshSource()>& read, Properties& properties,
                    const ShapeDescription& shape);
 
+Names shapePluginNames();
+
 void readRectangle(Properties& properties, ShapeDescription& shape);
 void readCube(Properties& properties, ShapeDescription& shape);
 void readDisk(Properties& properties, ShapeDescription& shape);

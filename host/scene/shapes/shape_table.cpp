@@ -57,6 +57,8 @@ void checkFlat(const ShapeDescription& shape) {
 
 } // namespace
 
+Names shapePluginNames() { return namesOf(shapePlugins, compoundShapes()); }
+
 bool leavesOutShape(const Element& element, LoadContext& context) {
     return !findPlugin(shapePlugins, element, context, "left out", compoundShapes());
 }

@@ -12,6 +12,9 @@ TextureDescription readTexture(const Element& element, LoadContext& context, Tex
 /// Whether the plugin is unknown, and forgiven: a grey of 0.5 then.
 bool replacesTexture(const Element& element, LoadContext& context);
 
+/// Spectra among them.
+Names texturePluginNames();
+
 void readCheckerboard(Properties& properties, TextureDescription& texture);
 void readBitmap(Properties& properties, TextureDescription& texture);
 void readMeshAttribute(Properties& properties, TextureDescription& texture);

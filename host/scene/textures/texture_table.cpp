@@ -93,6 +93,8 @@ unsigned scalarTexture(unsigned index, LoadContext& context) {
 
 } // namespace
 
+Names texturePluginNames() { return namesOf(texturePlugins, constantTextureNames()); }
+
 bool replacesTexture(const Element& element, LoadContext& context) {
     return !findPlugin(texturePlugins, element, context, "0.5 everywhere", constantTextureNames());
 }

@@ -12,6 +12,8 @@ VolumeDescription readVolume(const Element& element, LoadContext& context);
 /// Index into Scene::volumes; read once however often it is used.
 unsigned useVolume(const Element& element, LoadContext& context);
 
+Names volumePluginNames();
+
 void readGridVolume(Properties& properties, VolumeDescription& volume);
 void readConstVolume(Properties& properties, VolumeDescription& volume);
 

@@ -18,6 +18,8 @@ constexpr VolumePlugin volumePlugins[] = {{"gridvolume", readGridVolume}, {"cons
 
 } // namespace
 
+Names volumePluginNames() { return namesOf(volumePlugins); }
+
 VolumeDescription readVolume(const Element& element, LoadContext& context) {
     const VolumePlugin& plugin = findPlugin(volumePlugins, element);
     Properties properties(element, context);

@@ -105,10 +105,31 @@ bool isKnownTag(std::string_view name) {
     return name == "lookAt" || std::any_of(tags.begin(), tags.end(), [&](const Tag& tag) { return tag.name == name; });
 }
 
+void throwNesting(const Element& element) {
+    throw InputError(element.where, fmt::format("elements nested deeper than {}.", maximumNesting));
+}
+
 void checkElement(const Element& element, const Element* parent) {
     const Tag& tag = tagOf(element);
     checkAttributes(element, tag);
     if (parent) checkPlace(element, tag, *parent);
+}
+
+namespace {
+
+void checkChildren(const Element& parent, int depth) {
+    for (const Element& child : parent.children) {
+        if (depth > maximumNesting) throwNesting(child);
+        checkElement(child, &parent);
+        checkChildren(child, depth + 1);
+    }
+}
+
+} // namespace
+
+void checkTree(const Element& root) {
+    checkElement(root, nullptr);
+    checkChildren(root, 1);
 }
 
 } // namespace quasilux

@@ -16,7 +16,6 @@ namespace quasilux {
 
 namespace {
 
-constexpr int maximumNesting = 64;       // elements within elements; the reader recurses
 constexpr size_t maximumValue = 1 << 16; // parameters made of parameters can double at each step
 
 /// Lines and columns of one file.
@@ -110,8 +109,7 @@ private:
         Element element;
         element.tag = node.name();
         element.where = positions.at(node.offset_debug() - 1);
-        if (depth > maximumNesting)
-            throw InputError(element.where, fmt::format("elements nested deeper than {}.", maximumNesting));
+        if (depth > maximumNesting) throwNesting(element);
         for (pugi::xml_attribute attribute : node.attributes())
             element.attributes.push_back({attribute.name(), substitute(attribute.value(), element.where)});
         if (!parent && element.find("version")) version_ = majorVersion(element.get("version"));

@@ -1,0 +1,29 @@
+// What is said of a render when it is over: its record, its further layers, and what its user is warned of.
+#pragma once
+
+#include "cli/options.h"
+#include "output/render_record.h"
+#include "render/aovs.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+/// Times of loading and writing are not among it yet.
+RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device, const AutoRender& render,
+                        bool interrupted);
+
+/// renderAovs() with places in the pixel of as many camera paths as the image has passes; more than some hundreds would hardly change it.
+std::vector<AovImage> renderLayers(Device& device, const Scene& scene, const AutoRender& render);
+
+/// Of samples that were dropped or cut, and of light that too few photons have brought; a line each.
+std::vector<std::string> warningsOf(const RenderRecord& record, const FilmImage& image);
+
+/// Illuminance of free ground, lx, where daylight factors are asked for: then the scene's other lights are left out, which is added to
+/// `warnings`.
+std::optional<double> skyOfDaylightFactor(const RenderOptions& options, Scene& scene,
+                                          std::vector<std::string>& warnings);
+
+} // namespace quasilux

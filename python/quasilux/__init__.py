@@ -1,0 +1,38 @@
+"""quasilux: images and illuminance by bidirectional Monte Carlo ray tracing, from Python.
+
+>>> import quasilux as ql
+>>> scene = ql.load("scenes/cornell_phong.xml")
+>>> picture = ql.render(scene, time=10)
+>>> picture.image.shape
+(256, 256, 3)
+
+Guide: docs/guide/python.md. What options mean: docs/reference/command-line.md, by the same names with hyphens."""
+
+from ._core import DeviceError, InputError, Progress, Scene, __version__
+from ._compare import compare
+from ._load import SceneError, SceneWarning, load
+from ._render import Interrupted, Reading, Render, RenderWarning, devices, meter, render
+from ._transforms import look_at, rotate, scale, translate
+
+__all__ = [
+    "DeviceError",
+    "InputError",
+    "Interrupted",
+    "Progress",
+    "Reading",
+    "Render",
+    "RenderWarning",
+    "Scene",
+    "SceneError",
+    "SceneWarning",
+    "__version__",
+    "compare",
+    "devices",
+    "load",
+    "look_at",
+    "meter",
+    "render",
+    "rotate",
+    "scale",
+    "translate",
+]
