@@ -384,6 +384,7 @@ void declareOptions(CLI::App& app, Options& options) {
     declareMerge(app, options.merge);
     declareCompare(app, options.compare);
     declarePhotometry(app, options.photometry);
+    declareFalseColour(app, options.falseColour);
     declareBench(app, options.bench);
 
     CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices");

@@ -4,6 +4,7 @@
 #include "auto/freedom.h"
 #include "cli/bench_options.h"
 #include "cli/compare_options.h"
+#include "cli/false_colour_options.h"
 #include "cli/merge_options.h"
 #include "cli/photometry_options.h"
 #include "output/png.h"
@@ -68,6 +69,7 @@ struct Options {
     CompareOptions compare;
     MergeOptions merge;
     PhotometryOptions photometry;
+    FalseColourOptions falseColour;
     BenchOptions bench;
     bool devicesJson = false;
 };
