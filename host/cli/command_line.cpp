@@ -10,6 +10,7 @@
 #include "cli/options.h"
 #include "cli/photometry_command.h"
 #include "cli/render_command.h"
+#include "cli/report_command.h"
 #include "cli/view_command.h"
 #include "util/error.h"
 #include "util/nearest.h"
@@ -54,12 +55,10 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     // A misspelt command counts as an unknown argument, although CLI11 says only that a command is missing.
     const bool unknown =
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
-    fail(
-        exitBadInput,
-        unknown ? unknownArgument(app)
-        : noCommand
-            ? "no command given, expected render, view, merge, compare, photometry, falsecolour, bench, devices or info"
-            : error.what());
+    fail(exitBadInput, unknown     ? unknownArgument(app)
+                       : noCommand ? "no command given, expected render, view, merge, compare, photometry, "
+                                     "falsecolour, report, bench, devices or info"
+                                   : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
 }
@@ -71,6 +70,7 @@ int runCommand(CLI::App& app, const Options& options) {
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
     if (app.got_subcommand("compare")) return compareCommand(options.compare);
     if (app.got_subcommand("photometry")) return photometryCommand(options.photometry);
+    if (app.got_subcommand("report")) return reportCommand(options.report);
     if (app.got_subcommand("falsecolour")) return falseColourCommand(options.falseColour);
     if (app.got_subcommand("info"))
         infoCommand(options.info);

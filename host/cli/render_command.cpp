@@ -2,6 +2,7 @@
 #include "cli/render_command.h"
 
 #include "cli/interrupt.h"
+#include "cli/render_warnings.h"
 #include "cli/started_render.h"
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
@@ -44,9 +45,6 @@ void checkOutputs(const RenderOptions& options) {
 
 // As many as passes, whose places in the pixel they take; more would hardly change what is met first.
 unsigned samplesOfAovs(unsigned passes) { return std::min(passes, 256u); }
-
-// Photons of caustics that a pixel of a meter needs for its standard error to mean anything.
-constexpr uint64_t causticsPerPixel = 30;
 
 void warn(const RenderOptions& options, const std::string& message) {
     if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
@@ -129,50 +127,6 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
     if (written.curve)
         fmt::print("exposure scale {:.6g} per W sr^-1 m^-2, white at {:.6g}\n", written.curve->scale,
                    written.curve->white);
-}
-
-void warnOfCounters(const RenderOptions& options, const RenderCounters& counters, uint64_t pixels) {
-    if (counters.nonFinite > 0)
-        warn(options, fmt::format("{} samples were not finite and were dropped, the image lacks their light",
-                                  counters.nonFinite));
-    if (counters.overflows > 0)
-        warn(options, fmt::format("{} sums of splats left their range: the image is wrong there, use --map photons",
-                                  counters.overflows));
-    if (counters.clipped > 0)
-        warn(options,
-             fmt::format("{} photons carried more flux than can be stored and were cut to that: the image lacks "
-                         "the rest",
-                         counters.clipped));
-    if (counters.meterCaustics && *counters.meterCaustics < causticsPerPixel * pixels)
-        warn(options,
-             fmt::format("{} photons of caustics have hit the meter's {} pixels: too few to estimate that light or "
-                         "its error; use a larger meter or cells, more --photons or passes, or, for "
-                         "quasi-caustics, --variant alternative",
-                         *counters.meterCaustics, pixels));
-    if (counters.cutPaths > 0)
-        warn(options,
-             fmt::format(
-                 "{} paths were cut by the limit on events, with {:.3g} % of the flux and {:.3g} % of the camera "
-                 "paths' throughput",
-                 counters.cutPaths, counters.fluxEmitted > 0 ? 100 * counters.fluxCut / counters.fluxEmitted : 0.0,
-                 counters.cameraPaths > 0 ? 100 * counters.throughputCut / static_cast<double>(counters.cameraPaths)
-                                          : 0.0));
-}
-
-// Light that so few photons have brought is not known, nor its noise; less than this share of the image hardly matters.
-constexpr double fewestEffectivePhotons = 100, lightThatMatters = 0.01;
-
-void warnOfRarePhotons(const RenderOptions& options, const RenderRecord& record) {
-    const auto& learned = record.report.learned;
-    if (!learned.effectivePhotons || learned.lightOfPhotons < lightThatMatters) return;
-    const double effective = *learned.effectivePhotons * static_cast<double>(record.counters.passes);
-    if (effective >= fewestEffectivePhotons) return;
-    warn(options, fmt::format("{:.2g} % of the image's light comes from photons, but effectively only {:.2g} photons "
-                              "contribute: too few to estimate "
-                              "that light or its error; render longer, use more --photons, or follow such paths from "
-                              "the camera (--bdd 1, "
-                              "or --quasi-specular all --variant alternative)",
-                              100 * learned.lightOfPhotons, effective));
 }
 
 RenderRecord makeRecord(const RenderOptions& options, const StopRule& stop, Device& device, const AutoRender& render,
@@ -269,8 +223,8 @@ int renderSensor(const RenderOptions& options) {
     const WrittenFiles written = writeFiles(
         options, scene, image, renderAovs(device, scene, render.settings, samplesOfAovs(image.passes)), record);
     progress.clear();
-    warnOfCounters(options, record.counters, uint64_t(image.width) * image.height);
-    warnOfRarePhotons(options, record);
+    for (const auto& warning : renderWarnings(record.counters, record.report, uint64_t(image.width) * image.height))
+        warn(options, warning);
     if (options.json)
         printJsonSummary(record, image, written);
     else if (!options.quiet)

@@ -82,33 +82,55 @@ std::string numberText(double value) {
     return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
-/// Where there is room, before the lines and their own numbers.
-void addNumbers(Drawing& drawing, const GridValues& grid, const Frame& frame) {
-    const bool hasRoom = frame.width / grid.nx >= roomOfNumber && frame.height / grid.ny >= roomOfNumber / 2;
-    for (unsigned j = 0; hasRoom && j < grid.ny; ++j)
-        for (unsigned i = 0; i < grid.nx; ++i) {
-            const Place place = frame.place((i + 0.5) * grid.spacingU(), (j + 0.5) * grid.spacingV());
-            drawing.add(DrawnText{.place = {place.x, place.y + 3},
-                                  .text = numberText(grid.values[size_t{j} * grid.nx + i]),
-                                  .anchor = TextAnchor::middle,
-                                  .size = 10,
-                                  .haloed = true});
-        }
+/// Where the numbers of the points stand; none where there is no room for them.
+std::vector<Place> placesOfNumbers(const GridValues& grid, const Frame& frame) {
+    std::vector<Place> places;
+    if (frame.width / grid.nx < roomOfNumber || frame.height / grid.ny < roomOfNumber / 2) return places;
+    for (unsigned j = 0; j < grid.ny; ++j)
+        for (unsigned i = 0; i < grid.nx; ++i)
+            places.push_back(frame.place((i + 0.5) * grid.spacingU(), (j + 0.5) * grid.spacingV()));
+    return places;
 }
 
-void addLine(Drawing& drawing, std::vector<Place> line, const Frame& frame, double level) {
+void addNumbers(Drawing& drawing, const GridValues& grid, const std::vector<Place>& places) {
+    for (size_t k = 0; k < places.size(); ++k)
+        drawing.add(DrawnText{.place = {places[k].x, places[k].y + 3},
+                              .text = numberText(grid.values[k]),
+                              .anchor = TextAnchor::middle,
+                              .size = 10,
+                              .haloed = true});
+}
+
+/// On the line, as far from numbers as it goes, and from the border.
+Place labelPlace(const std::vector<Place>& line, const std::vector<Place>& taken, const Frame& frame) {
+    Place best = middleOf(line);
+    double room = -1;
+    for (const Place& place : line) {
+        double here = std::min({place.x - frame.corner.x, frame.corner.x + frame.width - place.x,
+                                2 * (place.y - frame.corner.y), 2 * (frame.corner.y + frame.height - place.y)});
+        // Numbers are twice as wide as high.
+        for (const Place& other : taken) here = std::min(here, std::hypot(place.x - other.x, 2 * (place.y - other.y)));
+        if (here <= room) continue;
+        room = here;
+        best = place;
+    }
+    return best;
+}
+
+void addLine(Drawing& drawing, std::vector<Place> line, const Frame& frame, double level, std::vector<Place>& taken) {
     for (Place& place : line) place = frame.place(place.x, place.y);
     const double length = lengthOf(line);
-    const Place label = middleOf(line);
+    const Place label = labelPlace(line, taken, frame);
     drawing.add(DrawnLine{line, white, 2.5});
     drawing.add(DrawnLine{std::move(line), black, 1.2});
-    if (length >= roomOfLine)
-        drawing.add(DrawnText{.place = {label.x, label.y + 4},
-                              .text = markText(level),
-                              .anchor = TextAnchor::middle,
-                              .size = 12,
-                              .bold = true,
-                              .haloed = true});
+    if (length < roomOfLine) return;
+    drawing.add(DrawnText{.place = {label.x, label.y + 4},
+                          .text = markText(level),
+                          .anchor = TextAnchor::middle,
+                          .size = 12,
+                          .bold = true,
+                          .haloed = true});
+    taken.push_back(label);
 }
 
 std::string figuresOf(const GridValues& grid) {
@@ -131,9 +153,10 @@ Drawing isoluxDrawing(const GridValues& grid, const FalseColours& colours, std::
     const Field field = fieldOf(grid), fine = refined(field);
     Drawing drawing{frame.width + 3 * rim + legendWidth, tall + 2 * rim + footer, title, {}};
     drawing.add(colouredField(field, frame, colours));
-    addNumbers(drawing, grid, frame);
+    std::vector<Place> taken = placesOfNumbers(grid, frame);
+    addNumbers(drawing, grid, taken);
     for (const double level : levels)
-        for (auto& line : contoursOf(fine, level)) addLine(drawing, std::move(line), frame, level);
+        for (auto& line : contoursOf(fine, level)) addLine(drawing, std::move(line), frame, level, taken);
     const bool isClipped =
         std::any_of(grid.values.begin(), grid.values.end(), [&](double v) { return v > colours.scale.to; });
     addLegend(drawing, {frame.width + 2 * rim, rim}, tall, colours, grid.unit, isClipped);
