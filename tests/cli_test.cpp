@@ -97,7 +97,7 @@ TEST_F(CommandLineTest, DevicesAreListedAsTableAndJson) {
 }
 
 TEST_F(CommandLineTest, UnknownCommandsAndArgumentsAreRefused) {
-    expectRefused({}, "no command given, expected render, view, merge, compare, photometry, falsecolour, report, "
+    expectRefused({}, "no command given, expected render, view, merge, compare, photometry, falsecolour, report, dgp, "
                       "bench, devices or info");
     expectRefused({"rendr"}, "unknown argument 'rendr', did you mean 'render'?");
     expectRefused({"render"}, "SCENE is required");

@@ -4,6 +4,7 @@
 #include "cli/bench_command.h"
 #include "cli/compare_command.h"
 #include "cli/devices_command.h"
+#include "cli/dgp_command.h"
 #include "cli/false_colour_command.h"
 #include "cli/info_command.h"
 #include "cli/merge_command.h"
@@ -57,7 +58,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
     fail(exitBadInput, unknown     ? unknownArgument(app)
                        : noCommand ? "no command given, expected render, view, merge, compare, photometry, "
-                                     "falsecolour, report, bench, devices or info"
+                                     "falsecolour, report, dgp, bench, devices or info"
                                    : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
@@ -70,6 +71,7 @@ int runCommand(CLI::App& app, const Options& options) {
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
     if (app.got_subcommand("compare")) return compareCommand(options.compare);
     if (app.got_subcommand("photometry")) return photometryCommand(options.photometry);
+    if (app.got_subcommand("dgp")) return dgpCommand(options.dgp);
     if (app.got_subcommand("report")) return reportCommand(options.report);
     if (app.got_subcommand("falsecolour")) return falseColourCommand(options.falseColour);
     if (app.got_subcommand("info"))

@@ -1,4 +1,4 @@
-// The program's commands: render, view, merge, compare, photometry, falsecolour, report, bench, devices, info (docs/reference/command-line.md).
+// The program's commands: render, view, merge, compare, photometry, falsecolour, report, dgp, bench, devices, info (docs/reference/command-line.md).
 #pragma once
 
 namespace quasilux {

@@ -234,6 +234,7 @@ void declareOptions(CLI::App& app, Options& options) {
     declarePhotometry(app, options.photometry);
     declareFalseColour(app, options.falseColour);
     declareReport(app, options.report);
+    declareDgp(app, options.dgp);
     declareBench(app, options.bench);
 
     CLI::App& devices = *app.add_subcommand("devices", "List the OpenCL devices");

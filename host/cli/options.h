@@ -3,6 +3,7 @@
 
 #include "cli/bench_options.h"
 #include "cli/compare_options.h"
+#include "cli/dgp_options.h"
 #include "cli/false_colour_options.h"
 #include "cli/merge_options.h"
 #include "cli/photometry_options.h"
@@ -41,6 +42,7 @@ struct Options {
     PhotometryOptions photometry;
     FalseColourOptions falseColour;
     ReportOptions report;
+    DgpOptions dgp;
     BenchOptions bench;
     bool devicesJson = false;
 };
