@@ -67,7 +67,7 @@ TEST(ValueScale, AutomaticOnesSpanTheValues) {
     EXPECT_EQ(linear.to, 100);
     EXPECT_EQ(automaticScale(values, false, 0).to, 1e6);
     const ValueScale logarithmic = automaticScale(values, true, 0.02);
-    EXPECT_LE(logarithmic.from, 2);
+    EXPECT_EQ(logarithmic.from, 2) << "the first per cent, 2, rounded down to 1, 2 or 5";
     EXPECT_EQ(logarithmic.to, 100);
     const ValueScale close = closeScale({312, 480, 655}, false);
     EXPECT_EQ(close.from, 300);
@@ -136,7 +136,11 @@ TEST(Isolux, LinesLieWhereTheGridHasTheValue) {
             for (const Place& place : line->places) EXPECT_NEAR(place.x, 16 + 520 * 2 / 6.0, 1e-6);
         }
     EXPECT_EQ(lines, 2u) << "a rim and the line";
+    // What lies beyond the scale is said at its end, and only then.
+    EXPECT_THAT(svgOf(isoluxDrawing(grid, {ColourMap::viridis, {200, 450, false}}, {300}, "")),
+                testing::AllOf(HasSubstr(">≥ 450</text>"), HasSubstr(">≤ 200</text>")));
     const std::string svg = svgOf(drawing);
+    EXPECT_THAT(svg, Not(HasSubstr("≥")));
     EXPECT_THAT(svg, HasSubstr(">300</text>"));
     EXPECT_THAT(svg, HasSubstr(">lx</text>"));
     EXPECT_THAT(svg, HasSubstr("data:image/png;base64,"));

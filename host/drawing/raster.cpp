@@ -7,10 +7,28 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <string_view>
 
 namespace quasilux {
 
 namespace {
+
+/// OpenImageIO 2.4 draws other letters than ASCII's as wrong ones: these stand for those in use here, '?' for the rest.
+std::string asciiOf(const std::string& text) {
+    static const std::pair<std::string_view, std::string_view> plain[] = {{"²", "2"},  {"×", "x"}, {"≥", ">="},
+                                                                          {"≤", "<="}, {"–", "-"}, {"°", " deg"}};
+    std::string out;
+    for (size_t at = 0; at < text.size();) {
+        const std::string_view rest = std::string_view(text).substr(at);
+        const auto* found = std::find_if(std::begin(plain), std::end(plain), [&](const auto& entry) {
+            return rest.substr(0, entry.first.size()) == entry.first;
+        });
+        const bool isAscii = static_cast<unsigned char>(text[at]) < 0x80;
+        out += isAscii ? rest.substr(0, 1) : found == std::end(plain) ? "?" : found->second;
+        for (++at; at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U;) ++at;
+    }
+    return out;
+}
 
 class Raster {
 public:
@@ -117,7 +135,7 @@ private:
                                                                : OIIO::ImageBufAlgo::TextAlignX::Right;
         const float channels[3] = {colour.r / 255.0F, colour.g / 255.0F, colour.b / 255.0F};
         if (!OIIO::ImageBufAlgo::render_text(image, static_cast<int>(std::lround(text.place.x)) + dx,
-                                             static_cast<int>(std::lround(text.place.y)) + dy, text.text,
+                                             static_cast<int>(std::lround(text.place.y)) + dy, asciiOf(text.text),
                                              static_cast<int>(std::lround(text.size * 1.15)), "DejaVuSans", channels,
                                              align, OIIO::ImageBufAlgo::TextAlignY::Baseline))
             throw std::runtime_error(fmt::format(

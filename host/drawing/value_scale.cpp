@@ -22,11 +22,18 @@ std::vector<double> decadeMarks(double from, double to) {
     return marks;
 }
 
-double nextDecadeMark(double value) {
+/// 1, 2 or 5 times a power of ten: the least that is no less than `value`, and the greatest that is no more.
+double decadeMarkAbove(double value) {
     const double power = std::pow(10.0, std::floor(std::log10(value)));
     for (const double factor : {1.0, 2.0, 5.0})
         if (factor * power >= value * (1 - 1e-9)) return factor * power;
     return 10 * power;
+}
+double decadeMarkBelow(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double factor : {5.0, 2.0})
+        if (factor * power <= value * (1 + 1e-9)) return factor * power;
+    return power;
 }
 
 /// In order; only finite ones, and of a logarithmic scale only those above 0.
@@ -37,10 +44,10 @@ void keepUsable(std::vector<double>& values, bool logarithmic) {
     std::sort(values.begin(), values.end());
 }
 
+/// Five decades at most.
 ValueScale logarithmicScale(double least, double largest) {
-    const double to = nextDecadeMark(largest);
-    const double from = std::min(nextDecadeMark(std::max(least, to * 1e-5) * (1 + 1e-6)), to / 2);
-    return {std::min(from, std::max(least, to * 1e-5)), to, true};
+    const double to = decadeMarkAbove(largest);
+    return {std::min(decadeMarkBelow(std::max(least, to * 1e-5)), to / 2), to, true};
 }
 
 } // namespace

@@ -8,7 +8,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr double margin = 16, barWidth = 18;
+constexpr double margin = 16, barWidth = 18, lineHeight = 13;
 constexpr unsigned smallest = 480; // pixels that a picture is wide at least
 
 std::vector<double> finiteOf(const std::vector<float>& values) {
@@ -47,7 +47,7 @@ std::vector<uint8_t> falseColours(const std::vector<float>& values, const FalseC
 }
 
 void addLegend(Drawing& drawing, Place corner, double height, const FalseColours& colours, const std::string& unit,
-               bool isClipped) {
+               const Beyond& beyond) {
     const double top = corner.y + 24, length = height - 28;
     DrawnPicture bar{{corner.x, top}, barWidth, length, 1, 256, {}};
     for (int k = 255; k >= 0; --k) {
@@ -56,12 +56,18 @@ void addLegend(Drawing& drawing, Place corner, double height, const FalseColours
     }
     drawing.add(bar);
     drawing.add(DrawnText{.place = {corner.x, corner.y + 12}, .text = unit, .bold = true});
-    for (const double mark : colours.scale.marks()) {
-        const double y = top + length * (1 - colours.scale.shareOf(mark));
+    const auto addMark = [&](double value, const std::string& text) {
+        const double y = top + length * (1 - colours.scale.shareOf(value));
         drawing.add(DrawnLine{{{corner.x + barWidth, y}, {corner.x + barWidth + 5, y}}});
-        const bool isEnd = mark > colours.scale.to * (1 - 1e-9);
-        drawing.add(DrawnText{.place = {corner.x + barWidth + 9, y + 4},
-                              .text = (isEnd && isClipped ? "≥ " : "") + markText(mark)});
+        drawing.add(DrawnText{.place = {corner.x + barWidth + 9, y + 4}, .text = text});
+    };
+    const ValueScale& scale = colours.scale;
+    if (beyond.above) addMark(scale.to, "≥ " + markText(scale.to));
+    if (beyond.below) addMark(scale.from, "≤ " + markText(scale.from));
+    for (const double mark : scale.marks()) { // none on those of the ends
+        const bool isTaken = (beyond.above && length * (1 - scale.shareOf(mark)) < lineHeight) ||
+                             (beyond.below && length * scale.shareOf(mark) < lineHeight);
+        if (!isTaken) addMark(mark, markText(mark));
     }
 }
 
@@ -72,9 +78,8 @@ Drawing falseColourDrawing(const LuminanceImage& image, const FalseColours& colo
     Drawing drawing{width + 3 * margin + legendWidth, tall + 3 * margin + 24, title, {}};
     drawing.add(
         DrawnPicture{{margin, margin}, width, height, image.width, image.height, falseColours(image.values, colours)});
-    const bool isClipped = std::any_of(image.values.begin(), image.values.end(),
-                                       [&](float v) { return std::isfinite(v) && v > colours.scale.to; });
-    addLegend(drawing, {2 * margin + width, margin}, tall, colours, image.unit(), isClipped);
+    addLegend(drawing, {2 * margin + width, margin}, tall, colours, image.unit(),
+              beyondScale(image.values, colours.scale));
     drawing.add(DrawnText{.place = {margin, tall + 2 * margin + 8}, .text = figuresOf(image)});
     drawing.add(DrawnText{.place = {margin, tall + 2 * margin + 24},
                           .text = (image.isIlluminance ? "illuminance: " : "luminance: ") + image.conversion,

@@ -157,9 +157,7 @@ Drawing isoluxDrawing(const GridValues& grid, const FalseColours& colours, std::
     addNumbers(drawing, grid, taken);
     for (const double level : levels)
         for (auto& line : contoursOf(fine, level)) addLine(drawing, std::move(line), frame, level, taken);
-    const bool isClipped =
-        std::any_of(grid.values.begin(), grid.values.end(), [&](double v) { return v > colours.scale.to; });
-    addLegend(drawing, {frame.width + 2 * rim, rim}, tall, colours, grid.unit, isClipped);
+    addLegend(drawing, {frame.width + 2 * rim, rim}, tall, colours, grid.unit, beyondScale(grid.values, colours.scale));
     drawing.add(DrawnText{.place = {rim, tall + 2 * rim + 12}, .text = figuresOf(grid)});
     drawing.add(
         DrawnText{.place = {rim, tall + 2 * rim + 30},
