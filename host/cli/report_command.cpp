@@ -8,7 +8,6 @@
 #include "output/progress_line.h"
 #include "report/figure_text.h"
 #include "report/report_page.h"
-#include "util/error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -153,7 +152,8 @@ private:
 
     void measureObserver(const Observer& observer) {
         if (isInterrupted()) return;
-        const GlareSources sources = glareSources(scene_, observer, Occlusion(scene_), photometric_);
+        if (!occlusion_) occlusion_ = std::make_unique<Occlusion>(scene_);
+        const GlareSources sources = glareSources(scene_, observer, *occlusion_, photometric_);
         BatchedReadings direct(photometric_), all(photometric_);
         ObserverPart part;
         {
@@ -209,6 +209,7 @@ private:
     Scene scene_;
     Device device_;
     bool photometric_;
+    std::unique_ptr<Occlusion> occlusion_;
     double sharesLeft_ = 1;
     ReportContent content_;
 };

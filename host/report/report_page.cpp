@@ -13,6 +13,8 @@ namespace quasilux {
 
 namespace {
 
+constexpr size_t listedSources = 20; // of the luminaires that an observer sees
+
 constexpr const char* style = R"(
 body { max-width: 1060px; margin: 24px auto; padding: 0 16px; background: #fff; }
 h1 { margin-bottom: 0; } h2 { margin-top: 36px; border-bottom: 2px solid #0072b2; padding-bottom: 4px; }
@@ -80,36 +82,50 @@ std::string grid(const GridPart& part) {
            paragraph(fmt::format("{} passes, {:.1f} s.", part.passes, part.seconds)) + "</section>\n";
 }
 
-std::string observer(const ObserverPart& part, bool hasSky) {
-    const ObserverFigures& figures = part.figures;
-    const glm::dvec3 &p = figures.observer.position, &d = figures.observer.direction;
-    std::string out = fmt::format("<section><h3>{}</h3>\n", htmlEscaped(figures.observer.name));
-    out += paragraph(fmt::format(
-        "Eye at {:.4g}, {:.4g}, {:.4g}, looking along {:.3g}, {:.3g}, {:.3g}. Indirect vertical illuminance {} lx "
-        "({}), direct {} lx; {} passes, {:.1f} s.{}",
-        p.x, p.y, p.z, d.x, d.y, d.z, valueText(figures.indirect), intervalText(figures.indirect),
-        valueText(figures.direct), part.passes, part.seconds, hasSky ? " By the lamps alone, without the sky." : ""));
+std::string sourceTable(const GlareSources& sources) {
+    if (sources.seen.empty()) return paragraph("No luminaire is in sight, so nothing glares.");
     std::vector<TableRow> rows{{"luminaire", "luminance", "solid angle", "position index", "visible", "share"}};
-    const double all = figures.sources.strength();
-    for (const GlareSource& source : figures.sources.seen)
+    const double all = sources.strength();
+    for (size_t k = 0; k < std::min(sources.seen.size(), listedSources); ++k) {
+        const GlareSource& source = sources.seen[k];
         rows.push_back({source.name, fmt::format("{:.4g} cd/m²", source.luminance),
                         fmt::format("{:.3g} sr", source.solidAngle), fmt::format("{:.3g}", source.positionIndex),
                         fmt::format("{:.0f} %", 100 * source.visible),
                         fmt::format("{:.1f} %", 100 * source.strength() / all)});
-    if (rows.size() > 1) out += htmlTable(rows);
-    if (rows.size() == 1) out += paragraph("No luminaire is in sight, so nothing glares.");
-    if (rows.size() > 1 && std::isnan(figures.rating.value))
-        out += paragraph("No indirect light was found at the eye, so that there is no background to rate against.",
-                         "warning");
+    }
+    const std::string table = htmlTable(rows);
+    if (sources.seen.size() <= listedSources) return table;
+    return table + paragraph(fmt::format("and {} weaker ones.", sources.seen.size() - listedSources));
+}
+
+/// What limits the rating.
+std::string glareRemarks(const ObserverFigures& figures) {
+    std::string out;
+    const std::vector<GlareSource>& seen = figures.sources.seen;
     const auto isBeyond = [](const GlareSource& s) {
         return s.solidAngle < smallestSource || s.solidAngle > largestSource;
     };
-    if (std::any_of(figures.sources.seen.begin(), figures.sources.seen.end(), isBeyond))
+    if (!seen.empty() && std::isnan(figures.rating.value))
+        out += paragraph("No indirect light was found at the eye, so that there is no background to rate against.",
+                         "warning");
+    if (std::any_of(seen.begin(), seen.end(), isBeyond))
         out +=
             paragraph("Some are smaller than 0.0003 sr or larger than 0.1 sr, for which UGR was not made.", "warning");
     for (const std::string& why : figures.sources.leftOut)
         out += paragraph("Not rated: " + why + " The rating is too low by it.", "warning");
-    return out + "</section>\n";
+    return out;
+}
+
+std::string observer(const ObserverPart& part, bool hasSky) {
+    const ObserverFigures& figures = part.figures;
+    const glm::dvec3 &p = figures.observer.position, &d = figures.observer.direction;
+    const std::string text = fmt::format(
+        "Eye at {:.7g}, {:.7g}, {:.7g}, looking along {:.3g}, {:.3g}, {:.3g}. Indirect vertical illuminance {} lx "
+        "({}), direct {} lx; {} passes, {:.1f} s.{}",
+        p.x, p.y, p.z, d.x, d.y, d.z, valueText(figures.indirect), intervalText(figures.indirect),
+        valueText(figures.direct), part.passes, part.seconds, hasSky ? " By the lamps alone, without the sky." : "");
+    return fmt::format("<section><h3>{}</h3>\n", htmlEscaped(figures.observer.name)) + paragraph(text) +
+           sourceTable(figures.sources) + glareRemarks(figures) + "</section>\n";
 }
 
 std::string luminaire(const LuminaireRow& row) {
