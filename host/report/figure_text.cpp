@@ -83,7 +83,7 @@ std::string intervalText(const Figure& figure) {
 }
 
 std::vector<TableRow> figureRows(const ReportContent& content) {
-    std::vector<TableRow> rows{{"figure", "value", "95 %", "relative", "standard error", "at most to add for noise"}};
+    std::vector<TableRow> rows{{"figure", "value", "95 %", "relative", "standard error", "to add at most"}};
     const auto add = [&](const std::string& name, const Figure& figure, const char* unit, bool ofMinimum = false) {
         rows.push_back(rowOf(name, figure, unit, content.precision, ofMinimum));
     };

@@ -22,12 +22,12 @@ figure { width: auto; margin-bottom: 20px; break-inside: avoid; }
 figure img { max-width: 100%; } figcaption { max-width: 560px; color: #555; font-size: 13px; }
 svg { max-width: 100%; height: auto; }
 section, table, tr { break-inside: avoid; } h2, h3 { break-after: avoid; }
-td { vertical-align: top; } .note { color: #555; max-width: 760px; }
+td { vertical-align: top; } th { white-space: normal; vertical-align: bottom; } .note { color: #555; max-width: 760px; }
 .warning { border-left: 4px solid #d55e00; padding: 2px 12px; max-width: 760px; }
 .pictures { display: flex; flex-wrap: wrap; } .pictures img { width: 340px; } .pictures svg { width: 620px; }
 .luminaire { display: flex; flex-wrap: wrap; gap: 24px; break-inside: avoid; } .luminaire svg { width: 360px; }
 @page { size: A4; margin: 15mm; }
-@media print { body { font-size: 11px; margin: 0; padding: 0; } td, th { padding: 2px 8px; } .luminaire svg { width: 300px; } }
+@media print { body { font-size: 11px; margin: 0; padding: 0; } td, th { padding: 2px 8px; } .luminaire svg { width: 300px; } .pictures img { width: 220px; } .pictures svg { width: 410px; } figcaption { font-size: 11px; } }
 )";
 
 std::string paragraph(const std::string& text, const char* kind = "note") {
@@ -93,7 +93,7 @@ std::string sourceTable(const GlareSources& sources) {
                         fmt::format("{:.0f} %", 100 * source.visible),
                         fmt::format("{:.1f} %", 100 * source.strength() / all)});
     }
-    const std::string table = htmlTable(rows);
+    std::string table = htmlTable(rows);
     if (sources.seen.size() <= listedSources) return table;
     return table + paragraph(fmt::format("and {} weaker ones.", sources.seen.size() - listedSources));
 }
