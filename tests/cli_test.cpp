@@ -97,9 +97,8 @@ TEST_F(CommandLineTest, DevicesAreListedAsTableAndJson) {
 }
 
 TEST_F(CommandLineTest, UnknownCommandsAndArgumentsAreRefused) {
-    expectRefused(
-        {},
-        "no command given, expected render, view, merge, compare, photometry, bench, devices, doctor, manual or info");
+    expectRefused({}, "no command given, expected render, view, merge, compare, photometry, falsecolour, report, dgp, "
+                      "bench, devices, doctor, manual or info");
     expectRefused({"rendr"}, "unknown argument 'rendr', did you mean 'render'?");
     expectRefused({"render"}, "SCENE is required");
     expectRefused({"render", "scene.xml", "--sed", "4"}, "did you mean '--seed'?");

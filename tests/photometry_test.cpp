@@ -92,7 +92,7 @@ TEST(Photometry, ThePolarCurveIsAPageOfItsOwn) {
     const std::string text = ies.text();
     test::SceneFiles files;
     const std::string path = files.write("lamp.ies", std::string(text).replace(text.find("of a test"), 9, "<A & B>"));
-    const std::string svg = polarCurveSvg(readGoniogram(path, {}));
+    const std::string svg = svgOf(polarCurve(readGoniogram(path, {})));
     EXPECT_THAT(svg, HasSubstr("xmlns=\"http://www.w3.org/2000/svg\""));
     EXPECT_THAT(svg, HasSubstr("&lt;A &amp; B&gt;"));
     EXPECT_THAT(svg, HasSubstr("C270 (left) – C90 (right)"));

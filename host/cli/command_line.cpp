@@ -4,13 +4,16 @@
 #include "cli/bench_command.h"
 #include "cli/compare_command.h"
 #include "cli/devices_command.h"
+#include "cli/dgp_command.h"
 #include "cli/doctor_command.h"
+#include "cli/false_colour_command.h"
 #include "cli/info_command.h"
 #include "cli/manual_command.h"
 #include "cli/merge_command.h"
 #include "cli/options.h"
 #include "cli/photometry_command.h"
 #include "cli/render_command.h"
+#include "cli/report_command.h"
 #include "cli/view_command.h"
 #include "util/error.h"
 #include "util/nearest.h"
@@ -56,8 +59,8 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     const bool unknown =
         !app.remaining(true).empty() && (noCommand || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr);
     fail(exitBadInput, unknown     ? unknownArgument(app)
-                       : noCommand ? "no command given, expected render, view, merge, compare, photometry, bench, "
-                                     "devices, doctor, manual or info"
+                       : noCommand ? "no command given, expected render, view, merge, compare, photometry, "
+                                     "falsecolour, report, dgp, bench, devices, doctor, manual or info"
                                    : error.what());
     fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
     return exitBadInput;
@@ -70,6 +73,9 @@ int runCommand(CLI::App& app, const Options& options) {
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
     if (app.got_subcommand("compare")) return compareCommand(options.compare);
     if (app.got_subcommand("photometry")) return photometryCommand(options.photometry);
+    if (app.got_subcommand("dgp")) return dgpCommand(options.dgp);
+    if (app.got_subcommand("report")) return reportCommand(options.report);
+    if (app.got_subcommand("falsecolour")) return falseColourCommand(options.falseColour);
     if (app.got_subcommand("doctor")) return doctorCommand(options.doctorJson);
     if (app.got_subcommand("manual"))
         manualCommand(app, options.manualFolder);

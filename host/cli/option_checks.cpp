@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
@@ -80,6 +81,18 @@ CLI::Validator numberAbove(double above, double to) {
 CLI::Validator numberBetween(double from, double to) {
     return number(fmt::format("a number from {:g} to {:g}", from, to),
                   [=](double value) { return value >= from && value <= to; });
+}
+
+CLI::Validator numberRange() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            const auto colon = text.find(':');
+            const auto from = colon == std::string::npos ? std::nullopt : parseAll<double>(text.substr(0, colon)),
+                       to = colon == std::string::npos ? std::nullopt : parseAll<double>(text.substr(colon + 1));
+            if (from && to && std::isfinite(*from) && std::isfinite(*to) && *from < *to) return std::string();
+            return fmt::format("'{}' given, expected two numbers A:B, the first below the second", text);
+        },
+        "");
 }
 
 CLI::Validator oneOf(std::vector<std::string> names) {

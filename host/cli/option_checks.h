@@ -16,6 +16,8 @@ CLI::Validator wholeNumber(uint64_t from, uint64_t to);
 CLI::Validator passRange(uint64_t to);
 CLI::Validator numberAbove(double above, double to);
 CLI::Validator numberBetween(double from, double to);
+/// "A:B", two finite numbers, A below B.
+CLI::Validator numberRange();
 CLI::Validator oneOf(std::vector<std::string> names);
 /// The names of that one; empty for an option without it.
 std::vector<std::string> choicesOf(CLI::Option& option);

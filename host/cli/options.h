@@ -1,13 +1,14 @@
 // What the command line can say: the one source of --help.
 #pragma once
 
-#include "auto/freedom.h"
 #include "cli/bench_options.h"
 #include "cli/compare_options.h"
+#include "cli/dgp_options.h"
+#include "cli/false_colour_options.h"
 #include "cli/merge_options.h"
 #include "cli/photometry_options.h"
+#include "cli/report_options.h"
 #include "output/png.h"
-#include "render/settings.h"
 #include "view/live_view.h"
 
 #include <CLI/CLI.hpp>
@@ -16,35 +17,6 @@
 #include <vector>
 
 namespace quasilux {
-
-/// What render and info share: a scene, the device, and settings that override those of the scene.
-struct SceneOptions {
-    std::string scene;
-    std::string sensor;                   ///< its number or id; empty: the first one; render: or "all"
-    std::vector<std::string> definitions; ///< "name=value"
-    bool lenient = false;                 ///< what the scene says and is not known is left out
-    std::optional<unsigned> bdd, photons, cameraPaths;
-    std::optional<uint64_t> seed;
-    std::optional<std::string> variant, direct, caustics, map, emission, quasiSpecular, radius;
-    std::optional<double> radiusScale;
-    bool energyBalance = false;
-    bool autoAll = false, fixed = false;
-    std::string kernels = "scene";
-    int device = -1;
-    unsigned workGroupSize = 64;
-    uint64_t deviceMemory = 0;        ///< bytes; 0: what the device has
-    std::vector<std::string> without; ///< "components", "bias"
-    bool json = false, quiet = false;
-
-    /// `definitions` as loadScene takes them.
-    std::vector<std::pair<std::string, std::string>> parameters() const;
-    Unknown unknown() const { return lenient ? Unknown::forgiven : Unknown::refused; }
-    LoadChoice choice() const { return {sensor, unknown()}; }
-    /// The scene's settings, overridden by what was given here. Throws InputError.
-    RenderSettings settings(const Scene& loaded) const;
-    /// What is left to a search.
-    Freedom freedom(const Scene& loaded) const;
-};
 
 struct RenderOptions : SceneOptions {
     std::string output, png, stats, grid; ///< paths; empty = not asked for
@@ -68,6 +40,9 @@ struct Options {
     CompareOptions compare;
     MergeOptions merge;
     PhotometryOptions photometry;
+    FalseColourOptions falseColour;
+    ReportOptions report;
+    DgpOptions dgp;
     BenchOptions bench;
     bool devicesJson = false, doctorJson = false;
     std::string manualFolder;

@@ -78,7 +78,7 @@ int photometryCommand(const PhotometryOptions& options) {
     for (const std::string& warning : goniogram.warnings)
         if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", warning);
     const Photometry figures = photometryOf(goniogram);
-    if (!options.svg.empty()) writeText(options.svg, polarCurveSvg(goniogram));
+    if (!options.svg.empty()) writeText(options.svg, svgOf(polarCurve(goniogram)));
     if (options.json) {
         fmt::print("{}\n",
                    photometryJson(goniogram, figures).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

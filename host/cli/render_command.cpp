@@ -3,6 +3,7 @@
 
 #include "cli/interrupt.h"
 #include "cli/render_report.h"
+#include "cli/render_warnings.h"
 #include "cli/started_render.h"
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
@@ -181,7 +182,7 @@ int renderSensor(const RenderOptions& options) {
     record.interrupted |= view && view->isStopped();
     const WrittenFiles written = writeFiles(options, scene, image, renderLayers(device, scene, render), record);
     progress.clear();
-    warn(options, warningsOf(record, image));
+    warn(options, renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height));
     if (options.json)
         printJsonSummary(record, image, written);
     else if (!options.quiet)

@@ -1,4 +1,4 @@
-// What is said of a render when it is over: its record, its further layers, and what its user is warned of.
+// What is said of a render when it is over: its record, and its further layers.
 #pragma once
 
 #include "cli/options.h"
@@ -17,9 +17,6 @@ RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device
 
 /// renderAovs() with places in the pixel of as many camera paths as the image has passes; more than some hundreds would hardly change it.
 std::vector<AovImage> renderLayers(Device& device, const Scene& scene, const AutoRender& render);
-
-/// Of samples that were dropped or cut, and of light that too few photons have brought; a line each.
-std::vector<std::string> warningsOf(const RenderRecord& record, const FilmImage& image);
 
 /// Illuminance of free ground, lx, where daylight factors are asked for: then the scene's other lights are left out, which is added to
 /// `warnings`.

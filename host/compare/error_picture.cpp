@@ -110,7 +110,7 @@ Picture sharedExponentPicture(const RadianceImage& image) {
     return picture;
 }
 
-std::string pngDataUri(const Picture& picture, unsigned width, unsigned height) {
+std::vector<unsigned char> pngBytes(const Picture& picture, unsigned width, unsigned height) {
     OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     std::vector<unsigned char> bytes;
@@ -119,7 +119,11 @@ std::string pngDataUri(const Picture& picture, unsigned width, unsigned height) 
     if (!output || !output->open("picture.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, picture.data()) ||
         !output->close())
         throw std::runtime_error("cannot make a PNG: " + (output ? output->geterror() : OIIO::geterror()));
-    return "data:image/png;base64," + base64(bytes);
+    return bytes;
+}
+
+std::string pngDataUri(const Picture& picture, unsigned width, unsigned height) {
+    return "data:image/png;base64," + base64(pngBytes(picture, width, height));
 }
 
 } // namespace quasilux

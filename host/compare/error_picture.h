@@ -29,6 +29,8 @@ Picture standardErrorPicture(const RadianceImage& image, const RadianceImage& re
 /// negative values become 0, and what is not finite has the exponent 255.
 Picture sharedExponentPicture(const RadianceImage& image);
 
+/// A PNG file. Throws std::runtime_error.
+std::vector<unsigned char> pngBytes(const Picture& picture, unsigned width, unsigned height);
 /// "data:image/png;base64,...". Throws std::runtime_error.
 std::string pngDataUri(const Picture& picture, unsigned width, unsigned height);
 

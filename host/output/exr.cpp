@@ -111,7 +111,7 @@ void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
     record.forEachSetting(set);
     set("kernels", settings.genericKernels ? "generic" : "scene");
     set("quantity", quantityName(record.meter));
-    if (record.meter != MeterKind::none) set("units", settings.photometric ? "photometric" : "radiometric");
+    set("units", settings.photometric ? "photometric" : "radiometric");
     describeError(spec, record.error);
 }
 

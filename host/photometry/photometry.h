@@ -1,6 +1,7 @@
 // Figures that lighting engineers read off a goniogram (docs/reference/photometry.md).
 #pragma once
 
+#include "drawing/drawing.h"
 #include "scene/goniograms/goniogram.h"
 
 #include <array>
@@ -36,7 +37,7 @@ Photometry photometryOf(const Goniogram& goniogram);
 /// Candela along the half plane C at gamma, or along C + 180 where gamma is negative.
 double intensityInPlane(const Goniogram& goniogram, double c, double gamma);
 
-/// Intensities in the planes C0–C180 and C90–C270 as a picture that needs nothing besides itself.
-std::string polarCurveSvg(const Goniogram& goniogram);
+/// Intensities in the planes C0–C180 and C90–C270.
+Drawing polarCurve(const Goniogram& goniogram);
 
 } // namespace quasilux

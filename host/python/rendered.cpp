@@ -1,6 +1,7 @@
 #include "python/rendered.h"
 
 #include "cli/render_report.h"
+#include "cli/render_warnings.h"
 #include "cli/started_render.h"
 #include "util/error.h"
 
@@ -52,7 +53,10 @@ std::shared_ptr<const Rendered> render(const RenderOptions& options, const Scene
     }
     rendered->warnings = std::move(warnings);
     for (const auto& warning : started.warnings()) rendered->warnings.push_back(warning);
-    for (auto& warning : warningsOf(rendered->record, render.image)) rendered->warnings.push_back(std::move(warning));
+    const RenderRecord& record = rendered->record;
+    for (auto& warning :
+         renderWarnings(record.counters, record.report, uint64_t{render.image.width} * render.image.height))
+        rendered->warnings.push_back(std::move(warning));
     if (const std::string why = started.checkpointFailure(); !why.empty())
         rendered->warnings.push_back("no checkpoint of the last passes could be written: " + why);
     rendered->image = std::move(render.image);

@@ -6,8 +6,7 @@
 
 namespace quasilux {
 
-/// Whether an instruction describes a grid rather than settings.
-bool isIlluminanceGrid(const Instruction& instruction);
+inline constexpr std::string_view illuminanceGridKind = "illuminance-grid";
 
 /// Throws InputError for unknown or missing keys, edges without area, and more points than can be measured.
 IlluminanceGrid parseIlluminanceGrid(const Instruction& instruction);

@@ -7,6 +7,7 @@
 #include "scene/integrator.h"
 #include "scene/load_context.h"
 #include "scene/media/medium_plugin.h"
+#include "scene/observer.h"
 #include "scene/origin.h"
 #include "scene/phases/phase_plugin.h"
 #include "scene/sensors/sensors.h"
@@ -205,6 +206,22 @@ void listForgiven(LoadContext& context) {
     warnings.insert(warnings.end(), context.forgiven.begin(), context.forgiven.end());
 }
 
+/// A grid, or an observer.
+void readMeasurement(const Instruction& instruction, Scene& scene) {
+    if (instruction.kind == observerKind) {
+        scene.observers.push_back(parseObserver(instruction, scene.observers.size()));
+        scene.observers.back().position -= scene.origin;
+    } else if (instruction.kind != illuminanceGridKind) {
+        const Names kinds = {illuminanceGridKind, observerKind};
+        throw InputError(instruction.where, fmt::format("unknown <?quasilux {}?>.{}", instruction.kind,
+                                                        knownNames(instruction.kind, kinds)));
+    } else {
+        if (scene.grid) throw InputError(instruction.where, "a second illuminance-grid; keep one.");
+        scene.grid = parseIlluminanceGrid(instruction);
+        scene.grid->origin -= scene.origin;
+    }
+}
+
 /// The scene in coordinates of the file less `origin`.
 Scene readScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice,
                 const glm::dvec3& origin) {
@@ -217,15 +234,11 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
     context.forgiven = document.forgiven;
     checkVersion(root, context);
     std::vector<Instruction> settings;
-    for (const Instruction& instruction : root.instructions) {
-        if (!isIlluminanceGrid(instruction)) {
+    for (const Instruction& instruction : root.instructions)
+        if (instruction.kind.empty())
             settings.push_back(instruction);
-            continue;
-        }
-        if (scene.grid) throw InputError(instruction.where, "a second illuminance-grid; keep one.");
-        scene.grid = parseIlluminanceGrid(instruction);
-        scene.grid->origin -= scene.origin;
-    }
+        else
+            readMeasurement(instruction, scene);
     scene.settings = parseSceneSettings(settings);
 
     std::vector<PlacedSensor> sensors;

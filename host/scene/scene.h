@@ -254,6 +254,14 @@ struct IlluminanceGrid {
     }
 };
 
+/// <?quasilux observer …?>: an eye that glare is rated for.
+struct Observer {
+    SourceLocation where;
+    std::string name;
+    glm::dvec3 position{}, direction{0, 1, 0}, up{0, 0, 1}; ///< world space; the last two are unit
+    double size = 0.1;                                      ///< side of the square that light is measured on at the eye
+};
+
 /// What the image holds beside R, G, B.
 struct PixelFormat {
     bool luminance = false, xyz = false, alpha = false;
@@ -331,6 +339,7 @@ struct Scene {
     Sensor sensor;                       ///< the one that is rendered
     size_t sensorCount = 0;              ///< in the file
     std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid
+    std::vector<Observer> observers;
     bool hideEmitters =
         false;         ///< the camera looks through emitting shapes and sees no surroundings (Mitsuba's hide_emitters)
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)

@@ -1,0 +1,21 @@
+// Options of `quasilux dgp`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace quasilux {
+
+struct DgpOptions {
+    std::string input;
+    std::string projection = "equidistant";
+    std::optional<double> degrees; ///< that the image is wide
+    double threshold = 2000;       ///< cd/m²
+    std::optional<double> illuminance;
+    bool photometric = false, json = false, quiet = false;
+};
+
+void declareDgp(CLI::App& app, DgpOptions& options);
+
+} // namespace quasilux

@@ -1,0 +1,22 @@
+// Options of `quasilux falsecolour`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+struct FalseColourOptions {
+    std::string input, output;
+    std::string range; ///< "A:B"; empty: automatic
+    bool logarithmic = false;
+    std::string map = "viridis";
+    std::vector<double> levels; ///< of grids; empty: the scale's marks
+    bool photometric = false, daylightFactor = false;
+    bool quiet = false;
+};
+
+void declareFalseColour(CLI::App& app, FalseColourOptions& options);
+
+} // namespace quasilux

@@ -1,0 +1,235 @@
+#include "cli/report_command.h"
+
+#include "cli/interrupt.h"
+#include "cli/render_warnings.h"
+#include "cli/started_render.h"
+#include "cli/text_table.h"
+#include "output/atomic_file.h"
+#include "output/progress_line.h"
+#include "report/figure_text.h"
+#include "report/report_page.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Shares of the time that is left when their turn comes; what a part does not need the next ones have.
+constexpr double directShare = 0.25, observerShare = 1, gridShare = 3, pictureShare = 2;
+// Of the precision asked for: the direct light at an eye is subtracted from all.
+constexpr double directNoise = 0.2;
+constexpr unsigned manyPasses = 1u << 30;
+// Passes before figures are looked at, and how many more of them before they are again.
+constexpr unsigned firstLook = 16;
+constexpr double nextLook = 1.1;
+
+/// Renders the parts of a report one after the other.
+class ReportMaker {
+public:
+    explicit ReportMaker(const ReportOptions& options)
+        : options_(options), start_(Clock::now()), progress_(stderr, !options.quiet),
+          scene_(loadScene(options.scene, options.parameters(), options.choice())),
+          device_(options.device, options.workGroupSize, options.deviceMemory),
+          photometric_(options.settings(scene_).photometric) {}
+
+    /// As far as it came; nothing where it was interrupted before any figure.
+    ReportContent make() {
+        for (const auto& warning : scene_.warnings) warn(warning);
+        content_.scene = std::filesystem::path(options_.scene).filename().string();
+        content_.device = device_.info().name;
+        content_.precision = options_.precision;
+        content_.hasSky = scene_.surroundings || !scene_.directionalEmitters.empty();
+        content_.luminaires = luminairesOf(scene_, photometric_);
+        content_.otherLamps = otherLamps();
+        const bool hasPicture = scene_.sensor.meter == MeterKind::none;
+        sharesLeft_ = (directShare + observerShare) * static_cast<double>(observers().size()) +
+                      (scene_.grid ? gridShare : 0) + (hasPicture ? pictureShare : 0);
+        if (scene_.grid) measureOwnGrid();
+        for (const Observer& observer : observers()) measureObserver(observer);
+        if (hasPicture) takePicture();
+        if (isInterrupted())
+            warn("the report was interrupted: parts of it are missing, or rendered for a shorter time");
+        content_.seconds = seconds();
+        progress_.clear();
+        return std::move(content_);
+    }
+
+private:
+    using Enough = std::function<bool(const Renderer&)>;
+
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    static bool isInterrupted() { return interruptFlag(); }
+
+    void warn(const std::string& message) {
+        progress_.clear();
+        if (!options_.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
+        if (std::find(content_.warnings.begin(), content_.warnings.end(), message) == content_.warnings.end())
+            content_.warnings.push_back(message);
+    }
+
+    size_t otherLamps() const {
+        const auto isLuminaire = [](const PointEmitter& emitter) { return emitter.luminaire.has_value(); };
+        const auto shapes = std::count_if(scene_.shapes.begin(), scene_.shapes.end(),
+                                          [](const auto& shape) { return shape.emitter.has_value(); });
+        const auto points =
+            scene_.pointEmitters.size() -
+            static_cast<size_t>(std::count_if(scene_.pointEmitters.begin(), scene_.pointEmitters.end(), isLuminaire));
+        return points + static_cast<size_t>(shapes) + scene_.directionalEmitters.size() + (scene_.surroundings ? 1 : 0);
+    }
+
+    bool hasLamps() const {
+        return !scene_.pointEmitters.empty() ||
+               std::any_of(scene_.shapes.begin(), scene_.shapes.end(),
+                           [](const auto& shape) { return shape.emitter.has_value(); });
+    }
+    /// Without lamps there is nothing that glares by night.
+    std::vector<Observer> observers() const { return hasLamps() ? scene_.observers : std::vector<Observer>{}; }
+
+    /// `isEnough` is asked after each pass.
+    AutoRender render(const Scene& scene, double share, RenderedPart& part, const Enough& isEnough) {
+        const double begun = seconds(), budget = std::max(0.0, options_.seconds - begun) * share / sharesLeft_;
+        sharesLeft_ = std::max(sharesLeft_ - share, 1e-9);
+        RenderOptions options;
+        static_cast<SceneOptions&>(options) = options_;
+        // A search wants to know its time; others end by `isEnough` or when the time is over, though not before there is an error.
+        if (scene.sensor.meter == MeterKind::none)
+            options.stop.seconds = std::max(budget, 1e-3);
+        else
+            options.stop.passes = manyPasses;
+        std::atomic<bool> ends = false;
+        const auto onProgress = [&](const Progress& now) {
+            catchInterrupt();
+            progress_.update(now);
+        };
+        StartedRender started(options, device_, scene);
+        for (const auto& warning : started.warnings()) warn(warning);
+        catchInterrupt();
+        const auto afterPass = [&](const AutoRender&, const Renderer& renderer, double, bool) {
+            if (renderer.counters().passes == 0) return;
+            const bool isLate = seconds() > begun + budget && renderer.counters().passes >= fewestBatches;
+            if (isEnough(renderer) || isLate || isInterrupted()) ends = true;
+        };
+        AutoRender result = started.render(onProgress, {}, ends, afterPass);
+        if (result.failure) std::rethrow_exception(result.failure);
+        part.passes = result.image.passes;
+        part.seconds = seconds() - begun;
+        for (const auto& warning :
+             renderWarnings(result.counters, result.report, uint64_t(result.image.width) * result.image.height))
+            warn(warning);
+        return result;
+    }
+
+    /// Adds each pass to the readings until `isKnown` says so.
+    void measure(const Scene& scene, double share, RenderedPart& part, BatchedReadings& readings,
+                 const std::function<bool()>& isKnown) {
+        double look = firstLook;
+        const AutoRender result = render(scene, share, part, [&](const Renderer& renderer) {
+            readings.add(renderer.develop());
+            if (readings.passes() < look) return false;
+            look = nextLook * readings.passes();
+            return isKnown();
+        });
+        noteSettings(result, "of figures");
+    }
+
+    void measureOwnGrid() {
+        Scene scene = scene_;
+        measureGrid(scene);
+        const IlluminanceGrid& grid = *scene.grid;
+        BatchedReadings readings(photometric_);
+        GridPart part;
+        measure(scene, gridShare, part, readings, [&] { return areKnown(normFigures(readings), options_.precision); });
+        part.figures = normFigures(readings);
+        part.values = {grid.nx, grid.ny, glm::length(grid.edgeU), glm::length(grid.edgeV), readings.means(), {}, "lx"};
+        content_.grid = std::move(part);
+    }
+
+    void measureObserver(const Observer& observer) {
+        if (isInterrupted()) return;
+        if (!occlusion_) occlusion_ = std::make_unique<Occlusion>(scene_);
+        const GlareSources sources = glareSources(scene_, observer, *occlusion_, photometric_);
+        BatchedReadings direct(photometric_), all(photometric_);
+        ObserverPart part;
+        {
+            Scene scene = scene_;
+            measureAtEye(scene, observer, EyeLight::direct);
+            // Less than the noise of the rest.
+            measure(scene, directShare, part, direct, [&] {
+                return direct.figure([](const auto& points) { return points.front(); }).relativeHalfWidth() <
+                       directNoise * options_.precision;
+            });
+        }
+        const RenderedPart ofDirect = part;
+        Scene scene = scene_;
+        measureAtEye(scene, observer, EyeLight::all);
+        measure(scene, observerShare, part, all,
+                [&] { return isKnown(observerFigures(observer, sources, direct, all), options_.precision); });
+        part.seconds += ofDirect.seconds;
+        part.figures = observerFigures(observer, sources, direct, all);
+        part.figures.observer.position += scene.origin; // where the file has it
+        content_.observers.push_back(std::move(part));
+    }
+
+    void takePicture() {
+        if (isInterrupted()) return;
+        PicturePart part;
+        const AutoRender result = render(scene_, pictureShare, part, [](const Renderer&) { return false; });
+        const FilmImage& image = result.image;
+        part.luminance = luminanceImage(image.width, image.height, image.radiance, image.standardError, photometric_);
+        part.toneMapped = toneMap(image, chooseToneCurve(image, {}));
+        part.error = estimateError(image);
+        content_.picture = std::move(part);
+        noteSettings(result, "of the picture");
+    }
+
+    void noteSettings(const AutoRender& render, const std::string& what) {
+        const RenderSettings& chosen = render.settings;
+        const auto note = [&](const std::string& name, const std::string& value) {
+            if (std::find(content_.settings.begin(), content_.settings.end(), std::pair(name, value)) ==
+                content_.settings.end())
+                content_.settings.emplace_back(name, value);
+        };
+        note("device", device_.info().name);
+        note("units of radiance", photometric_ ? "cd/m²" : "W sr⁻¹ m⁻², 683 lm/W");
+        note("seed", std::to_string(chosen.seed));
+        note("method " + what,
+             fmt::format("{}, BDD {}, quasi-specular {}, direct light by {}, {} photons a pass", name(chosen.variant),
+                         chosen.bdd, chosen.quasiSpecular, name(chosen.direct), render.report.photonsPerPass));
+    }
+
+    const ReportOptions& options_;
+    Clock::time_point start_;
+    ProgressLine progress_;
+    Scene scene_;
+    Device device_;
+    bool photometric_;
+    std::unique_ptr<Occlusion> occlusion_;
+    double sharesLeft_ = 1;
+    ReportContent content_;
+};
+
+} // namespace
+
+int reportCommand(const ReportOptions& options) {
+    exitOnInterrupt();
+    checkOutputPath(options.output, "--output", ".html");
+    const ReportContent content = ReportMaker(options).make();
+    writeText(options.output, reportPage(content));
+    if (options.json) {
+        fmt::print("{}\n", reportJson(content).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else if (!options.quiet) {
+        fmt::print("{}", tableText(figureRows(content)));
+        if (!content.isKnown())
+            fmt::print("not every figure is known to {:g} % (95 %): give more --time\n", 100 * content.precision);
+        fmt::print("{:.1f} s\nwrote {}\n", content.seconds, options.output);
+    }
+    return exitCodeWhenWritten();
+}
+
+} // namespace quasilux

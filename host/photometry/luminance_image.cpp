@@ -1,0 +1,50 @@
+#include "photometry/luminance_image.h"
+
+#include "compare/image_file.h"
+#include "scene/photometric_units.h"
+#include "util/error.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+std::vector<float> photometricOf(const std::vector<float>& rgb, double efficacy) {
+    std::vector<float> values;
+    values.reserve(rgb.size() / 3);
+    for (size_t i = 0; i + 2 < rgb.size(); i += 3)
+        values.push_back(static_cast<float>(efficacy * luminanceOf(rgb[i], rgb[i + 1], rgb[i + 2])));
+    return values;
+}
+
+/// An attribute of the header, empty where there is none.
+std::string headerText(const std::string& path, const std::string& key) {
+    const auto input = OIIO::ImageInput::open(path);
+    return input ? std::string(input->spec().get_string_attribute(key)) : "";
+}
+
+} // namespace
+
+LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector<float>& rgb,
+                              const std::vector<float>& standardError, bool unitsArePhotometric) {
+    const double efficacy = unitsArePhotometric ? 1 : luminousEfficacy;
+    return {width,
+            height,
+            photometricOf(rgb, efficacy),
+            photometricOf(standardError, efficacy),
+            false,
+            unitsArePhotometric ? "0.2126 R + 0.7152 G + 0.0722 B"
+                                : fmt::format("{:g} lm/W (0.2126 R + 0.7152 G + 0.0722 B)", luminousEfficacy)};
+}
+
+LuminanceImage readLuminance(const std::string& path, ImageUnits units) {
+    const RadianceImage image = readRadiance(path);
+    const bool photometric = units == ImageUnits::photometric || headerText(path, "quasilux:units") == "photometric";
+    LuminanceImage found = luminanceImage(image.width, image.height, image.radiance, image.standardError, photometric);
+    found.isIlluminance = headerText(path, "quasilux:quantity") == "irradiance";
+    return found;
+}
+
+} // namespace quasilux

@@ -1,0 +1,30 @@
+// Images in the units of engineers: luminance or illuminance of each pixel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace quasilux {
+
+struct LuminanceImage {
+    unsigned width = 0, height = 0;
+    std::vector<float> values;        ///< row by row from the top, in `unit`
+    std::vector<float> standardError; ///< upper bounds; empty: unknown
+    bool isIlluminance = false;
+    std::string conversion; ///< by which it was made of R, G, B
+
+    const char* unit() const { return isIlluminance ? "lx" : "cd/m²"; }
+};
+
+/// What R, G, B of the file are: radiometric (W) or photometric (lm); `asHeaderSays`, and radiometric where that is silent.
+enum class ImageUnits { asHeaderSays, photometric };
+
+/// An image as readRadiance() takes it, of radiance or, if its header says so, of irradiance. 683 lm/W over the primaries of sRGB
+/// (docs/method/meters.md). Throws InputError.
+LuminanceImage readLuminance(const std::string& path, ImageUnits units);
+
+/// Of linear sRGB pixels, interleaved.
+LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector<float>& rgb,
+                              const std::vector<float>& standardError, bool unitsArePhotometric);
+
+} // namespace quasilux

@@ -1,0 +1,38 @@
+// The figures of norms, each with its error.
+#pragma once
+
+#include "photometry/glare.h"
+#include "report/batched_readings.h"
+
+#include <string>
+
+namespace quasilux {
+
+/// EN 12464-1: of the points of a grid.
+struct NormFigures {
+    Figure mean, minimum, maximum; ///< lx
+    Figure overall, diversity;     ///< U0 = minimum / mean, Ud = minimum / maximum
+};
+NormFigures normFigures(const BatchedReadings& readings);
+
+/// Of one observer.
+struct ObserverFigures {
+    Observer observer;
+    GlareSources sources;
+    Figure direct;   ///< vertical illuminance at the eye by the lamps' direct light, lx
+    Figure indirect; ///< by all other light
+    Figure rating;   ///< UGR; -infinity where no luminaire is seen
+};
+/// `direct`, `all`: readings at the eye by measureAtEye(), independent of each other.
+ObserverFigures observerFigures(const Observer& observer, const GlareSources& sources, const BatchedReadings& direct,
+                                const BatchedReadings& all);
+
+/// Whether each is known to this share of its value, with 95 %; a UGR where nothing glares counts as known.
+bool areKnown(const NormFigures& figures, double share);
+bool isKnown(const ObserverFigures& figures, double share);
+
+enum class EyeLight { direct, all };
+/// The scene as its observer's eye measures it: lamps alone, without sky and sun, which the rating is not of.
+void measureAtEye(Scene& scene, const Observer& observer, EyeLight light);
+
+} // namespace quasilux

@@ -1,0 +1,165 @@
+// Daylight glare probability against its formula, on images made for it.
+#include "photometry/daylight_glare.h"
+#include "photometry/position_index.h"
+#include "support/program_runner.h"
+
+#include <OpenImageIO/imageio.h>
+#include <cmath>
+#include <functional>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace quasilux {
+namespace {
+
+using std::numbers::pi;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+const LineOfSight ahead{{0, 0, 1}, {0, 1, 0}};
+
+/// r in half widths where an image that is `width` radians wide shows theta.
+double radiusOf(Projection projection, double width, double theta) {
+    switch (projection) {
+    case Projection::perspective:
+        return std::tan(theta) / std::tan(width / 2);
+    case Projection::equidistant:
+        return theta / (width / 2);
+    case Projection::equisolid:
+        return std::sin(theta / 2) / std::sin(width / 4);
+    case Projection::orthographic:
+        return std::sin(theta) / std::sin(width / 2);
+    }
+    return 0;
+}
+
+/// The angle that a pixel at the distance r shows, by bisection: no formula of the program's.
+double thetaOf(Projection projection, double width, double r) {
+    double low = 0, high = pi / 2 - 1e-9;
+    for (int k = 0; k < 60; ++k) (radiusOf(projection, width, (low + high) / 2) < r ? low : high) = (low + high) / 2;
+    return low;
+}
+
+/// 50 cd/m² everywhere, and 20,000 cd/m² in cones of half angle 0.1 about `lamps`.
+LuminanceImage imageOf(const View& view, unsigned size, const std::vector<glm::dvec3>& lamps) {
+    LuminanceImage image{size, size, {}, {}, false, ""};
+    for (unsigned j = 0; j < size; ++j)
+        for (unsigned i = 0; i < size; ++i) {
+            const double x = (i + 0.5) / (size / 2.0) - 1, y = 1 - (j + 0.5) / (size / 2.0), r = std::hypot(x, y);
+            const double theta = thetaOf(view.projection, view.width, r);
+            const glm::dvec3 d(std::sin(theta) * x / r, std::sin(theta) * y / r, std::cos(theta));
+            double value = 50;
+            for (const glm::dvec3& lamp : lamps)
+                if (glm::dot(d, glm::normalize(lamp)) > std::cos(0.1)) value = 20000;
+            image.values.push_back(static_cast<float>(value));
+        }
+    return image;
+}
+
+const std::vector<glm::dvec3> twoLamps{{0.5, 0.4, 1}, {-0.3, -0.5, 1}};
+
+/// By hand: cones have 2 pi (1 - cos 0.1) sr, and bring L pi sin² 0.1 cos theta.
+double byHand(const std::vector<glm::dvec3>& lamps, double illuminance, double power = 1.87, bool hasIndex = true) {
+    double sum = 0;
+    for (const glm::dvec3& lamp : lamps) {
+        const double p = hasIndex ? positionIndexOfDaylight(ahead, glm::normalize(lamp)) : 1;
+        sum += 2e4 * 2e4 * 2 * pi * (1 - std::cos(0.1)) / (std::pow(illuminance, power) * p * p);
+    }
+    return 5.87e-5 * illuminance + 9.18e-2 * std::log10(1 + sum) + 0.16;
+}
+
+double illuminanceOf(const std::vector<glm::dvec3>& lamps) {
+    double sum = 50 * pi;
+    for (const glm::dvec3& lamp : lamps) sum += (2e4 - 50) * pi * std::pow(std::sin(0.1), 2) * glm::normalize(lamp).z;
+    return sum;
+}
+
+TEST(DaylightGlare, IsTheFormulaOnEveryFisheye) {
+    for (const Projection projection : {Projection::equidistant, Projection::equisolid, Projection::orthographic}) {
+        const View view{projection, pi};
+        const DaylightGlare glare = daylightGlare(imageOf(view, 400, twoLamps), view, 2000, std::nullopt);
+        const double expected = illuminanceOf(twoLamps);
+        EXPECT_NEAR(glare.covered, 1, 0.005);
+        EXPECT_NEAR(glare.illuminance, expected, 0.01 * expected) << static_cast<int>(projection);
+        ASSERT_THAT(glare.sources, SizeIs(2));
+        for (const auto& source : glare.sources) {
+            EXPECT_NEAR(source.luminance, 20000, 1);
+            EXPECT_NEAR(source.solidAngle, 2 * pi * (1 - std::cos(0.1)), 0.02 * 0.0314);
+        }
+        EXPECT_NEAR(glare.probability, byHand(twoLamps, expected), 0.001);
+        // Wrong rules: another exponent, no position index, the direct light forgotten.
+        EXPECT_GT(std::abs(glare.probability - byHand(twoLamps, expected, 2)), 0.01);
+        EXPECT_GT(std::abs(glare.probability - byHand(twoLamps, expected, 1.87, false)), 0.01);
+        EXPECT_GT(std::abs(glare.probability - byHand(twoLamps, 50 * pi)), 0.01);
+        EXPECT_FALSE(glare.standardError) << "the image has none";
+    }
+}
+
+TEST(DaylightGlare, WithoutSourcesIsOfTheIlluminanceAlone) {
+    const View view{Projection::equidistant, pi};
+    const DaylightGlare glare = daylightGlare(imageOf(view, 200, {}), view, 2000, std::nullopt);
+    EXPECT_TRUE(glare.sources.empty());
+    EXPECT_NEAR(glare.probability, 5.87e-5 * 50 * pi + 0.16, 1e-4);
+    EXPECT_EQ(daylightGlare(imageOf(view, 20, {}), view, 2000, 1e6).probability, 1) << "at most 1";
+}
+
+TEST(DaylightGlare, OfAPerspectiveImageTakesTheIlluminanceGiven) {
+    const View view{Projection::perspective, pi / 2};
+    const DaylightGlare glare = daylightGlare(imageOf(view, 300, twoLamps), view, 2000, 1500);
+    ASSERT_THAT(glare.sources, SizeIs(2));
+    EXPECT_NEAR(glare.probability, byHand(twoLamps, 1500), 0.001);
+    // A square of 90 degrees: 2 · 2 / sqrt 2 · atan(1 / sqrt 2) of pi.
+    EXPECT_NEAR(glare.covered, 4 / std::sqrt(2) * std::atan(1 / std::sqrt(2)) / pi, 1e-3);
+}
+
+TEST(DaylightGlare, ItsErrorBoundsWhatCommonErrorsDo) {
+    const View view{Projection::equisolid, pi};
+    LuminanceImage image = imageOf(view, 200, twoLamps);
+    for (const float value : image.values) image.standardError.push_back(0.01F * value);
+    const DaylightGlare glare = daylightGlare(image, view, 2000, std::nullopt);
+    ASSERT_TRUE(glare.standardError && glare.illuminanceError);
+    EXPECT_NEAR(*glare.illuminanceError, 0.01 * glare.illuminance, 1e-4 * glare.illuminance);
+    for (float& value : image.values) value *= 1.01F;
+    EXPECT_LE(std::abs(daylightGlare(image, view, 2000, std::nullopt).probability - glare.probability),
+              *glare.standardError);
+}
+
+class DgpTest : public CommandLineTest {
+protected:
+    DgpTest() {
+        const View view{Projection::equidistant, pi};
+        const LuminanceImage image = imageOf(view, 200, twoLamps);
+        std::vector<float> rgb;
+        for (const float value : image.values) rgb.insert(rgb.end(), 3, value / 683);
+        const OIIO::ImageSpec spec(200, 200, 3, OIIO::TypeDesc::FLOAT);
+        const auto file = OIIO::ImageOutput::create("openexr");
+        file->open((folder / "eye.exr").string(), spec);
+        file->write_image(OIIO::TypeDesc::FLOAT, rgb.data());
+        file->close();
+    }
+};
+
+TEST_F(DgpTest, IsPrinted) {
+    const Outcome text = run({"dgp", "eye.exr"});
+    ASSERT_EQ(text.exitCode, 0) << text.errors;
+    EXPECT_THAT(text.output, HasSubstr("DGP 0."));
+    EXPECT_THAT(text.output, HasSubstr("2 sources from 2000 cd/m2 on"));
+    EXPECT_THAT(text.output, HasSubstr("standard error not known"));
+    const auto json = nlohmann::json::parse(run({"dgp", "eye.exr", "--json"}).output);
+    EXPECT_NEAR(json["DGP"].get<double>(), byHand(twoLamps, illuminanceOf(twoLamps)), 0.002);
+    EXPECT_EQ(json["sources"].size(), 2u);
+    EXPECT_TRUE(json["standardErrorAtMost"].is_null());
+    EXPECT_THAT(run({"dgp", "eye.exr", "--illuminance", "100"}).errors, HasSubstr("DGP was made from 380 lx on"));
+}
+
+TEST_F(DgpTest, RefusesBadInput) {
+    expectRefused({"dgp"}, "IMAGE is required");
+    expectRefused({"dgp", "nowhere.exr"}, "nowhere.exr");
+    expectRefused({"dgp", "eye.exr", "--projection", "perspective"}, "give --fov");
+    expectRefused({"dgp", "eye.exr", "--projection", "perspective", "--fov", "60"}, "give --illuminance LX");
+    expectRefused({"dgp", "eye.exr", "--projection", "mercator"}, "--projection");
+}
+
+} // namespace
+} // namespace quasilux
