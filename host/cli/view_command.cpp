@@ -73,6 +73,8 @@ private:
         if (edits_.direct) now.direct = edits_.direct;
         if (edits_.map) now.map = edits_.map;
         if (edits_.quasiSpecular) now.quasiSpecular = edits_.quasiSpecular;
+        if (edits_.bdd || edits_.variant || edits_.direct || edits_.map || edits_.quasiSpecular)
+            now.caustics = caustics_;
         return now;
     }
 
@@ -119,6 +121,7 @@ private:
         options_.bdd = chosen.bdd;
         options_.variant = name(chosen.variant);
         options_.quasiSpecular = chosen.quasiSpecular;
+        options_.caustics = name(chosen.caustics);
         options_.photons = chosen.photonsPerPass;
         options_.cameraPaths = chosen.cameraPaths;
         options_.radiusScale = chosen.radiusScale;
@@ -145,6 +148,7 @@ private:
         if (reloaded_) {
             if (reloaded_->lamps() != scene_->lamps()) edits_.lamps.clear(); // they go by number
             scene_ = std::move(reloaded_);
+            options_.caustics = caustics_;
             learned_ = nullptr;
             warn(scene_->scene().warnings);
             tellEditable();
@@ -153,6 +157,8 @@ private:
     }
 
     RenderOptions options_;
+    std::optional<std::string> caustics_ =
+        options_.caustics; ///< as given: what a search found is of its method and scene
     ProgressLine progress_;
     fs::file_time_type savedAt_; ///< of what was loaded, or saved while it was
     std::unique_ptr<EditedScene> scene_, reloaded_;

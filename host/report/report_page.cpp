@@ -64,7 +64,11 @@ std::string pictures(const PicturePart& part) {
                   "luminance, logarithmic scale") +
            "</div>\n";
     const ErrorEstimate& error = part.error;
-    if (std::isfinite(error.sum()))
+    if (!std::isfinite(error.sum()))
+        out += paragraph("Noise of a pixel: not estimated, the picture has too few passes; render longer. Bias of the "
+                         "density radius: not "
+                         "estimated.");
+    else
         out +=
             paragraph(fmt::format("Noise of a pixel: {:.2g} % in the mean, 95 % of the pixels below {:.2g} %. Bias of "
                                   "the density radius: {}.",

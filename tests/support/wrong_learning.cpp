@@ -43,12 +43,13 @@ std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSet
     return learned;
 }
 
-MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly) {
+MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly, unsigned passesPerBatch) {
     RenderSettings settings;
     settings.direct = direct;
     settings.photonsPerPass = 16000;
     const std::vector<int> one(size_t{scene.sensor.width} * scene.sensor.height, 0);
-    return renderGroups(scene, settings, one, 10, 8, wrongly ? wronglyLearned(scene, settings) : nullptr).front();
+    return renderGroups(scene, settings, one, 10, passesPerBatch, wrongly ? wronglyLearned(scene, settings) : nullptr)
+        .front();
 }
 
 void expectMeanOfImage(const Scene& scene, double truth) {

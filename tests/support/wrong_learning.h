@@ -20,8 +20,8 @@ GuideTables cornerGuide(const EmitterTables& emitters);
 /// That guide; and no place is said to be gathered from, so that most photons are not stored.
 std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSettings& settings);
 
-/// Mean luminance of the image, over 80 passes; `wrongly`: by wronglyLearned().
-MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly);
+/// Mean luminance of the image, over ten batches of passes; `wrongly`: by wronglyLearned().
+MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly, unsigned passesPerBatch = 8);
 
 /// It is `truth` by emitters and by photons, whatever was learned; and not 5 % more.
 void expectMeanOfImage(const Scene& scene, double truth);
