@@ -126,10 +126,10 @@ typedef struct {
     unsigned int pass;
     unsigned int bdd;
     unsigned int maxDepth;
-    unsigned int cameraPaths;   /* of a pixel in the pass; of meters and with the camera map 1 */
-    unsigned int directSamples; /* of emitters, where a path takes direct light first */
+    unsigned int cameraPaths;     /* of a pixel in the pass; of meters and with the camera map 1 */
+    unsigned int directSamples;   /* of emitters, where a path takes direct light first */
     unsigned int causticsByPaths; /* paths find caustic light, not photons (takeRadiance) */
-    unsigned int radiusBlock;   /* pixels of a row and column that share a density radius */
+    unsigned int radiusBlock;     /* pixels of a row and column that share a density radius */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
     unsigned int filmLayout; /* film_sums.h */
     unsigned int firstPixel,
