@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
     Furnaces, CausticsByPaths,
     testing::Values(Case{"GlassAndMirrors", "furnace_glass.xml", {{"resolution", "24"}}, 2.5},
                     Case{"MediumBehindGlass", "furnace_medium.xml", {{"border", "glass"}, {"resolution", "16"}}, 1}),
-    [](const auto& info) { return info.param.name; });
+    [](const testing::TestParamInfo<Case>& row) { return row.param.name; });
 
 std::string refusal(const Scene& scene, const RenderSettings& settings) {
     try {
