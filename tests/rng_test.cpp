@@ -174,7 +174,9 @@ TEST(Rng, FirstEventsOfFourPassesLieOnNets) {
             for (const size_t use : {0u, 3u}) {
                 for (unsigned columns = 1; columns <= size; columns *= 2)
                     EXPECT_TRUE(isEven(numbers, first, size, columns, use, use + 1)) << paths << " " << columns;
-                if (size >= 16) EXPECT_TRUE(isEven(numbers, first, size, size, use + 2, use)) << paths;
+                if (size >= 16) {
+                    EXPECT_TRUE(isEven(numbers, first, size, size, use + 2, use)) << paths;
+                }
             }
     }
     EXPECT_FALSE(isEven(drawNets(11, 16, 3, 128), 32, 64, 8, 0, 1)) << "negative control: halves of two nets";
