@@ -223,7 +223,7 @@ bool Search::renderUpTo(Contender& contender, unsigned passes) {
 }
 
 PilotMeasure Search::measureOf(const Contender& contender, const std::vector<float>& brightness) {
-    const PilotMeasure measure = contender.pilot->measure(brightness);
+    PilotMeasure measure = contender.pilot->measure(brightness);
     if (contender.settings.caustics == CausticLight::paths)
         return withRareCaustics(measure, causticsByPaths_, contender.settings.cameraPaths);
     causticsByPaths_ = std::max(causticsByPaths_, measure.causticsByPaths);
