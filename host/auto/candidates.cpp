@@ -67,18 +67,11 @@ unsigned classesOf(const Scatterings& has, const RenderSettings& settings) {
     return photonClasses(featuresOf(has), settings);
 }
 
-bool hasEmittersThatNoPathMeets(const Scene& scene) {
-    return !scene.pointEmitters.empty() || !scene.directionalEmitters.empty() ||
-           std::any_of(scene.shapes.begin(), scene.shapes.end(),
-                       [](const ShapeDescription& shape) { return shape.emitter && shape.emitter->alongNormal; });
-}
-
 // Can camera paths find the caustic light, and is there any? How much is seen in the film's components.
 bool mayFindCaustics(const Scene& scene, const RenderSettings& settings) {
-    if (!settings.film.components || settings.caustics == CausticLight::paths || hasEmittersThatNoPathMeets(scene))
-        return false;
+    if (!settings.film.components || settings.caustics == CausticLight::paths) return false;
     const Scatterings has(splitOf(scene, settings));
-    return has.specularLobes && whyNotCausticsByPaths(featuresOf(has), settings).empty();
+    return has.specularLobes && whyNotCausticsByPaths(scene, featuresOf(has), settings).empty();
 }
 
 // With nothing genuine diffuse the main variant is the standard method with BDD 0, as if everything were

@@ -115,8 +115,8 @@ constexpr unsigned fewestPassesOfImage = 64, mostCameraPaths = 64;
 // are larger then (kernels/lattice.clh): the variance of one path on them falls to 0.3 to 0.75 of that of a single one with 16, a half in the mean of ten scenes.
 constexpr double noiseByPaths = -1.25;
 
-// Of the total noise, that of components from `first` on; all of it where the film keeps none.
-double shareFrom(unsigned first, unsigned end, const ErrorEstimate& error, bool hasComponents) {
+// Share of the total noise that components from `first` to before `end` have; all of it where the film keeps none.
+double shareOfNoise(unsigned first, unsigned end, const ErrorEstimate& error, bool hasComponents) {
     if (!hasComponents) return 1;
     double part = 0;
     for (unsigned c = first; c < end; ++c) part += error.components[c].noiseRms * error.components[c].noiseRms;
@@ -157,8 +157,8 @@ PilotMeasure measurePilot(const FilmImage& image, bool hasMedia, double secondsP
     PilotMeasure pilot;
     pilot.passes = image.passes;
     // Classes of light that photons carry have noise of camera paths too, which counts as the photons' here.
-    pilot.noiseOfPhotons = shareFrom(LIGHT_DIRECT + 1, LIGHT_CLASSES, error, image.hasComponents());
-    pilot.noiseOfCaustics = shareFrom(LIGHT_CAUSTIC, LIGHT_CAUSTIC + 1, error, image.hasComponents());
+    pilot.noiseOfPhotons = shareOfNoise(LIGHT_DIRECT + 1, LIGHT_CLASSES, error, image.hasComponents());
+    pilot.noiseOfCaustics = shareOfNoise(LIGHT_CAUSTIC, LIGHT_CAUSTIC + 1, error, image.hasComponents());
     pilot.causticsByPaths = noiseOfFinding(image, LIGHT_CAUSTIC, radiance, brightness);
     pilot.causticsMet = causticsMet(image);
     pilot.secondsPerPass = secondsPerPass;

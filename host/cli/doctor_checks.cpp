@@ -5,6 +5,7 @@
 #include "device/runtime_check.h"
 #include "prepare/embree_version.h"
 #include "util/error.h"
+#include "util/process_memory.h"
 #include "util/temporary_folder.h"
 
 #include <OpenImageIO/imageio.h>
@@ -12,7 +13,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <sstream>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -99,16 +99,6 @@ bool isWritable(fs::path folder) {
     return true;
 }
 
-// A line such as "MemAvailable:  1234 kB" of Linux, in bytes; 0 where there is none.
-uint64_t memoryBytes(const std::string& key) {
-    std::ifstream memory("/proc/meminfo");
-    for (std::string word; memory >> word;) {
-        uint64_t kibibytes = 0;
-        if (word == key && memory >> kibibytes) return kibibytes * 1024;
-    }
-    return 0;
-}
-
 } // namespace
 
 std::vector<Finding> checkDevices() {
@@ -164,9 +154,9 @@ std::vector<Finding> checkLibraries() {
 
 std::vector<Finding> checkMemory() {
     std::vector<Finding> findings;
-    if (const uint64_t free = memoryBytes("MemAvailable:"); free > 0) {
-        Finding memory{Health::good, "memory",
-                       fmt::format("{} free of {}", bytesText(free), bytesText(memoryBytes("MemTotal:"))), ""};
+    if (const uint64_t free = availableMemory(); free > 0) {
+        Finding memory{Health::good, "memory", fmt::format("{} free of {}", bytesText(free), bytesText(totalMemory())),
+                       ""};
         if (free < littleMemory) {
             memory.health = Health::warning;
             memory.advice = "large scenes and films need more: end other programs; `quasilux info SCENE` says how much";

@@ -50,7 +50,17 @@ unsigned compiledClasses(const Features& features, const RenderSettings& setting
     return some == 0 || !features.directByPhotons ? some : some | bit(LIGHT_DIRECT);
 }
 
-std::string whyNotCausticsByPaths(const Features& features, const RenderSettings& settings) {
+namespace {
+
+bool hasEmittersThatNoPathMeets(const Scene& scene) {
+    return !scene.pointEmitters.empty() || !scene.directionalEmitters.empty() ||
+           std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                       [](const ShapeDescription& shape) { return shape.emitter && shape.emitter->alongNormal; });
+}
+
+} // namespace
+
+std::string whyNotCausticsByPaths(const Scene& scene, const Features& features, const RenderSettings& settings) {
     RenderSettings byPaths = settings;
     byPaths.caustics = CausticLight::paths;
     if (settings.map == MapOrder::camera) return "--map camera is there for photons";
@@ -58,10 +68,8 @@ std::string whyNotCausticsByPaths(const Features& features, const RenderSettings
     if (photonClasses(features, byPaths) != 0)
         return "photons of other classes are in use, and need them to bring all light; take --quasi-specular all, "
                "--variant alternative and --direct emitters with it";
-    for (const unsigned type : {EMITTER_POINT, EMITTER_SPOT, EMITTER_PROJECTOR, EMITTER_DIRECTIONAL,
-                                EMITTER_DIRECTIONALAREA, EMITTER_GONIOGRAM})
-        if (features.emitterTypes.contains(type))
-            return "the scene has emitters that no path can meet: points, parallel beams or luminaires";
+    if (hasEmittersThatNoPathMeets(scene))
+        return "the scene has emitters that no path can meet: points, parallel beams or luminaires";
     return {};
 }
 

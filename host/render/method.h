@@ -12,13 +12,13 @@ namespace quasilux {
 /// Bits 1 << LIGHT_* of the photons that some camera path can use; the others are not stored (kernels/law.clh).
 unsigned photonClasses(const Features& features, const RenderSettings& settings);
 
-/// Why camera paths cannot find the caustic light themselves, with CausticLight::paths; empty where they can. They take it by meeting emitters
-/// after specular events alone since the hit that takes it, so nothing but specular events may be left to photons.
-std::string whyNotCausticsByPaths(const Features& features, const RenderSettings& settings);
-
 /// The same and those of other splits and variants that share these kernels, RenderSettings::furtherClasses. Where none are in use
 /// themselves, the kernels find an empty map.
 unsigned compiledClasses(const Features& features, const RenderSettings& settings);
+
+/// Why camera paths cannot find the caustic light themselves, with CausticLight::paths; empty where they can. They take it by meeting emitters
+/// after specular events alone since the hit that takes it, so nothing but specular events may be left to photons.
+std::string whyNotCausticsByPaths(const Scene& scene, const Features& features, const RenderSettings& settings);
 
 /// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
 bool estimatesBias(const Features& features, const RenderSettings& settings);

@@ -39,9 +39,9 @@ void refuseRelief(const Scene& scene) {
             throw InputError(bsdf.where, "normal and bump maps need --map photons, and the map is 'camera'.");
 }
 
-void checkCaustics(const Features& features, const RenderSettings& settings) {
+void checkCaustics(const Scene& scene, const Features& features, const RenderSettings& settings) {
     if (settings.caustics != CausticLight::paths) return;
-    const std::string why = whyNotCausticsByPaths(features, settings);
+    const std::string why = whyNotCausticsByPaths(scene, features, settings);
     if (!why.empty()) throw InputError("--caustics paths: " + why + '.');
 }
 
@@ -379,7 +379,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     DeviceScene flat = flattenFor(scene, settings);
     if (settings.map == MapOrder::camera) refuseRelief(scene);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
-    checkCaustics(flat.features, settings);
+    checkCaustics(scene, flat.features, settings);
     auto checksums = checksumsOf(flat, scene.maxDepth);
     if (!expected.empty()) requireSame(expected, checksums);
     if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);

@@ -8,15 +8,18 @@ namespace quasilux {
 
 namespace {
 
-/// A line such as "VmHWM:  1234 kB" of Linux' table of the process, in bytes; 0 where there is none.
-uint64_t statusBytes(const std::string& key) {
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
+/// A line such as "VmHWM:  1234 kB" of one of Linux' tables, in bytes; 0 where there is none.
+uint64_t bytesIn(const char* table, const std::string& key) {
+    std::ifstream lines(table);
+    for (std::string word; lines >> word;) {
         uint64_t kibibytes = 0;
-        if (word == key && status >> kibibytes) return kibibytes * 1024;
+        if (word == key && lines >> kibibytes) return kibibytes * 1024;
     }
     return 0;
 }
+
+uint64_t statusBytes(const std::string& key) { return bytesIn("/proc/self/status", key); }
+uint64_t machineBytes(const std::string& key) { return bytesIn("/proc/meminfo", key); }
 
 } // namespace
 
@@ -29,5 +32,9 @@ uint64_t peakResidentBytes() {
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
+
+uint64_t availableMemory() { return machineBytes("MemAvailable:"); }
+
+uint64_t totalMemory() { return machineBytes("MemTotal:"); }
 
 } // namespace quasilux

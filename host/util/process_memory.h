@@ -1,4 +1,4 @@
-// Memory of this process, as the operating system counts it.
+// Memory of this process and of the machine, as the operating system counts it.
 #pragma once
 
 #include <cstdint>
@@ -10,5 +10,9 @@ uint64_t residentBytes();
 
 /// The most that ever were.
 uint64_t peakResidentBytes();
+
+/// Of the machine: what there is for further programs, and all; 0 where the system does not report it.
+uint64_t availableMemory();
+uint64_t totalMemory();
 
 } // namespace quasilux
