@@ -57,6 +57,8 @@ public:
     /// No launch of a kernel is to last longer than so many seconds.
     double longestLaunch() const { return longestLaunch_; }
     void setLongestLaunch(double seconds) { longestLaunch_ = seconds; }
+    /// Work is from now on divided as for a GPU, for tests on machines without one.
+    void divideAsForGpu() { info_.isCpu = false; }
 
     /// Throws InputError that names `label` and by how much what is in use would exceed the limit, DeviceError if the
     /// device refuses.
