@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <mutex>
 #include <utility>
 #ifdef __linux__
 #include <sys/mman.h>
@@ -14,7 +15,13 @@ namespace quasilux {
 
 namespace {
 
+// Intel's compiler for CPUs runs several work-items in the lanes of a vector, which these kernels, written in vectors, do not gain from, and
+// some it makes wrong or crashes over (docs/notes/devices.md). It reads this when it is loaded; what the user has set stays.
+void turnOffIntelVectorizer() { setenv("CL_CONFIG_CPU_VECTORIZER_MODE", "1", 0); }
+
 std::vector<cl::Device> allDevices() {
+    static std::once_flag once;
+    std::call_once(once, turnOffIntelVectorizer);
     std::vector<cl::Platform> platforms;
     // Without any ICD the loader reports an error instead of an empty list: both mean "no device".
     try {
