@@ -293,7 +293,7 @@ TEST(Settings, ComeFromTheSceneOverDefaults) {
     EXPECT_EQ(settings.direct, DirectLight::photons);
     EXPECT_EQ(settings.map, MapOrder::camera);
     EXPECT_EQ(settings.quasiSpecular, "none");
-    EXPECT_FALSE(settings.quasiSpecularFromCommandLine);
+    EXPECT_FALSE(settings.quasiSpecularOverridesScene);
     EXPECT_EQ(settings.photonsPerPass, 77u);
     EXPECT_EQ(settings.seed, 5u);
     scene.settings.variant = "mane";

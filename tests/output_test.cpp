@@ -306,7 +306,7 @@ TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
                                             "/settings/direct",
                                             "/settings/map",
                                             "/settings/quasiSpecular",
-                                            "/settings/quasiSpecularFromCommandLine",
+                                            "/settings/quasiSpecularOverridesScene",
                                             "/settings/photonsPerPass",
                                             "/settings/seed",
                                             "/settings/radiusScale",

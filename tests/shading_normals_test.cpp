@@ -8,6 +8,7 @@
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -15,6 +16,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::PhotonRule;
 
 /// What makes the normal lean: normals of the mesh, or a normal map; `away` from the screen, to which it is turned over then.
 enum class Lean { vertices, map, mapAway };
@@ -56,7 +59,7 @@ MeanAndError measure(Lean lean, bool atScreen, unsigned bdd, DirectLight direct,
     RenderSettings settings;
     settings.bdd = bdd;
     settings.direct = direct;
-    settings.photonRule = rule;
+    settings.controlOptions += optionOf(rule);
     settings.map = map;
     settings.photonsPerPass = bdd == 0 ? 40'000 : 2000;
     settings.radiusScale = 0.5;

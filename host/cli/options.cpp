@@ -150,7 +150,7 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (seed) result.seed = *seed;
     if (quasiSpecular) {
         result.quasiSpecular = *quasiSpecular;
-        result.quasiSpecularFromCommandLine = true;
+        result.quasiSpecularOverridesScene = true;
     }
     if (radius) result.radius = parseRadiusChoice(*radius);
     if (radiusScale) result.radiusScale = *radiusScale;

@@ -48,7 +48,7 @@ template <typename Visit, typename Settings>
 void visitSettings(Visit& visit, Settings& s) {
     visit("bdd", s.bdd);
     visit("quasiSpecular", s.quasiSpecular);
-    visit("quasiSpecularFromCommandLine", s.quasiSpecularFromCommandLine);
+    visit("quasiSpecularOverridesScene", s.quasiSpecularOverridesScene);
     visit("photonsPerPass", s.photonsPerPass);
     visit("cameraPaths", s.cameraPaths);
     visit("seed", s.seed);

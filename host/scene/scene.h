@@ -366,6 +366,6 @@ Scene loadScene(const std::string& path, const std::vector<std::pair<std::string
                 const LoadChoice& choice = {});
 
 /// Makes the grid of the scene its sensor. Throws InputError where the scene has none.
-void measureGrid(Scene& scene);
+void useGridAsSensor(Scene& scene);
 
 } // namespace quasilux
