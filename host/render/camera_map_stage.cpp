@@ -1,6 +1,7 @@
 #include "render/camera_map_stage.h"
 
 #include "render/meter_sums.h"
+#include "render/photon_stage.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -11,9 +12,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned photonsPerRegion = 256;
 constexpr unsigned pixelsPerRegion = 64;
-constexpr size_t cameraSampleFloats = 6; // SAMPLE_FLOATS of kernels/camera_paths.cl
 
 unsigned divideUp(size_t count, unsigned by) { return static_cast<unsigned>((count + by - 1) / by); }
 
@@ -25,8 +24,8 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
     : device_(device), geometry_(geometry), film_(film), traceCameraPoints_(pass.kernel("traceCameraPoints")),
       addSamples_(pass.kernel("addSamples")), splatPhotons_(pass.kernel("splatPhotons")), index_(device, pass, classes),
       cameraParams_(camera), photonParams_(photons), classes_(classes) {
-    photonParams_.pathsPerRegion = photonsPerRegion;
-    photonParams_.regions = divideUp(photonParams_.paths, photonsPerRegion);
+    photonParams_.pathsPerRegion = PhotonStage::pathsPerRegion;
+    photonParams_.regions = PhotonStage::regionCount(photonParams_.paths);
     photonRegions_ = Buffer<shared::RegionCount>(device, photonParams_.regions, "photon regions");
 
     points_.pixelsPerRegion = pixelsPerRegion;
@@ -40,7 +39,7 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
     const unsigned regions = divideUp(paths, pixelsPerRegion);
     index_.make(paths, regions);
     regions_ = Buffer<shared::PointRegionCount>(device, regions, "camera point regions");
-    samples_ = Buffer<float>(device, cameraSampleFloats * paths, "camera samples");
+    samples_ = Buffer<float>(device, CAMERA_SAMPLE_FLOATS * paths, "camera samples");
     sums_ = Buffer<uint32_t>(device, splatWords(classes) * film.pixels(), "splats");
     sums_.fill(0);
     makeRegions();
