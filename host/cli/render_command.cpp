@@ -1,5 +1,5 @@
 // The stages of a render: check the outputs, load, prepare, render, write, summarise.
-#include "cli/render_command.h"
+#include "cli/commands.h"
 
 #include "cli/interrupt.h"
 #include "cli/render_report.h"

@@ -1,4 +1,4 @@
-#include "cli/report_command.h"
+#include "cli/commands.h"
 
 #include "cli/interrupt.h"
 #include "cli/render_warnings.h"
