@@ -91,12 +91,17 @@ rendersMean() {
         meanIs "$image" "$2" && ! meanIs "$image" "$(awk "BEGIN { print 1.1 * $2 }")"
 }
 
-quick() {
-    local name targets=()
+quickTests() {
+    local name
     for name in tests/*_test.cpp; do
         name=$(basename "$name" .cpp)
-        [[ " ${slowTests[*]} " == *" $name "* ]] || targets+=("$name")
+        [[ " ${slowTests[*]} " == *" $name "* ]] || echo "$name"
     done
+}
+
+quick() {
+    local targets
+    mapfile -t targets < <(quickTests)
     phase "build"
     [[ -f build/release/build.ninja ]] || cmake --preset release
     cmake --build --preset release --target quasilux "${targets[@]}"
@@ -115,9 +120,13 @@ case ${1:-all} in
         quick
         exit
         ;;
+    quick-names)
+        quickTests
+        exit
+        ;;
     all) ;;
     *)
-        echo "test.sh: unknown argument '$1', expected nothing or 'quick'" >&2
+        echo "test.sh: unknown argument '$1', expected nothing, 'quick' or 'quick-names'" >&2
         exit 2
         ;;
 esac
