@@ -38,7 +38,7 @@ TEST(CornellScenes, PhongHasTheGeometryAndLobesOfFigureOne) {
     ASSERT_EQ(scene.shapes.size(), 8u);
     EXPECT_EQ(scene.maxDepth, -1);
     EXPECT_EQ(scene.settings.bdd, 0u);
-    EXPECT_EQ(scene.settings.variant, "main");
+    EXPECT_EQ(scene.settings.variant, Variant::main);
     EXPECT_EQ(scene.sensor.width, 256u);
     EXPECT_EQ(scene.sensor.filter, FILTER_BOX);
     EXPECT_NEAR(scene.sensor.fovX, 39.3077 * degree, 1e-12);
@@ -259,10 +259,10 @@ TEST(Settings, OfTheScene) {
                                    "<?quasilux seed=\"18446744073709551615\"?>")
                                   .settings;
     EXPECT_EQ(all.bdd, 2u);
-    EXPECT_EQ(all.variant, "alternative");
+    EXPECT_EQ(all.variant, Variant::alternative);
     EXPECT_EQ(all.quasiSpecular, "a,b");
-    EXPECT_EQ(all.direct, "photons");
-    EXPECT_EQ(all.map, "camera");
+    EXPECT_EQ(all.direct, DirectLight::photons);
+    EXPECT_EQ(all.map, MapOrder::camera);
     EXPECT_EQ(all.photons, 1000u);
     EXPECT_EQ(all.seed, UINT64_MAX);
 }

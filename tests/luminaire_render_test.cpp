@@ -38,7 +38,7 @@ std::vector<double> luxOf(Scene scene, unsigned passes = 1) {
     const FilmImage image = renderer.develop();
     std::vector<double> lux;
     for (size_t k = 0; k < image.radiance.size() / 3; ++k)
-        lux.push_back(readingOf(image, k, scene.settings.units == "photometric").photometricValue);
+        lux.push_back(readingOf(image, k, scene.settings.units == Units::photometric).photometricValue);
     return lux;
 }
 

@@ -32,7 +32,7 @@ void applyKind(const std::string& method, const std::string& kind, RenderSetting
         settings.quasiSpecular = "none";
         settings.quasiSpecularOverridesScene = true;
     } else if (kind == "main" || kind == "alternative")
-        settings.variant = parseVariant(kind);
+        settings.variant = parseChoice<Variant>(kind);
     else
         refuse(method, kind);
 }

@@ -10,13 +10,6 @@
 
 namespace quasilux {
 
-enum class Variant { main, alternative };     ///< of the law, kernels/law.clh
-enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
-enum class CausticLight { photons, paths };   ///< how E0's caustic part is; see takesCausticsByPaths() in method.h
-enum class RadiusChoice { adaptive, fixed };  ///< density radius by pixel, or one for all
-enum class Emission { guided, plain };        ///< photons begin by what was learned of the scene, or by power alone
-enum class MapOrder { photons, camera };      ///< what is stored and indexed, for the other to find
-
 struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
     Variant variant = Variant::main;
@@ -62,19 +55,5 @@ inline bool mayHaveCameraPaths(bool isMeter, const RenderSettings& settings) {
 
 /// Defaults, then what the scene says. The command line writes over the result.
 RenderSettings settingsFromScene(const Scene& scene);
-
-const char* name(Variant variant);
-const char* name(DirectLight direct);
-const char* name(CausticLight caustics);
-const char* name(MapOrder map);
-const char* name(Emission emission);
-const char* name(RadiusChoice radius);
-/// Throw InputError that lists the known names.
-Variant parseVariant(const std::string& text);
-DirectLight parseDirect(const std::string& text);
-CausticLight parseCaustics(const std::string& text);
-MapOrder parseMapOrder(const std::string& text);
-Emission parseEmission(const std::string& text);
-RadiusChoice parseRadiusChoice(const std::string& text);
 
 } // namespace quasilux

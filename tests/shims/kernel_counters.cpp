@@ -14,7 +14,8 @@ constexpr size_t address = 0x100000000000, size = 1 << 16;
 bool mapCounters() {
     const int file = open(QUASILUX_KERNEL_COUNTERS, O_RDWR);
     void* const wanted = reinterpret_cast<void*>(address);
-    const bool done = file >= 0 && mmap(wanted, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED_NOREPLACE, file, 0) == wanted;
+    const bool done =
+        file >= 0 && mmap(wanted, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED_NOREPLACE, file, 0) == wanted;
     if (file >= 0) close(file);
     if (done) return true;
     std::perror("counters of kernels: " QUASILUX_KERNEL_COUNTERS);
