@@ -1,6 +1,6 @@
 #include "view/edits.h"
 
-#include "prepare/box.h"
+#include "scene/box.h"
 #include "scene/color.h"
 
 #include <algorithm>
