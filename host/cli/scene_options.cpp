@@ -12,7 +12,7 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
                     "Backward diffuse depth: genuine diffuse scatterings that a camera path follows before it takes "
                     "its light from the photon map, a count (default: the scene's, else 0)")
         ->type_name("N")
-        ->transform(wholeNumber(0, mostBdd))
+        ->transform(wholeNumber(0, bddLimit))
         ->group(group);
     command
         .add_option("--variant", options.variant,
@@ -65,7 +65,7 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         .add_option("--photons", options.photons,
                     "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)")
         ->type_name("N")
-        ->transform(wholeNumber(1, mostPhotons))
+        ->transform(wholeNumber(1, photonsLimit))
         ->group(group);
     command
         .add_option(
@@ -73,7 +73,7 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
             "Camera paths of a pixel in each pass, which share its photons, a count (default: the scene's, else "
             "searched, else 1)")
         ->type_name("N")
-        ->transform(wholeNumber(1, mostCameraPaths))
+        ->transform(wholeNumber(1, cameraPathsLimit))
         ->group(group);
     command
         .add_option("--seed", options.seed,

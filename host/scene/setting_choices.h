@@ -84,6 +84,6 @@ Choice parseChoice(const std::string& text) {
                      expectedNames(text, names));
 }
 
-constexpr unsigned mostBdd = 1000, mostPhotons = 1000000000, mostCameraPaths = 1024;
+constexpr unsigned bddLimit = 1000, photonsLimit = 1000000000, cameraPathsLimit = 1024;
 
 } // namespace quasilux

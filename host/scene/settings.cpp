@@ -39,7 +39,7 @@ std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& whe
 
 void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& settings) {
     if (entry.name == "bdd")
-        settings.bdd = static_cast<unsigned>(parseUnsigned(entry.value, 0, mostBdd, where, "bdd"));
+        settings.bdd = static_cast<unsigned>(parseUnsigned(entry.value, 0, bddLimit, where, "bdd"));
     else if (entry.name == "variant")
         settings.variant = choiceOf<Variant>(entry, where);
     else if (entry.name == "quasi-specular")
@@ -53,10 +53,10 @@ void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& s
     else if (entry.name == "units")
         settings.units = choiceOf<Units>(entry, where);
     else if (entry.name == "photons")
-        settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, mostPhotons, where, "photons"));
+        settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, photonsLimit, where, "photons"));
     else if (entry.name == "camera-paths")
         settings.cameraPaths =
-            static_cast<unsigned>(parseUnsigned(entry.value, 1, mostCameraPaths, where, "camera-paths"));
+            static_cast<unsigned>(parseUnsigned(entry.value, 1, cameraPathsLimit, where, "camera-paths"));
     else if (entry.name == "seed")
         settings.seed = parseUnsigned(entry.value, 0, std::numeric_limits<uint64_t>::max(), where, "seed");
     else

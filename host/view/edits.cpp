@@ -68,9 +68,9 @@ ViewEdits parseEdits(const nlohmann::json& json) {
     if (json.contains("camera")) edits.camera = parseMove(json["camera"]);
     if (json.contains("lamps")) edits.lamps = parseLamps(json["lamps"]);
     if (json.contains("bdd") && !json["bdd"].is_null()) {
-        if (!json["bdd"].is_number_unsigned() || json["bdd"].get<uint64_t>() > mostBdd)
+        if (!json["bdd"].is_number_unsigned() || json["bdd"].get<uint64_t>() > bddLimit)
             throw InputError("bdd is " + json["bdd"].dump() + ", expected a whole number from 0 to " +
-                             std::to_string(mostBdd));
+                             std::to_string(bddLimit));
         edits.bdd = json["bdd"].get<unsigned>();
     }
     edits.variant = text(json, "variant");
