@@ -15,6 +15,8 @@ using test::LdtText;
 using test::luminaireOf;
 using testing::HasSubstr;
 
+Goniogram read(const std::string& path, size_t lampSet = 1) { return readGoniogram(path, {}, lampSet); }
+
 std::string errorOf(const std::string& name, const std::string& text, size_t lampSet = 1) {
     try {
         luminaireOf(text, name, lampSet);

@@ -170,14 +170,6 @@ double secondsOf(const cl::Event& event) {
                                       event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
 }
 
-cl::Program Device::build(const std::string& source, const std::string& options) {
-    const std::pair key{source, options};
-    if (const auto known = built_.find(key); known != built_.end()) return known->second;
-    cl::Program program(context_, source);
-    program.build(options.c_str());
-    return built_.emplace(key, std::move(program)).first->second;
-}
-
 void Device::run(const std::function<void()>& command) {
     try {
         command();

@@ -10,7 +10,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace quasilux {
@@ -73,9 +72,6 @@ public:
     const std::map<std::string, KernelTiming>& timings();
     /// Takes timings() back to what they were.
     void resetTimings(std::map<std::string, KernelTiming> earlier);
-    /// The program of this text by these options, built the first time that it is asked for. Throws cl::Error, cl::BuildError.
-    cl::Program build(const std::string& source, const std::string& options);
-
     /// Runs `command`, which uses OpenCL's queue; throws DeviceError with the device's name where it fails.
     void run(const std::function<void()>& command);
 
@@ -94,7 +90,6 @@ private:
     std::map<std::string, uint64_t>* notes_ = nullptr; ///< AllocationNotes
     std::vector<std::pair<std::string, cl::Event>> pending_;
     std::map<std::string, KernelTiming> timings_;
-    std::map<std::pair<std::string, std::string>, cl::Program> built_; ///< by source and options
 };
 
 /// While it lives, buffers that are allocated are noted in `sizes`, bytes by label (a label used twice holds the later size). Several

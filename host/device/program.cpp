@@ -115,8 +115,9 @@ Program::Program(Device& device, const std::string& file, const std::string& opt
     const std::string linkage = device.info().isCpu ? "" : "#define inline static inline\n";
     const std::string source = linkage + joinKernelSource(file, extra);
     try {
+        program_ = cl::Program(device.context(), source);
         // Fast-math stays off: it would let the compiler assume that there is no NaN or infinity.
-        program_ = device.build(source, "-cl-std=CL1.2 " + options);
+        program_.build(("-cl-std=CL1.2 " + options).c_str());
     } catch (const cl::BuildError& error) {
         std::string log;
         for (const auto& [builtFor, text] : error.getBuildLog()) log += text;
