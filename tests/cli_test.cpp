@@ -190,11 +190,11 @@ TEST_F(CommandLineTest, SensorsAreRenderedByNumberOrAll) {
     expectRefused({"info", "two.xml", "--sensor", "all"}, "no sensor 'all'");
 }
 
-/// How far a render gets in 5 s depends on the machine; that it ends soon, by exit, with a whole file or none, does
+/// How far a render gets in 3 s depends on the machine; that it ends soon, by exit, with a whole file or none, does
 /// not.
 TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
     const auto start = std::chrono::steady_clock::now();
-    const Outcome outcome = run({"render", "scene.xml", "-o", "a.exr", "--time", "500", "--json"}, 5);
+    const Outcome outcome = run({"render", "scene.xml", "-o", "a.exr", "--time", "500", "--json"}, 3);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(250));
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
@@ -213,7 +213,7 @@ TEST_F(CommandLineTest, CtrlCEndsARenderAndKeepsWhatIsThere) {
 TEST_F(CommandLineTest, OtherSignalsEndItWithTheirCode) {
     for (const int signal : {SIGTERM, SIGHUP}) {
         const Outcome outcome =
-            run({"render", "scene.xml", "-o", "a.exr", "--time", "500", "--fixed", "--json"}, 8, signal);
+            run({"render", "scene.xml", "-o", "a.exr", "--time", "500", "--fixed", "--json"}, 3, signal);
         EXPECT_EQ(outcome.exitCode, 128 + signal) << outcome.errors;
         const bool isWritten = fs::exists(folder / "a.exr");
         EXPECT_EQ(isWritten, !outcome.output.empty());

@@ -63,8 +63,10 @@ MeanAndError measure(Lean lean, bool atScreen, unsigned bdd, DirectLight direct,
     settings.map = map;
     settings.photonsPerPass = bdd == 0 ? 40'000 : 2000;
     settings.radiusScale = 0.5;
-    const unsigned passes =
-        (bdd == 0 ? 8 : 300) * (lean == Lean::mapAway && atScreen ? 8 : 1); // little light comes back then
+    // Little light comes back from there: eight times as many passes of photons, or camera paths.
+    const unsigned more = lean == Lean::mapAway && atScreen ? 8 : 1;
+    settings.cameraPaths = bdd == 0 ? 1 : more;
+    const unsigned passes = bdd == 0 ? 8 * more : 300;
     return renderGroups(reflectorScene(atScreen, lean), settings, std::vector<int>(64, 0), 10, passes).front();
 }
 
