@@ -281,8 +281,7 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
 #endif
 }
 #else
-/* Light that needs no photons is of these components only. */
-#define SAMPLE_FLOATS 6
+/* A sample that waits for its splats is light that needs no photons: direct light and emission. */
 
 /* One work-item: the pixels of one region. */
 __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
@@ -310,8 +309,8 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
             ++own.count.cutPaths;
             own.count.cutThroughput += cut;
         }
-        vstore3(components[LIGHT_DIRECT], 0, samples + (size_t)index * SAMPLE_FLOATS);
-        vstore3(components[FILM_EMISSION], 1, samples + (size_t)index * SAMPLE_FLOATS);
+        vstore3(components[LIGHT_DIRECT], 0, samples + (size_t)index * CAMERA_SAMPLE_FLOATS);
+        vstore3(components[FILM_EMISSION], 1, samples + (size_t)index * CAMERA_SAMPLE_FLOATS);
     }
     counts[region] = own.count;
 }
@@ -325,8 +324,8 @@ __kernel void addSamples(__global const float* samples, __global uint* sums, __g
     float3 components[FILM_SAMPLES];
     for (uint c = 0; c < LIGHT_CLASSES; ++c)
         components[c] = SPLAT_CLASSES >> c & 1 ? takeSplats(sums, pixel, c) / quantaPerRadiance : (float3)(0);
-    components[LIGHT_DIRECT] += sumOfPaths(samples, SAMPLE_FLOATS, pixel, samplesPerPixel, 0);
-    components[FILM_EMISSION] = sumOfPaths(samples, SAMPLE_FLOATS, pixel, samplesPerPixel, 1);
+    components[LIGHT_DIRECT] += sumOfPaths(samples, CAMERA_SAMPLE_FLOATS, pixel, samplesPerPixel, 0);
+    components[FILM_EMISSION] = sumOfPaths(samples, CAMERA_SAMPLE_FLOATS, pixel, samplesPerPixel, 1);
     for (uint c = 0; c < FILM_SAMPLES; ++c) components[c] *= scale;
     addFiniteSample(film, layout, counters, pixel, components, batchWeight);
 }

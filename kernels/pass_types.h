@@ -59,6 +59,11 @@ typedef struct {
 /* One work-item traces the paths of one region and stores into blocks of PHOTON_BLOCK photons, which it takes one after the
  * other (kernels/photon_store.clh). */
 #define PHOTON_BLOCK 16u
+/* Words of a sorted photon, one more where the scene limits the path's depth; of a sorted camera point; and floats of a camera path's sample that
+ * waits for its splats (photon_grid.clh, camera_paths.cl). */
+#define PHOTON_FIELDS_WITHOUT_DEPTH 6
+#define POINT_FIELDS 5
+#define CAMERA_SAMPLE_FLOATS 6
 typedef struct {
     unsigned int stored;                /* photons kept */
     unsigned int wanted;                /* photons that it would have kept with room for all */

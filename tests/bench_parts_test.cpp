@@ -1,6 +1,6 @@
 // The parts of `quasilux bench` besides error over time: what they make of costs, and the command from outside.
 // No time is judged.
-#include "bench/energy.h"
+#include "bench/device_energy.h"
 #include "bench/parts/device_comparison.h"
 #include "bench/parts/growth.h"
 #include "bench/parts/growth_scene.h"

@@ -59,7 +59,7 @@ TEST(BenchMethods, OverrideWhatTheSceneSays) {
     RenderSettings settings;
     parseBenchMethod("standard:2:photons").apply(settings);
     EXPECT_EQ(settings.quasiSpecular, "none");
-    EXPECT_TRUE(settings.quasiSpecularFromCommandLine);
+    EXPECT_TRUE(settings.quasiSpecularOverridesScene);
     EXPECT_EQ(settings.bdd, 2u);
     EXPECT_EQ(settings.direct, DirectLight::photons);
     settings = {};

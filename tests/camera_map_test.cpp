@@ -6,6 +6,7 @@
 #include "support/scene_files.h"
 
 #include "device/device.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <cstring>
@@ -15,6 +16,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::LawRule;
 
 constexpr unsigned passes = 2;
 
@@ -47,7 +50,7 @@ RenderSettings settingsOf(unsigned bdd, Variant variant, const std::string& quas
     settings.bdd = bdd;
     settings.variant = variant;
     settings.quasiSpecular = quasiSpecular;
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.direct = direct;
     settings.photonsPerPass = 20'000;
     return settings;
@@ -170,7 +173,7 @@ TEST(MapOrdersDiffer, UnderAWrongLaw) {
     for (const auto& scene : {cornell(), thinSlab()}) {
         const auto settings = settingsOf(1, mainVariant, "level:0.1", DirectLight::emitters);
         auto wrong = settings;
-        wrong.lawRule = LawRule::diffuseAtEveryHit;
+        wrong.controlOptions += optionOf(LawRule::diffuseAtEveryHit);
         EXPECT_GT(difference(render(scene, settings, MapOrder::photons).image.radiance,
                              render(scene, wrong, MapOrder::camera).image.radiance),
                   50 * tolerance);

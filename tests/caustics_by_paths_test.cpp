@@ -23,7 +23,7 @@ constexpr unsigned carried = 1u << LIGHT_CAUSTIC | 1u << LIGHT_QUASI_CAUSTIC | 1
 RenderSettings pathTracing() {
     RenderSettings settings;
     settings.quasiSpecular = "all";
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.variant = Variant::alternative;
     settings.caustics = CausticLight::paths;
     settings.photonsPerPass = 4000;

@@ -6,6 +6,7 @@
 #include "compare/image_file.h"
 #include "output/render_checkpoint.h"
 #include "util/error.h"
+#include "util/stopwatch.h"
 
 #include <cmath>
 #include <csignal>
@@ -55,8 +56,8 @@ protected:
     }
     bool isThere(const std::string& name) const { return fs::exists(folder / name); }
 
-    /// Ends the program after so many milliseconds as no program can know; false where it ended before.
-    bool runAndKill(const Arguments& arguments, unsigned milliseconds) const {
+    /// Ends the program after so many milliseconds as no program can know, of its start or of its first checkpoint; false where it ended before.
+    bool runAndKill(const Arguments& arguments, unsigned milliseconds, bool sinceCheckpoint) const {
         const pid_t child = fork();
         if (child == 0) {
             if (chdir(folder.c_str()) != 0) _exit(120);
@@ -69,6 +70,9 @@ protected:
             execv(argv[0], argv.data());
             _exit(121);
         }
+        const Stopwatch watch;
+        while (sinceCheckpoint && !isThere("a.ckpt") && watch.seconds() < 120)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         kill(child, SIGKILL);
         int status = 0;
@@ -92,14 +96,14 @@ TEST_F(CheckpointCommand, ResumesToTheSameBits) {
     EXPECT_NE(radianceOf("a.exr"), radianceOf("whole.exr")); // control
 }
 
-// kill -9 at random moments, ten times, of a render that writes a checkpoint after each pass.
+// kill -9 at random moments, ten times, of a render that writes a checkpoint after each pass; the first time there is one.
 TEST_F(CheckpointCommand, SurvivesBeingKilled) {
     std::mt19937 random(24);
     unsigned killed = 0;
     for (unsigned k = 0; k < 10; ++k) {
         Arguments arguments = render({"-o", "a.exr", "--passes", "1000000", "--every", "0", "--checkpoint", "a.ckpt"});
         if (isThere("a.ckpt")) arguments.insert(arguments.end(), {"--resume", "a.ckpt"});
-        killed += runAndKill(arguments, std::uniform_int_distribution<unsigned>(300, 2500)(random)) ? 1 : 0;
+        killed += runAndKill(arguments, std::uniform_int_distribution<unsigned>(200, 1200)(random), k == 0) ? 1 : 0;
         if (isThere("a.ckpt")) checkpoint("a.ckpt"); // throws where it is damaged
     }
     EXPECT_EQ(killed, 10u);
@@ -115,7 +119,12 @@ TEST_F(CheckpointCommand, SurvivesBeingKilled) {
 
 // What a scheduler does before it kills: nothing is lost, and the code says that it is not done.
 TEST_F(CheckpointCommand, IsWrittenOnSigterm) {
-    const Outcome outcome = run(render({"-o", "a.exr", "--time", "500", "--checkpoint", "a.ckpt"}), 8, SIGTERM);
+    const auto rendersForASecond = [&, since = std::optional<Stopwatch>()]() mutable {
+        if (!since && isThere("a.ckpt")) since.emplace(); // the first checkpoint is written as rendering begins
+        return since && since->seconds() > 1;
+    };
+    const Outcome outcome =
+        runUntil(render({"-o", "a.exr", "--time", "500", "--checkpoint", "a.ckpt"}), rendersForASecond, SIGTERM);
     ASSERT_EQ(outcome.exitCode, 128 + SIGTERM) << outcome.errors;
     ASSERT_TRUE(isThere("a.ckpt"));
     const auto passes = nlohmann::json::parse(outcome.output).at("passes").get<unsigned>();

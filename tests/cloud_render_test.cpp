@@ -6,6 +6,7 @@
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/vol_files.h"
+#include "support/wrong_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::MediumRule;
 
 constexpr unsigned batches = 20;
 
@@ -70,11 +73,11 @@ void PrintTo(const Method& method, std::ostream* stream) { *stream << method.nam
 MeanAndError render(const Scene& scene, const Method& method) {
     RenderSettings settings;
     settings.quasiSpecular = method.split;
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.variant = method.variant;
     settings.bdd = method.bdd;
     settings.direct = method.direct;
-    settings.mediumRule = method.rule;
+    settings.controlOptions += optionOf(method.rule);
     settings.photonsPerPass = 20000;
     return renderGroups(scene, settings, std::vector<int>(64, 0), batches, method.passes).front();
 }

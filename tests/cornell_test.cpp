@@ -56,7 +56,7 @@ TEST_P(Cornell, AgreesWithTheReferenceRegionByRegion) {
     settings.bdd = method.bdd;
     settings.variant = method.variant;
     settings.quasiSpecular = method.quasiSpecular;
-    settings.quasiSpecularFromCommandLine = settings.quasiSpecular != "auto";
+    settings.quasiSpecularOverridesScene = settings.quasiSpecular != "auto";
     settings.photonsPerPass = method.photons;
     settings.radiusScale = method.radiusScale;
     settings.seed = 200 + method.bdd;

@@ -7,6 +7,7 @@
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <filesystem>
@@ -14,6 +15,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::PhotonRule;
 
 constexpr double balanceBound = 1e-4;
 
@@ -102,7 +105,7 @@ TEST(EnergyBalance, CutPaths) {
 MeanAndError lossByChance(const std::string& file, PhotonRule rule) {
     constexpr unsigned passes = 12;
     auto settings = countingSettings(20'000);
-    settings.photonRule = rule;
+    settings.controlOptions += optionOf(rule);
     Renderer renderer(testDevice(), small(projectScene(file)), settings);
     std::vector<double> shares;
     double before = 0;
@@ -127,7 +130,7 @@ TEST(EnergyBalance, ChanceTakesAsMuchAsItGives) {
 // Negative controls: a term that is not counted; light made of nothing.
 TEST(EnergyBalanceControl, ALostTermIsFound) {
     auto settings = countingSettings(2000);
-    settings.photonRule = PhotonRule::escapeNotCounted;
+    settings.controlOptions += optionOf(PhotonRule::escapeNotCounted);
     const auto counters = countPasses(small(projectScene("plate_checker.xml")), settings);
     EXPECT_GT(std::abs(counters.energy->imbalance()), balanceBound);
 }

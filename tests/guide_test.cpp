@@ -11,6 +11,7 @@
 #include "support/scene_files.h"
 #include "support/stored_photons.h"
 #include "support/wrong_learning.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <functional>
@@ -20,6 +21,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::PhotonRule;
 
 // --- the tree ---
 
@@ -147,7 +150,7 @@ double directFlux(PhotonRule rule, const std::function<Sources(const EmitterTabl
     setLearned(flat, learned);
     RenderSettings settings;
     settings.direct = DirectLight::photons;
-    settings.photonRule = rule;
+    settings.controlOptions += optionOf(rule);
     const MeanAndError result = directShareOfFlux(flat, settings);
     return (result.mean - 1) / result.standardError;
 }
@@ -184,7 +187,7 @@ MeanAndError lightBelowAims(PhotonRule rule, const std::vector<AimSet>& aims) {
     setLearned(flat, learned);
     RenderSettings settings;
     settings.emission = Emission::guided;
-    settings.photonRule = rule;
+    settings.controlOptions += optionOf(rule);
     PhotonTracing tracing;
     tracing.radius = 0.1f;
     std::vector<double> ratio;
@@ -269,7 +272,7 @@ MeanAndError renderRoom(PhotonRule rule) {
     RenderSettings settings;
     settings.emission = Emission::guided;
     settings.photonsPerPass = 16'000;
-    settings.photonRule = rule;
+    settings.controlOptions += optionOf(rule);
     return renderGroups(furnaceRoom(), settings, std::vector<int>(256, 0), 10, 8).front();
 }
 

@@ -174,7 +174,7 @@ TEST(HardCases, NarrowAndWideLobesAreSound) {
             settings.bdd = 1;
             room(ordinary, settings, ball);
             settings.quasiSpecular = "none";
-            settings.quasiSpecularFromCommandLine = true;
+            settings.quasiSpecularOverridesScene = true;
             room(ordinary, settings, ball);
         }
 }
@@ -210,7 +210,7 @@ TEST(HardCases, LosslessMediaInAUniformSky) {
         auto settings = countingSettings(2000);
         settings.quasiSpecular =
             "all"; // no density estimate, whose kernel is wider than a mean free path in the densest
-        settings.quasiSpecularFromCommandLine = true;
+        settings.quasiSpecularOverridesScene = true;
         settings.variant = Variant::alternative;
         const auto result = renderGroups(scene, settings, std::vector<int>(64, 0), 10, 10).front();
         EXPECT_NEAR(result.mean, 1, std::max(bound, 3 * result.standardError)) << c.sigmaT << ' ' << c.g;

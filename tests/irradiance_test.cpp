@@ -8,11 +8,14 @@
 // 0.3 % more are allowed for its radius. Each case must know its reading to 0.35 %, and each must find a light that is
 // 2 % stronger wrong.
 #include "support/meter_readings.h"
+#include "support/wrong_rules.h"
 
 #include <numbers>
 
 namespace quasilux {
 namespace {
+
+using test::LawRule;
 
 constexpr double pi = std::numbers::pi;
 // ---- direct light ---------------------------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ std::string hanging(const std::string& file, const std::string& place, double tu
 
 /// Lux at the points of the scene's grid.
 std::vector<double> luxOf(Scene scene, unsigned passes = 1) {
-    measureGrid(scene);
+    useGridAsSensor(scene);
     RenderSettings settings;
     settings.photonsPerPass = 1000;
     Renderer renderer(testDevice(), scene, settings);
@@ -38,7 +38,7 @@ std::vector<double> luxOf(Scene scene, unsigned passes = 1) {
     const FilmImage image = renderer.develop();
     std::vector<double> lux;
     for (size_t k = 0; k < image.radiance.size() / 3; ++k)
-        lux.push_back(readingOf(image, k, scene.settings.units == "photometric").photometricValue);
+        lux.push_back(readingOf(image, k, scene.settings.units == Units::photometric).photometricValue);
     return lux;
 }
 

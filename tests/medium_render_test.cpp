@@ -6,6 +6,7 @@
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
+#include "support/wrong_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::MediumRule;
 
 constexpr unsigned batches = 20;
 constexpr double glassRadiance = 1.5 * 1.5;
@@ -38,10 +41,10 @@ MeanAndError measure(const Case& c) {
     const Scene scene = projectScene("furnace_medium.xml", c.parameters);
     RenderSettings settings;
     settings.quasiSpecular = c.split;
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.variant = c.variant;
     settings.bdd = c.bdd;
-    settings.mediumRule = c.rule;
+    settings.controlOptions += optionOf(c.rule);
     settings.direct = c.direct;
     settings.photonsPerPass = c.photons;
     const std::vector<int> group(size_t(scene.sensor.width) * scene.sensor.height, 0);
@@ -106,7 +109,7 @@ TEST(MediumRender, LosesNothingOfPathsOfManyCollisions) {
                      {{"border", "glass"}, {"sigma_t", "100,100,100"}, {"phase", "isotropic"}, {"resolution", "4"}});
     RenderSettings settings;
     settings.quasiSpecular = "all"; // camera paths follow every collision
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.photonsPerPass = 3000;
     const auto result = renderGroups(scene, settings, std::vector<int>(16, 0), batches, 3).front();
     EXPECT_NEAR(result.mean, 1, std::max(0.005, 3 * result.standardError));

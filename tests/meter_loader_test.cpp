@@ -93,7 +93,7 @@ TEST(MeterErrors, SayWhatIsWrong) {
 
 TEST(MeterErrors, AGridThatIsMissingIsSaid) {
     Scene scene = test::meterScene(light + plate);
-    EXPECT_THROW(measureGrid(scene), InputError);
+    EXPECT_THROW(useGridAsSensor(scene), InputError);
 }
 
 } // namespace

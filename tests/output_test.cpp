@@ -1,14 +1,13 @@
-// Files that the program writes: EXR layers and header, statistics, and that none is ever half written.
+// Files that the program writes: EXR layers and header, and that none is ever half written.
 #include "output/atomic_file.h"
 #include "output/exr.h"
 #include "output/png.h"
-#include "output/progress_line.h"
 #include "output/statistics.h"
 #include "util/error.h"
 
-#include "support/film_images.h"
 #include "support/folder_files.h"
 #include "support/program_runner.h"
+#include "support/render_records.h"
 
 #include <OpenImageIO/imageio.h>
 #include <cerrno>
@@ -35,52 +34,6 @@ protected:
 
     TemporaryFolder folder;
 };
-
-/// Every value of every layer differs, so that a swapped channel, row or layer shows. More rows than are written at
-/// once.
-FilmImage distinctImage() {
-    FilmImage image = uniformImage(5, 150, 0, 4, 0);
-    auto fill = [n = 0](std::vector<float>& values, size_t count) mutable {
-        values.resize(count);
-        for (auto& value : values) value = 0.125f + static_cast<float>(n++);
-    };
-    const size_t count = image.radiance.size();
-    fill(image.radiance, count);
-    fill(image.components[LIGHT_DIRECT], count);
-    fill(image.components[LIGHT_QUASI_CAUSTIC], count);
-    fill(image.components[FILM_EMISSION], count);
-    fill(image.standardError, count);
-    fill(image.bias, count);
-    fill(image.biasError, count);
-    return image;
-}
-
-RenderRecord exampleRecord() {
-    RenderRecord record;
-    record.scene = "box.xml";
-    record.settings.bdd = 3;
-    record.settings.variant = Variant::alternative;
-    record.settings.direct = DirectLight::photons;
-    record.settings.quasiSpecular = "glass,metal";
-    record.settings.seed = 18446744073709551615u;
-    record.settings.radiusScale = 0.5;
-    record.settings.genericKernels = true;
-    record.device.name = "Test device";
-    record.device.driver = "driver 1.2";
-    record.report.photonsPerPass = 4096;
-    record.report.emitters = {{"lamp", "rectangle", 2.5}};
-    record.report.lobes = {{"floor", "diffuse", "genuine diffuse", "wide"}};
-    record.report.initialRadius["direct"] = 0.25;
-    record.counters.passes = 7;
-    record.counters.renderSeconds = 12.5;
-    record.counters.nonFinite = 2;
-    record.error.hasBias = true;
-    record.error.total = {0.0625, 0.25, 0.125, 0.5, 0.75};
-    record.error.components[LIGHT_DIRECT] = {0.5, 1.5, 2.5, 3.5, 4.5};
-    record.kernels["tracePhotons"] = {7, 3.5};
-    record.peakBufferBytes = 123456789012;
-    return record;
-}
 
 TEST_F(OutputTest, ExrHoldsEveryLayerUnchanged) {
     const FilmImage image = distinctImage();
@@ -292,125 +245,6 @@ TEST_F(OutputTest, OutputPathsAreCheckedWithoutATrace) {
     fs::create_directory(path("b.exr"));
     EXPECT_THAT(message(path("b.exr")), HasSubstr("is a folder"));
     EXPECT_THAT(message("/proc/a.exr"), HasSubstr("cannot write there")); // no user may create files there
-}
-
-TEST_F(OutputTest, StatisticsHoldEveryKeyAndParse) {
-    writeJson(path("a.json"), statisticsJson(exampleRecord(), distinctImage()));
-    const auto json = nlohmann::json::parse(readText(path("a.json")));
-    const std::vector<std::string> pointers{"/version",
-                                            "/scene",
-                                            "/image/width",
-                                            "/image/height",
-                                            "/settings/bdd",
-                                            "/settings/variant",
-                                            "/settings/direct",
-                                            "/settings/map",
-                                            "/settings/quasiSpecular",
-                                            "/settings/quasiSpecularFromCommandLine",
-                                            "/settings/photonsPerPass",
-                                            "/settings/seed",
-                                            "/settings/radiusScale",
-                                            "/settings/kernels",
-                                            "/stop/seconds",
-                                            "/stop/passes",
-                                            "/stop/relativeError",
-                                            "/stop/interrupted",
-                                            "/stop/failure",
-                                            "/device/name",
-                                            "/device/platform",
-                                            "/device/version",
-                                            "/device/driver",
-                                            "/device/computeUnits",
-                                            "/device/globalMemory",
-                                            "/device/maximumAllocation",
-                                            "/device/isCpu",
-                                            "/device/workGroupSize",
-                                            "/sceneReport/triangles",
-                                            "/sceneReport/spheres",
-                                            "/sceneReport/patches",
-                                            "/sceneReport/borderSegments",
-                                            "/sceneReport/features",
-                                            "/sceneReport/emitters/0/id",
-                                            "/sceneReport/emitters/0/type",
-                                            "/sceneReport/emitters/0/power",
-                                            "/sceneReport/lobes/0/bsdf",
-                                            "/sceneReport/lobes/0/lobe",
-                                            "/sceneReport/lobes/0/scattering",
-                                            "/sceneReport/lobes/0/why",
-                                            "/sceneReport/media",
-                                            "/sceneReport/photonClasses",
-                                            "/sceneReport/bufferBytes",
-                                            "/sceneReport/photonsPerPass",
-                                            "/sceneReport/initialRadius",
-                                            "/sceneReport/warnings",
-                                            "/counters/passes",
-                                            "/counters/photonsEmitted",
-                                            "/counters/photonsStored",
-                                            "/counters/cameraPointsStored",
-                                            "/counters/storedPoints",
-                                            "/counters/storedBytes",
-                                            "/counters/overflows",
-                                            "/counters/meterCaustics",
-                                            "/counters/cameraPaths",
-                                            "/counters/nonFinite",
-                                            "/counters/cutPaths",
-                                            "/counters/fluxEmitted",
-                                            "/counters/fluxCut",
-                                            "/counters/throughputCut",
-                                            "/error/relativeError",
-                                            "/error/relativeMse",
-                                            "/error/total/noiseMean",
-                                            "/error/total/noisePercentile95",
-                                            "/error/total/noiseRms",
-                                            "/error/total/biasRms",
-                                            "/error/total/biasNoiseRms",
-                                            "/error/components/direct",
-                                            "/kernels",
-                                            "/phases/load",
-                                            "/phases/prepare",
-                                            "/phases/compile",
-                                            "/phases/firstPass",
-                                            "/phases/render",
-                                            "/phases/write",
-                                            "/peakBufferBytes"};
-    const std::string documentation = readText(QUASILUX_SOURCE_DIR "/docs/reference/command-line.md");
-    for (const auto& pointer : pointers) {
-        EXPECT_TRUE(json.contains(nlohmann::json::json_pointer(pointer))) << pointer;
-        EXPECT_THAT(documentation, HasSubstr("`" + pointer.substr(pointer.rfind('/') + 1) + "`"));
-    }
-    EXPECT_EQ(json["settings"]["seed"], 18446744073709551615u);
-    EXPECT_EQ(json["kernels"]["tracePhotons"]["launches"], 7);
-    EXPECT_EQ(json["kernels"]["tracePhotons"]["seconds"], 3.5);
-    EXPECT_EQ(json["peakBufferBytes"], 123456789012);
-    EXPECT_EQ(json["error"]["relativeError"], 0.5625);
-    EXPECT_EQ(json["error"]["relativeMse"], 0.125 * 0.125 + 0.25);
-    EXPECT_EQ(json["error"]["components"].size(), 1u) << "components without light are left out";
-    EXPECT_EQ(json["error"]["components"]["direct"]["biasNoiseRms"], 4.5);
-    EXPECT_TRUE(json["stop"]["passes"].is_null());
-}
-
-TEST_F(OutputTest, StatisticsSurviveUnknownErrorsAndOddBytes) {
-    RenderRecord record = exampleRecord();
-    record.error.total.noiseMean = INFINITY;
-    record.error.hasBias = false;
-    record.device.name = "bad \xff byte";
-    writeJson(path("a.json"), statisticsJson(record, distinctImage()));
-    const auto json = nlohmann::json::parse(readText(path("a.json")));
-    EXPECT_TRUE(json["error"]["relativeError"].is_null());
-    EXPECT_TRUE(json["error"]["total"]["biasRms"].is_null());
-}
-
-TEST(ProgressText, LeavesOutWhatIsUnknown) {
-    EXPECT_EQ(progressText({.phase = "compiling"}), "compiling");
-    Progress progress{.phase = "rendering", .passes = 12, .seconds = 6};
-    EXPECT_EQ(progressText(progress), "rendering: pass 12");
-    progress.secondsLeft = 83.2;
-    progress.photonsPerSecond = 1.254e6;
-    progress.pathsPerSecond = 310e3;
-    progress.relativeError = 0.02314;
-    EXPECT_EQ(progressText(progress), "rendering: pass 12, 1.25 M photons/s, 310 k paths/s, error 2.31 %, 1:24 left");
-    progress.relativeError = INFINITY;
-    EXPECT_THAT(progressText(progress), testing::Not(HasSubstr("error")));
 }
 
 } // namespace

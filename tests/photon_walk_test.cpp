@@ -21,7 +21,7 @@ namespace {
 StoredPasses trace(const PhotonTracing& tracing) {
     RenderSettings settings;
     settings.quasiSpecular = "level:0.1";
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.bdd = 0;
     FlattenSettings flattening;
     flattening.largestRadius = [](double) { return 5.0; };

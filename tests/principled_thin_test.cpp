@@ -210,7 +210,7 @@ MeanAndError sheetSeen(bool fromBelow, DirectLight direct, const std::string& qu
     RenderSettings settings;
     settings.direct = direct;
     settings.quasiSpecular = quasiSpecular;
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.photonsPerPass = 10000;
     return renderGroups(scene, settings, std::vector<int>(64, 0), 10, 4).front();
 }

@@ -35,7 +35,7 @@ MeanAndError render(const Scene& scene, const Method& method, double radiusScale
     settings.bdd = method.bdd;
     settings.variant = method.variant;
     settings.quasiSpecular = method.quasiSpecular;
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.direct = method.direct;
     settings.genericKernels = method.genericKernels;
     settings.photonsPerPass = 30000;

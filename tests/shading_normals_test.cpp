@@ -8,6 +8,7 @@
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -15,6 +16,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::PhotonRule;
 
 /// What makes the normal lean: normals of the mesh, or a normal map; `away` from the screen, to which it is turned over then.
 enum class Lean { vertices, map, mapAway };
@@ -56,12 +59,14 @@ MeanAndError measure(Lean lean, bool atScreen, unsigned bdd, DirectLight direct,
     RenderSettings settings;
     settings.bdd = bdd;
     settings.direct = direct;
-    settings.photonRule = rule;
+    settings.controlOptions += optionOf(rule);
     settings.map = map;
     settings.photonsPerPass = bdd == 0 ? 40'000 : 2000;
     settings.radiusScale = 0.5;
-    const unsigned passes =
-        (bdd == 0 ? 8 : 300) * (lean == Lean::mapAway && atScreen ? 8 : 1); // little light comes back then
+    // Little light comes back from there: eight times as many passes of photons, or camera paths.
+    const unsigned more = lean == Lean::mapAway && atScreen ? 8 : 1;
+    settings.cameraPaths = bdd == 0 ? 1 : more;
+    const unsigned passes = bdd == 0 ? 8 * more : 300;
     return renderGroups(reflectorScene(atScreen, lean), settings, std::vector<int>(64, 0), 10, passes).front();
 }
 

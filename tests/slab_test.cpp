@@ -7,6 +7,7 @@
 // QUASILUX_SLAB_TABLE=N in the environment runs every slab with every method instead, N passes a batch, and prints a row
 // of figures for each.
 #include "support/slab_cases.h"
+#include "support/wrong_rules.h"
 
 #include <algorithm>
 #include <cctype>
@@ -17,6 +18,9 @@
 
 namespace quasilux {
 namespace {
+
+using test::LawRule;
+using test::MediumRule;
 
 constexpr unsigned batches = 10;
 constexpr double tolerance = 0.005;
@@ -134,8 +138,8 @@ class WrongSlabRender : public testing::TestWithParam<Wrong> {};
 TEST_P(WrongSlabRender, IsNotRight) {
     const Wrong& wrong = GetParam();
     RenderSettings settings = settingsOf(wrong.slab.method);
-    settings.lawRule = wrong.law;
-    settings.mediumRule = wrong.medium;
+    settings.controlOptions += optionOf(wrong.law);
+    settings.controlOptions += optionOf(wrong.medium);
     const auto result = measureSlab(slab(wrong.slab.slab), wrong.slab.side, settings, batches, wrong.slab.passes);
     EXPECT_GT(std::abs(result.mean - truth(wrong.slab)), allowed(wrong.slab, result)) << result.mean << " looks right";
 }

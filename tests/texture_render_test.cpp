@@ -17,7 +17,7 @@ protected:
         RenderSettings settings;
         settings.direct = std::get<0>(GetParam());
         settings.quasiSpecular = std::get<1>(GetParam());
-        settings.quasiSpecularFromCommandLine = settings.quasiSpecular != "auto";
+        settings.quasiSpecularOverridesScene = settings.quasiSpecular != "auto";
         settings.photonsPerPass = 8000;
         settings.bdd = 1;
         return renderGroups(projectScene("furnace_textured.xml", parameters), settings, std::vector<int>(256, 0), 10,

@@ -12,6 +12,7 @@
 #include "support/stored_photons.h"
 #include "support/test_kernels.h"
 #include "support/wrong_learning.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <functional>
@@ -21,10 +22,12 @@
 namespace quasilux {
 namespace {
 
+using test::PhotonRule;
+
 RenderSettings guided(PhotonRule rule, unsigned photons) {
     RenderSettings settings;
     settings.emission = Emission::guided;
-    settings.photonRule = rule;
+    settings.controlOptions += optionOf(rule);
     settings.photonsPerPass = photons;
     return settings;
 }

@@ -1,14 +1,11 @@
 #include "auto/auto_render.h"
 
 #include "util/error.h"
-
-#include <chrono>
+#include "util/stopwatch.h"
 
 namespace quasilux {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 SearchWorld worldOf(Device& device, const Scene& scene, const std::shared_ptr<const LearnedScene>& learned,
                     const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted) {
@@ -17,7 +14,7 @@ SearchWorld worldOf(Device& device, const Scene& scene, const std::shared_ptr<co
         return std::make_unique<RendererPilot>(device, std::make_unique<Renderer>(device, scene, settings, learned),
                                                !scene.media.empty());
     };
-    world.clock = [start = Clock::now()] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    world.clock = [watch = Stopwatch()] { return watch.seconds(); };
     world.onPass = [&onProgress](unsigned passes) {
         Progress progress;
         progress.phase = "pilot passes";

@@ -22,8 +22,8 @@ struct Split {
 };
 
 Split splitOf(const Scene& scene, const RenderSettings& settings) {
-    return {decideSplit(scene, settings.quasiSpecular, settings.quasiSpecularFromCommandLine),
-            decideMediumSplit(scene, settings.quasiSpecular, settings.quasiSpecularFromCommandLine)};
+    return {decideSplit(scene, settings.quasiSpecular, settings.quasiSpecularOverridesScene),
+            decideMediumSplit(scene, settings.quasiSpecular, settings.quasiSpecularOverridesScene)};
 }
 
 template <typename Visit>
@@ -191,7 +191,7 @@ std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& sc
                     method.variant = variant;
                     if (split != start.quasiSpecular) {
                         method.quasiSpecular = split;
-                        method.quasiSpecularFromCommandLine = true;
+                        method.quasiSpecularOverridesScene = true;
                     }
                     add(method);
                 }

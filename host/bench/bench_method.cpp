@@ -30,9 +30,9 @@ void applyKind(const std::string& method, const std::string& kind, RenderSetting
     if (kind == "scene") return;
     if (kind == "standard") {
         settings.quasiSpecular = "none";
-        settings.quasiSpecularFromCommandLine = true;
+        settings.quasiSpecularOverridesScene = true;
     } else if (kind == "main" || kind == "alternative")
-        settings.variant = parseVariant(kind);
+        settings.variant = parseChoice<Variant>(kind);
     else
         refuse(method, kind);
 }
@@ -51,7 +51,7 @@ void applyPart(const std::string& method, const std::string& part, RenderSetting
     else if (part.rfind("level=", 0) == 0 && part.size() > 6) {
         settings.quasiSpecular = "level:" + part.substr(6);
         parsePhaseLevel(settings.quasiSpecular, {}); // refuses what is no number before anything is rendered
-        settings.quasiSpecularFromCommandLine = true;
+        settings.quasiSpecularOverridesScene = true;
     } else
         refuse(method, part);
 }

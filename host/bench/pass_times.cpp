@@ -1,8 +1,8 @@
 #include "bench/pass_times.h"
 
+#include "util/stopwatch.h"
+
 #include <algorithm>
-#include <chrono>
-#include <sys/resource.h>
 
 namespace quasilux {
 
@@ -12,30 +12,19 @@ namespace {
 
 constexpr size_t fewestPasses = 3;
 
-double clockSeconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double processSeconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 } // namespace
 
 TimedRenderer::TimedRenderer(int device, const Scene& scene, const RenderSettings& settings)
     : device_(device), renderer_(device_, scene, settings), energy_(device_.info()) {}
 
 PassTimes TimedRenderer::pass(unsigned number) {
-    const double clockBefore = clockSeconds(), cpuBefore = processSeconds();
+    const Stopwatch watch;
     const auto joulesBefore = energy_.joules();
     renderer_.renderPass(number);
     device_.finish();
     PassTimes times;
-    times.clock = clockSeconds() - clockBefore;
-    times.cpu = processSeconds() - cpuBefore;
+    times.clock = watch.seconds();
+    times.cpu = watch.processorSeconds();
     if (const auto joules = energy_.joules(); joules && joulesBefore) times.joules = *joules - *joulesBefore;
     for (const auto& [kernel, timing] : device_.timings()) {
         double& before = kernelSeconds_[kernel];

@@ -1,7 +1,7 @@
 // A renderer whose passes are timed one by one.
 #pragma once
 
-#include "bench/energy.h"
+#include "bench/device_energy.h"
 #include "device/device.h"
 #include "render/renderer.h"
 

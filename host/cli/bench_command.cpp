@@ -1,5 +1,5 @@
 // Renders every scene by every method on every device, then reports.
-#include "cli/bench_command.h"
+#include "cli/commands.h"
 
 #include "bench/bench_report.h"
 #include "bench/micro/micro_bench.h"

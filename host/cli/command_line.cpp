@@ -1,20 +1,8 @@
 // Parses the command line, runs the command, and turns what it throws into messages and exit codes.
 #include "cli/command_line.h"
 
-#include "cli/bench_command.h"
-#include "cli/compare_command.h"
-#include "cli/devices_command.h"
-#include "cli/dgp_command.h"
-#include "cli/doctor_command.h"
-#include "cli/false_colour_command.h"
-#include "cli/info_command.h"
-#include "cli/manual_command.h"
-#include "cli/merge_command.h"
+#include "cli/commands.h"
 #include "cli/options.h"
-#include "cli/photometry_command.h"
-#include "cli/render_command.h"
-#include "cli/report_command.h"
-#include "cli/view_command.h"
 #include "util/error.h"
 #include "util/nearest.h"
 

@@ -1,5 +1,5 @@
 // The stages of a comparison: read, measure, judge, report.
-#include "cli/compare_command.h"
+#include "cli/commands.h"
 
 #include "cli/text_table.h"
 #include "compare/comparison_json.h"

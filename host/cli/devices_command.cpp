@@ -1,5 +1,5 @@
 // Prints the devices as a table or as JSON.
-#include "cli/devices_command.h"
+#include "cli/commands.h"
 
 #include "cli/text_table.h"
 #include "device/device.h"

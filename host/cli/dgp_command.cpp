@@ -1,4 +1,4 @@
-#include "cli/dgp_command.h"
+#include "cli/commands.h"
 
 #include "cli/text_table.h"
 #include "photometry/daylight_glare.h"

@@ -1,5 +1,5 @@
 // Prints what is found as lines or as JSON.
-#include "cli/doctor_command.h"
+#include "cli/commands.h"
 
 #include "cli/doctor_checks.h"
 

@@ -1,4 +1,4 @@
-#include "cli/false_colour_command.h"
+#include "cli/commands.h"
 
 #include "cli/drawing_file.h"
 #include "photometry/isolux.h"

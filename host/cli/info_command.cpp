@@ -1,5 +1,5 @@
 // Prints the scene report as text or as JSON.
-#include "cli/info_command.h"
+#include "cli/commands.h"
 
 #include "auto/candidates.h"
 #include "cli/interrupt.h"

@@ -1,4 +1,4 @@
-#include "cli/manual_command.h"
+#include "cli/commands.h"
 
 #include "cli/manual_pages.h"
 #include "cli/option_list.h"

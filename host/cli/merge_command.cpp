@@ -1,4 +1,4 @@
-#include "cli/merge_command.h"
+#include "cli/commands.h"
 
 #include "cli/interrupt.h"
 #include "output/exr.h"

@@ -135,11 +135,11 @@ std::vector<std::pair<std::string, std::string>> SceneOptions::parameters() cons
 RenderSettings SceneOptions::settings(const Scene& loaded) const {
     RenderSettings result = settingsFromScene(loaded);
     if (bdd) result.bdd = *bdd;
-    if (variant) result.variant = parseVariant(*variant);
-    if (direct) result.direct = parseDirect(*direct);
-    if (caustics) result.caustics = parseCaustics(*caustics);
-    if (map) result.map = parseMapOrder(*map);
-    if (emission) result.emission = parseEmission(*emission);
+    if (variant) result.variant = parseChoice<Variant>(*variant);
+    if (direct) result.direct = parseChoice<DirectLight>(*direct);
+    if (caustics) result.caustics = parseChoice<CausticLight>(*caustics);
+    if (map) result.map = parseChoice<MapOrder>(*map);
+    if (emission) result.emission = parseChoice<Emission>(*emission);
     if (photons) result.photonsPerPass = *photons;
     if (cameraPaths) result.cameraPaths = *cameraPaths;
     if (result.cameraPaths > 1 && !mayHaveCameraPaths(loaded.sensor.meter != MeterKind::none, result))
@@ -150,9 +150,9 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (seed) result.seed = *seed;
     if (quasiSpecular) {
         result.quasiSpecular = *quasiSpecular;
-        result.quasiSpecularFromCommandLine = true;
+        result.quasiSpecularOverridesScene = true;
     }
-    if (radius) result.radius = parseRadiusChoice(*radius);
+    if (radius) result.radius = parseChoice<RadiusChoice>(*radius);
     if (radiusScale) result.radiusScale = *radiusScale;
     result.energyBalance = energyBalance;
     result.genericKernels = kernels == "generic";

@@ -1,4 +1,4 @@
-#include "cli/photometry_command.h"
+#include "cli/commands.h"
 
 #include "cli/text_table.h"
 #include "output/atomic_file.h"

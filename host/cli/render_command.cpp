@@ -1,5 +1,5 @@
 // The stages of a render: check the outputs, load, prepare, render, write, summarise.
-#include "cli/render_command.h"
+#include "cli/commands.h"
 
 #include "cli/interrupt.h"
 #include "cli/render_report.h"
@@ -13,9 +13,9 @@
 #include "output/progress_line.h"
 #include "output/statistics.h"
 #include "util/error.h"
+#include "util/stopwatch.h"
 #include "view/live_view.h"
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -23,10 +23,6 @@
 namespace quasilux {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct WrittenFiles {
     std::vector<std::string> paths;
@@ -48,7 +44,7 @@ void warn(const RenderOptions& options, const std::vector<std::string>& messages
 
 WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
                         const std::vector<AovImage>& aovs, RenderRecord& record) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     WrittenFiles written;
     if (const std::string path = options.outputPath(); !path.empty()) {
         writeExr(path, image, record, aovs);
@@ -65,7 +61,7 @@ WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const 
         writePng(options.png, image, *written.curve, record);
         written.paths.push_back(options.png);
     }
-    record.writeSeconds = secondsSince(start);
+    record.writeSeconds = watch.seconds();
     if (!options.stats.empty()) {
         writeJson(options.stats, statisticsJson(record, image));
         written.paths.push_back(options.stats);
@@ -130,10 +126,10 @@ int renderSensor(const RenderOptions& options) {
     checkOutputs(options);
     ProgressLine progress(stderr, !options.quiet);
     progress.update({.phase = "loading"});
-    const auto start = Clock::now();
+    const Stopwatch watch;
     Scene scene = loadScene(options.scene, options.parameters(), options.choice());
-    if (!options.grid.empty()) measureGrid(scene);
-    const double loadSeconds = secondsSince(start);
+    if (!options.grid.empty()) useGridAsSensor(scene);
+    const double loadSeconds = watch.seconds();
     progress.clear();
     warn(options, scene.warnings);
     std::vector<std::string> ofSky;

@@ -1,4 +1,4 @@
-#include "cli/report_command.h"
+#include "cli/commands.h"
 
 #include "cli/interrupt.h"
 #include "cli/render_warnings.h"
@@ -8,17 +8,15 @@
 #include "output/progress_line.h"
 #include "report/figure_text.h"
 #include "report/report_page.h"
+#include "util/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Shares of the time that is left when their turn comes; what a part does not need the next ones have.
 constexpr double directShare = 0.25, observerShare = 1, gridShare = 3, pictureShare = 2;
@@ -33,7 +31,7 @@ constexpr double nextLook = 1.1;
 class ReportMaker {
 public:
     explicit ReportMaker(const ReportOptions& options)
-        : options_(options), start_(Clock::now()), progress_(stderr, !options.quiet),
+        : options_(options), progress_(stderr, !options.quiet),
           scene_(loadScene(options.scene, options.parameters(), options.choice())),
           device_(options.device, options.workGroupSize, options.deviceMemory),
           photometric_(options.settings(scene_).photometric) {}
@@ -63,7 +61,7 @@ public:
 private:
     using Enough = std::function<bool(const Renderer&)>;
 
-    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double seconds() const { return watch_.seconds(); }
     static bool isInterrupted() { return interruptFlag(); }
 
     void warn(const std::string& message) {
@@ -140,7 +138,7 @@ private:
 
     void measureOwnGrid() {
         Scene scene = scene_;
-        measureGrid(scene);
+        useGridAsSensor(scene);
         const IlluminanceGrid& grid = *scene.grid;
         BatchedReadings readings(photometric_);
         GridPart part;
@@ -204,7 +202,7 @@ private:
     }
 
     const ReportOptions& options_;
-    Clock::time_point start_;
+    Stopwatch watch_;
     ProgressLine progress_;
     Scene scene_;
     Device device_;

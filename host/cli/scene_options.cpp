@@ -5,12 +5,6 @@
 
 namespace quasilux {
 
-namespace {
-
-constexpr uint64_t maximumCount = 1000000000;
-
-} // namespace
-
 void declareSettings(CLI::App& command, SceneOptions& options) {
     const char* group = "Method (overrides the scene's settings)";
     command
@@ -18,14 +12,14 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
                     "Backward diffuse depth: genuine diffuse scatterings that a camera path follows before it takes "
                     "its light from the photon map, a count (default: the scene's, else 0)")
         ->type_name("N")
-        ->transform(wholeNumber(0, 1000))
+        ->transform(wholeNumber(0, bddLimit))
         ->group(group);
     command
         .add_option("--variant", options.variant,
                     "Variant of the method: main or alternative (default: the scene's, else main; of irradiance meters "
                     "alternative)")
         ->type_name("NAME")
-        ->check(oneOf({"main", "alternative"}))
+        ->check(oneOf(choiceNames<Variant>()))
         ->group(group);
     command
         .add_option(
@@ -41,7 +35,7 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
                     "Direct light from samples of the emitters or from the photon map: emitters or photons (default: "
                     "the scene's, else emitters)")
         ->type_name("NAME")
-        ->check(oneOf({"emitters", "photons"}))
+        ->check(oneOf(choiceNames<DirectLight>()))
         ->group(group);
     command
         .add_option("--caustics", options.caustics,
@@ -51,27 +45,27 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
                     "(default: the scene's, "
                     "else searched, else photons)")
         ->type_name("NAME")
-        ->check(oneOf({"photons", "paths"}))
+        ->check(oneOf(choiceNames<CausticLight>()))
         ->group(group);
     command
         .add_option("--map", options.map,
                     "What is stored and indexed in each pass: photons, found by camera paths, or camera (points of "
                     "camera paths, found by photons) (default: the scene's, else photons)")
         ->type_name("NAME")
-        ->check(oneOf({"photons", "camera"}))
+        ->check(oneOf(choiceNames<MapOrder>()))
         ->group(group);
     command
         .add_option("--emission", options.emission,
                     "Where photons begin: guided (where pilots found that they serve the image) or plain (in "
                     "proportion to the emitters' power) (default: guided)")
         ->type_name("NAME")
-        ->check(oneOf({"guided", "plain"}))
+        ->check(oneOf(choiceNames<Emission>()))
         ->group(group);
     command
         .add_option("--photons", options.photons,
                     "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)")
         ->type_name("N")
-        ->transform(wholeNumber(1, maximumCount))
+        ->transform(wholeNumber(1, photonsLimit))
         ->group(group);
     command
         .add_option(
@@ -79,7 +73,7 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
             "Camera paths of a pixel in each pass, which share its photons, a count (default: the scene's, else "
             "searched, else 1)")
         ->type_name("N")
-        ->transform(wholeNumber(1, 1024))
+        ->transform(wholeNumber(1, cameraPathsLimit))
         ->group(group);
     command
         .add_option("--seed", options.seed,
@@ -93,7 +87,7 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
             "Radius of the density estimate: adaptive, chosen for each pixel from its noise and bias, or fixed, "
             "the same for all (default: adaptive)")
         ->type_name("NAME")
-        ->check(oneOf({"adaptive", "fixed"}))
+        ->check(oneOf(choiceNames<RadiusChoice>()))
         ->group(group);
     command
         .add_option("--radius-scale", options.radiusScale,

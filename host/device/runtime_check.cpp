@@ -2,9 +2,9 @@
 
 #include "device/program.h"
 #include "util/error.h"
+#include "util/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
@@ -60,7 +60,7 @@ std::vector<VendorFile> vendorFiles() {
 }
 
 double runSelfTest(int index) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     Device device(index);
     const Program program(device, selfTestFile, "", {{selfTestFile, selfTestSource}});
     Buffer<uint32_t> values(device, selfTestItems, "self-test");
@@ -70,7 +70,7 @@ double runSelfTest(int index) {
         if (squares[i] != i * i)
             throw DeviceError(
                 fmt::format("device {} computes wrongly: the square of {} is {}", device.info().name, i, squares[i]));
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return watch.seconds();
 }
 
 } // namespace quasilux

@@ -48,7 +48,7 @@ template <typename Visit, typename Settings>
 void visitSettings(Visit& visit, Settings& s) {
     visit("bdd", s.bdd);
     visit("quasiSpecular", s.quasiSpecular);
-    visit("quasiSpecularFromCommandLine", s.quasiSpecularFromCommandLine);
+    visit("quasiSpecularOverridesScene", s.quasiSpecularOverridesScene);
     visit("photonsPerPass", s.photonsPerPass);
     visit("cameraPaths", s.cameraPaths);
     visit("seed", s.seed);
@@ -161,12 +161,12 @@ Json toJson(const RenderSettings& settings) {
 void fromJson(const Json& from, RenderSettings& settings) {
     const Reader reader{from};
     visitSettings(reader, settings);
-    settings.variant = parseVariant(from.at("variant"));
-    settings.direct = parseDirect(from.at("direct"));
-    settings.caustics = parseCaustics(from.at("caustics"));
-    settings.map = parseMapOrder(from.at("map"));
-    settings.emission = parseEmission(from.at("emission"));
-    settings.radius = parseRadiusChoice(from.at("radius"));
+    settings.variant = parseChoice<Variant>(from.at("variant"));
+    settings.direct = parseChoice<DirectLight>(from.at("direct"));
+    settings.caustics = parseChoice<CausticLight>(from.at("caustics"));
+    settings.map = parseChoice<MapOrder>(from.at("map"));
+    settings.emission = parseChoice<Emission>(from.at("emission"));
+    settings.radius = parseChoice<RadiusChoice>(from.at("radius"));
 }
 
 Json toJson(const StopRule& stop) {

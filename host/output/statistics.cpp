@@ -141,7 +141,7 @@ json settingsJson(const RenderSettings& settings) {
             {"map", name(settings.map)},
             {"emission", name(settings.emission)},
             {"quasiSpecular", settings.quasiSpecular},
-            {"quasiSpecularFromCommandLine", settings.quasiSpecularFromCommandLine},
+            {"quasiSpecularOverridesScene", settings.quasiSpecularOverridesScene},
             {"photonsPerPass", settings.photonsPerPass},
             {"cameraPaths", settings.cameraPaths},
             {"seed", settings.seed},

@@ -1,7 +1,7 @@
 // Uniform grid over the border segments: count, prefix sum, scatter.
 #include "prepare/borders.h"
 
-#include "prepare/box.h"
+#include "scene/box.h"
 
 #include <algorithm>
 #include <cmath>

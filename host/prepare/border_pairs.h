@@ -1,7 +1,7 @@
 // All pairs of boxes that overlap.
 #pragma once
 
-#include "prepare/box.h"
+#include "scene/box.h"
 
 #include <functional>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "prepare/bounding_sphere.h"
 
-#include "prepare/box.h"
+#include "scene/box.h"
 
 #include <algorithm>
 

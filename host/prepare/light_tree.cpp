@@ -1,7 +1,7 @@
 #include "prepare/light_tree.h"
 
-#include "prepare/box.h"
 #include "prepare/pack.h"
+#include "scene/box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -36,16 +36,12 @@ MediumBody::MediumBody(const ShapeDescription& shape) : shape_(&shape) {
     double sixfold = 0;
     if (shape.sphere) {
         const double radius = shape.sphere->radius;
-        lower_ = glm::dvec3(shape.sphere->center) - radius;
-        upper_ = glm::dvec3(shape.sphere->center) + radius;
+        box_.add(glm::dvec3(shape.sphere->center) - radius);
+        box_.add(glm::dvec3(shape.sphere->center) + radius);
         sixfold = (shape.flipNormals ? -8 : 8) * pi * radius * radius * radius;
     } else {
-        lower_ = upper_ = shape.mesh.positions.empty() ? glm::dvec3(0) : glm::dvec3(shape.mesh.positions[0]);
-        for (const glm::vec3& position : shape.mesh.positions) {
-            lower_ = glm::min(lower_, glm::dvec3(position));
-            upper_ = glm::max(upper_, glm::dvec3(position));
-        }
-        const glm::dvec3 middle = (lower_ + upper_) / 2.0;
+        for (const glm::vec3& position : shape.mesh.positions) box_.add(glm::dvec3(position));
+        const glm::dvec3 middle = box_.center();
         for (const glm::uvec3& triangle : shape.mesh.triangles)
             sixfold += sixfoldVolume(cornersFrom(shape.mesh, triangle, middle));
     }
@@ -61,7 +57,7 @@ double MediumBody::windingNumber(const glm::dvec3& point) const {
 }
 
 bool MediumBody::holds(const glm::dvec3& point) const {
-    if (glm::any(glm::lessThan(point, lower_)) || glm::any(glm::greaterThan(point, upper_))) return false;
+    if (glm::any(glm::lessThan(point, box_.lower)) || glm::any(glm::greaterThan(point, box_.upper))) return false;
     if (shape_->sphere) return glm::distance(point, glm::dvec3(shape_->sphere->center)) < shape_->sphere->radius;
     constexpr double rounding = 1e-6; // a plane, seen from on it, has exactly half
     return std::abs(windingNumber(point)) > 0.5 + rounding;

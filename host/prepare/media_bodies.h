@@ -1,6 +1,7 @@
 // Closed shapes that state media, and which of them holds a point.
 #pragma once
 
+#include "scene/box.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -26,7 +27,7 @@ private:
     double windingNumber(const glm::dvec3& point) const;
 
     const ShapeDescription* shape_;
-    glm::dvec3 lower_, upper_; ///< bounding box
+    Box box_;
     double volume_ = 0;
     unsigned medium_ = MEDIUM_NONE;
 };

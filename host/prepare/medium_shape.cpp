@@ -1,8 +1,8 @@
 #include "prepare/medium_shape.h"
 
 #include "prepare/bounding_sphere.h"
-#include "prepare/box.h"
 #include "prepare/pack.h"
+#include "scene/box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a render came to as NumPy arrays.
+// What a render came to as NumPy arrays (docs/guide/python.md).
 #pragma once
 
 #include "compare/image_file.h"

@@ -11,8 +11,8 @@
 #include "scene/transform.h"
 #include "scene/xml/tags.h"
 #include "util/error.h"
+#include "util/stopwatch.h"
 
-#include <chrono>
 #include <pybind11/stl.h>
 
 namespace py = pybind11;
@@ -21,7 +21,6 @@ namespace quasilux {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Definitions = std::vector<std::pair<std::string, std::string>>;
 
 std::string textOf(const nlohmann::json& json) {
@@ -30,9 +29,9 @@ std::string textOf(const nlohmann::json& json) {
 
 template <typename Load>
 LoadedScene timed(const Load& load) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     auto scene = std::make_shared<const Scene>(load());
-    return {std::move(scene), std::chrono::duration<double>(Clock::now() - start).count()};
+    return {std::move(scene), watch.seconds()};
 }
 
 LoadChoice choiceOf(const std::string& sensor, bool lenient) {

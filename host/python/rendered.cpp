@@ -73,7 +73,7 @@ std::shared_ptr<const Rendered> renderScene(const LoadedScene& loaded, const std
     if (!measuresGrid && !options.daylightFactor)
         return render(options, *loaded.scene, loaded.loadSeconds, std::nullopt, {}, watch);
     Scene measured = *loaded.scene; // the one that was loaded stays as it is
-    if (measuresGrid) measureGrid(measured);
+    if (measuresGrid) useGridAsSensor(measured);
     const auto daylight = skyOfDaylightFactor(options, measured, warnings);
     return render(options, measured, loaded.loadSeconds, daylight, std::move(warnings), watch);
 }

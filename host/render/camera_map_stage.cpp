@@ -10,12 +10,6 @@
 
 namespace quasilux {
 
-namespace {
-
-constexpr size_t cameraSampleFloats = 6; // SAMPLE_FLOATS of kernels/camera_paths.cl
-
-} // namespace
-
 CameraMapStage::CameraMapStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                                shared::CameraParams camera, shared::PhotonParams photons, unsigned classes,
                                double meanRadiance)
@@ -37,7 +31,7 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
     const unsigned regions = regionsOf(paths, points_.pixelsPerRegion);
     index_.make(paths, regions);
     regions_ = Buffer<shared::PointRegionCount>(device, regions, "camera point regions");
-    samples_ = Buffer<float>(device, cameraSampleFloats * paths, "camera samples");
+    samples_ = Buffer<float>(device, CAMERA_SAMPLE_FLOATS * paths, "camera samples");
     sums_ = Buffer<uint32_t>(device, splatWords(classes) * film.pixels(), "splats");
     sums_.fill(0);
     makeRegions();

@@ -35,7 +35,4 @@ struct FilmImage {
 /// Layer name of a component: "direct", "caustic", "quasi_caustic", "diffuse", "emission".
 std::string componentName(unsigned component);
 
-/// The image of both sets of passes together: independent passes merge as sums. Sizes must agree.
-FilmImage mergePasses(const FilmImage& a, const FilmImage& b);
-
 } // namespace quasilux

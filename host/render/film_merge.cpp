@@ -10,7 +10,7 @@ void setValue(float* sum, size_t channel, double value) {
 }
 
 /// One of the films of a pixel; `openWeight`: 1 / passes of the batch that is open, 0 where none is.
-struct Part {
+struct FilmPixel {
     const float* pixel;
     double openWeight;
 
@@ -26,19 +26,19 @@ struct Part {
     }
 };
 
-void mergeSum(float* pixel, const Part& a, const Part& b, size_t at) {
+void mergeSum(float* pixel, const FilmPixel& a, const FilmPixel& b, size_t at) {
     for (size_t channel = 0; channel < 3; ++channel)
         setValue(pixel + at, channel, valueOfSum(a.pixel + at, channel) + valueOfSum(b.pixel + at, channel));
 }
 
-void mergeSquares(float* pixel, const Part& a, const Part& b, size_t at, size_t open) {
+void mergeSquares(float* pixel, const FilmPixel& a, const FilmPixel& b, size_t at, size_t open) {
     for (size_t channel = 0; channel < 3; ++channel) {
         setValue(pixel + at, channel, a.squares(at, open, channel) + b.squares(at, open, channel));
         pixel[open + channel] = 0;
     }
 }
 
-void mergeBias(float* pixel, const Part& a, const Part& b, size_t at) {
+void mergeBias(float* pixel, const FilmPixel& a, const FilmPixel& b, size_t at) {
     const size_t sum = at + FILM_BIAS_SUM, squares = at + FILM_BIAS_SQUARES, open = at + FILM_BIAS_BATCH;
     for (size_t channel = 0; channel < 3; ++channel) {
         pixel[sum + channel] = a.pixel[sum + channel] + b.pixel[sum + channel];
@@ -48,7 +48,7 @@ void mergeBias(float* pixel, const Part& a, const Part& b, size_t at) {
     }
 }
 
-void mergePixel(float* pixel, const Part& a, const Part& b, const FilmLayout& layout) {
+void mergePixel(float* pixel, const FilmPixel& a, const FilmPixel& b, const FilmLayout& layout) {
     mergeSum(pixel, a, b, FILM_TOTAL_SUM);
     mergeSquares(pixel, a, b, FILM_TOTAL_SQUARES, FILM_TOTAL_BATCH);
     if (layout.bias) mergeBias(pixel, a, b, FILM_TOTAL_BIAS);

@@ -168,14 +168,8 @@ std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settin
     if (learns(scene.features, settings)) options += " -DLEARNS";
     if (adaptsRadius(scene.features, settings)) options += " -DADAPTIVE_RADIUS";
     if (sharesSamples(scene.features, settings)) options += " -DSHARES_SAMPLES";
-    if (settings.mediumRule != MediumRule::right)
-        options += fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(settings.mediumRule));
     if (settings.energyBalance) options += " -DENERGY_BALANCE";
-    if (settings.photonRule != PhotonRule::right)
-        options += fmt::format(" -DPHOTON_RULE={}", static_cast<int>(settings.photonRule));
-    if (settings.lawRule != LawRule::right)
-        options += fmt::format(" -DLAW_RULE={}", static_cast<int>(settings.lawRule));
-    return options;
+    return options + settings.controlOptions;
 }
 
 unsigned photonsForPixels(const shared::Camera& camera, unsigned fewest) {

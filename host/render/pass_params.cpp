@@ -28,7 +28,7 @@ DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings) {
     FlattenSettings flattening;
     flattening.quasiSpecular = settings.quasiSpecular;
     flattening.photons = photons;
-    flattening.overridesScene = settings.quasiSpecularFromCommandLine;
+    flattening.overridesScene = settings.quasiSpecularOverridesScene;
     flattening.largestRadius = [&](double area) {
         return firstRadiusByArea(area, settings, photons) *
                (mayAdaptRadius(scene, settings) ? largestAdaptiveRadius : 1);

@@ -9,8 +9,7 @@ namespace quasilux {
 
 namespace {
 
-// PHOTON_FIELDS of kernels/photon_grid.clh.
-constexpr unsigned photonFields(bool storesDepth) { return storesDepth ? 7 : 6; }
+constexpr unsigned photonFields(bool storesDepth) { return PHOTON_FIELDS_WITHOUT_DEPTH + (storesDepth ? 1 : 0); }
 // One array is free, so that the next field has where to go; one says where each photon goes.
 constexpr unsigned arrayCount(bool storesDepth) { return photonFields(storesDepth) + 2; }
 

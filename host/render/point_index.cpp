@@ -6,12 +6,6 @@
 
 namespace quasilux {
 
-namespace {
-
-constexpr size_t pointFields = 5; // POINT_FIELDS of kernels/photon_grid.clh
-
-} // namespace
-
 PointIndex::PointIndex(Device& device, const Program& pass, unsigned slots)
     : device_(device), table_(device, pass, slots, "camera point"), countPoints_(pass.kernel("countPoints")),
       scatterPoints_(pass.kernel("scatterPoints")) {}
@@ -31,7 +25,7 @@ void PointIndex::reserve(uint64_t points) {
                                       points, UINT32_MAX));
     stride = static_cast<unsigned>(wanted);
     sorted_ = Buffer<uint32_t>();
-    sorted_ = Buffer<uint32_t>(device_, pointFields * stride, "camera points sorted");
+    sorted_ = Buffer<uint32_t>(device_, size_t(POINT_FIELDS) * stride, "camera points sorted");
     sorted_.fill(0); // lanes beyond the last record are read, with weight 0: they must be finite
 }
 
@@ -44,6 +38,6 @@ void PointIndex::sort(const Buffer<shared::CameraPoint>& points, const Buffer<sh
     scatterPoints_.launchFew(map.chunks, points, regions, geometry.tables, table_.counts(), sorted_, map);
 }
 
-size_t PointIndex::pointBytes() { return pointFields * sizeof(uint32_t); }
+size_t PointIndex::pointBytes() { return POINT_FIELDS * sizeof(uint32_t); }
 
 } // namespace quasilux

@@ -1,18 +1,15 @@
 // Passes until the stop rule, with progress.
 #include "render/error_estimate.h"
 #include "render/renderer.h"
+#include "util/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace quasilux {
 
 namespace {
 
 constexpr unsigned firstErrorCheck = 4; // passes before the error estimate means anything
-
-using Clock = std::chrono::steady_clock;
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // The film is read back for its error at most this share of the time.
 bool isErrorDue(double sinceLastCheck, double lastCheckCost) {
@@ -47,8 +44,8 @@ struct LastKnown {
 void renderPasses(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
                   const std::atomic<bool>& interrupted, const RenderedBefore& before, const AfterPass& afterPass,
                   LastKnown& known) {
-    const auto start = Clock::now();
-    const auto elapsed = [&] { return before.seconds + secondsSince(start); };
+    const Stopwatch watch;
+    const auto elapsed = [&] { return before.seconds + watch.seconds(); };
     Progress progress;
     progress.phase = "rendering";
     double lastCheck = 0, checkCost = 0;
@@ -84,7 +81,7 @@ RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stopAt,
     if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
     LastKnown known;
     std::exception_ptr failure;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     try {
         renderPasses(renderer, stop, onProgress, interrupted, before, afterPass, known);
     } catch (...) {
@@ -94,7 +91,7 @@ RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stopAt,
     try {
         if (renderer.isFilmWhole()) {
             known.note(renderer);
-            if (afterPass) afterPass(renderer, before.seconds + secondsSince(start), true);
+            if (afterPass) afterPass(renderer, before.seconds + watch.seconds(), true);
         }
     } catch (...) {
         if (!failure) failure = std::current_exception();

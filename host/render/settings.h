@@ -10,48 +10,17 @@
 
 namespace quasilux {
 
-enum class Variant { main, alternative };     ///< of the law, kernels/law.clh
-enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
-enum class CausticLight { photons, paths };   ///< how E0's caustic part is; see takesCausticsByPaths() in method.h
-enum class RadiusChoice { adaptive, fixed };  ///< density radius by pixel, or one for all
-enum class Emission { guided, plain };        ///< photons begin by what was learned of the scene, or by power alone
-enum class MapOrder { photons, camera };      ///< what is stored and indexed, for the other to find
-
-/// The law, or one of its known wrong readings, which tests switch on as negative controls (kernels/law.clh).
-enum class LawRule { right, quasiSpecularUntilFirst, diffuseAtEveryHit, fullAlongChain };
-
-/// The right handling of media, or one of the known mistakes, as negative controls of tests: flux at collisions not divided
-/// by the extinction; refracted radiance not scaled by 1/eta^2; the phase function's g of the wrong sign where photons
-/// are taken; flux in a heterogeneous medium divided by the mean of its extinction.
-enum class MediumRule { right, missingSigmaT, missingEtaSquared, wrongSignOfG, meanSigmaT };
-
-/// The right tracing of photons, or a known mistake, as negative controls of tests: flux that escapes is not counted in the
-/// energy balance; scattering multiplies flux by 1.02; shading normals are taken for the geometry's where photons scatter,
-/// or where they are stored; guided photons do not carry the weight of their leaf, aimed ones not that of their direction; those into
-/// which one is split are worth nearly four times their share.
-enum class PhotonRule {
-    right,
-    escapeNotCounted,
-    scatteringGains,
-    missingAdjoint,
-    missingArrival,
-    missingGuideWeight,
-    missingAimWeight,
-    missingSplitWeight,
-    missingStoreWeight
-};
-
 struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
     Variant variant = Variant::main;
     DirectLight direct = DirectLight::emitters;
     CausticLight caustics = CausticLight::photons;
     MapOrder map = MapOrder::photons;
-    Emission emission = Emission::plain;       ///< settingsFromScene: guided
-    std::string quasiSpecular = "auto";        ///< auto | none | all | ID,ID,…
-    bool quasiSpecularFromCommandLine = false; ///< then it overrides what the bsdfs of the scene say
-    unsigned photonsPerPass = 0;               ///< emitted; 0 = chosen from the image size
-    unsigned cameraPaths = 1;                  ///< of a pixel in each pass; of meters and with the camera map it is 1
+    Emission emission = Emission::plain;      ///< settingsFromScene: guided
+    std::string quasiSpecular = "auto";       ///< auto | none | all | ID,ID,…
+    bool quasiSpecularOverridesScene = false; ///< then it overrides what the bsdfs of the scene say
+    unsigned photonsPerPass = 0;              ///< emitted; 0 = chosen from the image size
+    unsigned cameraPaths = 1;                 ///< of a pixel in each pass; of meters and with the camera map it is 1
     uint64_t seed = 1;
     RadiusChoice radius = RadiusChoice::adaptive;
     double radiusScale = 1.0;    ///< factor on the initial density radius
@@ -63,9 +32,8 @@ struct RenderSettings {
     FilmLayout film;            ///< what it is to keep; see filmLayout() in method.h
     bool energyBalance = false; ///< count what becomes of the photons' flux
     bool countGathered = false; ///< after the image: which photons of one more pass camera paths gather
-    LawRule lawRule = LawRule::right;
-    MediumRule mediumRule = MediumRule::right;
-    PhotonRule photonRule = PhotonRule::right;
+    std::string
+        controlOptions; ///< of tests alone: compiler options that switch on a known mistake (tests/support/wrong_rules.h)
 };
 
 /// Time of a render that no rule ends.
@@ -87,19 +55,5 @@ inline bool mayHaveCameraPaths(bool isMeter, const RenderSettings& settings) {
 
 /// Defaults, then what the scene says. The command line writes over the result.
 RenderSettings settingsFromScene(const Scene& scene);
-
-const char* name(Variant variant);
-const char* name(DirectLight direct);
-const char* name(CausticLight caustics);
-const char* name(MapOrder map);
-const char* name(Emission emission);
-const char* name(RadiusChoice radius);
-/// Throw InputError that lists the known names.
-Variant parseVariant(const std::string& text);
-DirectLight parseDirect(const std::string& text);
-CausticLight parseCaustics(const std::string& text);
-MapOrder parseMapOrder(const std::string& text);
-Emission parseEmission(const std::string& text);
-RadiusChoice parseRadiusChoice(const std::string& text);
 
 } // namespace quasilux

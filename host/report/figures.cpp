@@ -81,7 +81,7 @@ void measureAtEye(Scene& scene, const Observer& observer, EyeLight light) {
     scene.directionalEmitters.clear();
     scene.grid = eyeGrid(observer);
     if (light == EyeLight::direct) scene.maxDepth = segmentsOfDirectLight;
-    measureGrid(scene);
+    useGridAsSensor(scene);
 }
 
 } // namespace quasilux

@@ -1,4 +1,4 @@
-// The figures of norms, each with its error.
+// The figures of norms, each with its error (docs/method/glare.md).
 #pragma once
 
 #include "photometry/glare.h"

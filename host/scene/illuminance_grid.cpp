@@ -68,7 +68,7 @@ IlluminanceGrid parseIlluminanceGrid(const Instruction& instruction) {
     return grid;
 }
 
-void measureGrid(Scene& scene) {
+void useGridAsSensor(Scene& scene) {
     if (!scene.grid)
         throw InputError({scene.path}, "the scene has no illuminance-grid to measure; add <?quasilux illuminance-grid "
                                        "origin=\"x,y,z\" edge-u=\"x,y,z\" edge-v=\"x,y,z\" nx=\"N\" ny=\"N\"?>.");

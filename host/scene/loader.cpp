@@ -166,7 +166,7 @@ size_t chooseSensor(const std::vector<PlacedSensor>& sensors, const std::string&
 void readSensors(const std::vector<PlacedSensor>& sensors, const std::string& wanted, LoadContext& context) {
     context.scene.sensorCount = sensors.size();
     if (sensors.empty() && context.scene.grid && wanted.empty()) {
-        measureGrid(context.scene);
+        useGridAsSensor(context.scene);
         return;
     }
     if (sensors.empty())

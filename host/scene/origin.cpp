@@ -1,9 +1,9 @@
 #include "scene/origin.h"
 
+#include "scene/box.h"
 #include "scene/transform.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace quasilux {
 
@@ -26,17 +26,15 @@ const Element* transformWithin(const Element& sensor) {
 } // namespace
 
 glm::dvec3 chooseOrigin(const Scene& scene) {
-    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-    const auto add = [&](const glm::vec3& position, double radius) {
-        lower = glm::min(lower, glm::dvec3(position) - radius);
-        upper = glm::max(upper, glm::dvec3(position) + radius);
-    };
+    Box box;
     for (const ShapeDescription& shape : scene.shapes) {
-        if (shape.sphere) add(shape.sphere->center, shape.sphere->radius);
-        for (const glm::vec3& position : shape.mesh.positions) add(position, 0);
+        if (shape.sphere)
+            for (const float radius : {-shape.sphere->radius, shape.sphere->radius})
+                box.add(glm::dvec3(shape.sphere->center) + double(radius));
+        for (const glm::vec3& position : shape.mesh.positions) box.add(glm::dvec3(position));
     }
-    const glm::dvec3 center = scene.origin + (lower + upper) / 2.0;
-    const bool isFar = lower.x <= upper.x && largest(center) > farAway * largest(upper - lower);
+    const glm::dvec3 center = scene.origin + box.center();
+    const bool isFar = box.lower.x <= box.upper.x && largest(center) > farAway * largest(box.extent());
     return isFar ? center : glm::dvec3(0);
 }
 

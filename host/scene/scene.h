@@ -3,6 +3,7 @@
 
 #include "bsdf/lobe_list.h"
 #include "scene/goniograms/goniogram.h"
+#include "scene/setting_choices.h"
 #include "shared_types.h"
 #include "util/error.h"
 
@@ -293,15 +294,15 @@ struct Sensor {
 /// quasilux settings of the scene; std::nullopt = not said. Command-line options override them.
 struct SceneSettings {
     std::optional<unsigned> bdd;
-    std::optional<std::string> variant;       ///< "main", "alternative"
+    std::optional<Variant> variant;
     std::optional<std::string> quasiSpecular; ///< "auto", "none", "all", "level:NUMBER", "ID,ID"
-    std::optional<std::string> direct;        ///< "emitters", "photons"
-    std::optional<std::string> caustics;      ///< "photons", "paths"
-    std::optional<std::string> map;           ///< "photons", "camera"
-    std::optional<unsigned> photons;          ///< emitted per pass
-    std::optional<unsigned> cameraPaths;      ///< of a pixel in each pass
+    std::optional<DirectLight> direct;
+    std::optional<CausticLight> caustics;
+    std::optional<MapOrder> map;
+    std::optional<unsigned> photons;     ///< emitted per pass
+    std::optional<unsigned> cameraPaths; ///< of a pixel in each pass
     std::optional<uint64_t> seed;
-    std::optional<std::string> units; ///< of radiance and intensity: "radiometric" (default), "photometric"
+    std::optional<Units> units; ///< radiometric where not said
 };
 
 /// What a layer of integrator 'aov' shows of the surface that a pixel's rays meet first.
@@ -366,6 +367,6 @@ Scene loadScene(const std::string& path, const std::vector<std::pair<std::string
                 const LoadChoice& choice = {});
 
 /// Makes the grid of the scene its sensor. Throws InputError where the scene has none.
-void measureGrid(Scene& scene);
+void useGridAsSensor(Scene& scene);
 
 } // namespace quasilux

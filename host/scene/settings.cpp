@@ -17,11 +17,14 @@ namespace {
 const Names settingNames = {"bdd", "variant", "quasi-specular", "direct", "caustics",
                             "map", "photons", "camera-paths",   "seed",   "units"};
 
-std::string oneOf(const Attribute& entry, const Names& known, const SourceLocation& where) {
-    if (std::find(known.begin(), known.end(), entry.value) == known.end())
-        throw InputError(
-            where, fmt::format("{}: unknown value '{}'.{}", entry.name, entry.value, knownNames(entry.value, known)));
-    return entry.value;
+template <NamedChoice Choice>
+Choice choiceOf(const Attribute& entry, const SourceLocation& where) {
+    const auto& names = ChoiceTable<Choice>::names;
+    const auto found = std::find(names.begin(), names.end(), entry.value);
+    if (found == names.end())
+        throw InputError(where, fmt::format("{}: unknown value '{}'.{}", entry.name, entry.value,
+                                            knownNames(entry.value, Names(names.begin(), names.end()))));
+    return static_cast<Choice>(found - names.begin());
 }
 
 std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& where) {
@@ -35,26 +38,25 @@ std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& whe
 }
 
 void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& settings) {
-    constexpr uint64_t maximumPhotons = 1000000000, maximumCameraPaths = 1024; // as of the options
     if (entry.name == "bdd")
-        settings.bdd = static_cast<unsigned>(parseUnsigned(entry.value, 0, 1000, where, "bdd"));
+        settings.bdd = static_cast<unsigned>(parseUnsigned(entry.value, 0, bddLimit, where, "bdd"));
     else if (entry.name == "variant")
-        settings.variant = oneOf(entry, {"main", "alternative"}, where);
+        settings.variant = choiceOf<Variant>(entry, where);
     else if (entry.name == "quasi-specular")
         settings.quasiSpecular = parseQuasiSpecular(entry, where);
     else if (entry.name == "direct")
-        settings.direct = oneOf(entry, {"emitters", "photons"}, where);
+        settings.direct = choiceOf<DirectLight>(entry, where);
     else if (entry.name == "caustics")
-        settings.caustics = oneOf(entry, {"photons", "paths"}, where);
+        settings.caustics = choiceOf<CausticLight>(entry, where);
     else if (entry.name == "map")
-        settings.map = oneOf(entry, {"photons", "camera"}, where);
+        settings.map = choiceOf<MapOrder>(entry, where);
     else if (entry.name == "units")
-        settings.units = oneOf(entry, {"radiometric", "photometric"}, where);
+        settings.units = choiceOf<Units>(entry, where);
     else if (entry.name == "photons")
-        settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, maximumPhotons, where, "photons"));
+        settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, photonsLimit, where, "photons"));
     else if (entry.name == "camera-paths")
         settings.cameraPaths =
-            static_cast<unsigned>(parseUnsigned(entry.value, 1, maximumCameraPaths, where, "camera-paths"));
+            static_cast<unsigned>(parseUnsigned(entry.value, 1, cameraPathsLimit, where, "camera-paths"));
     else if (entry.name == "seed")
         settings.seed = parseUnsigned(entry.value, 0, std::numeric_limits<uint64_t>::max(), where, "seed");
     else

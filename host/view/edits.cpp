@@ -1,6 +1,6 @@
 #include "view/edits.h"
 
-#include "prepare/box.h"
+#include "scene/box.h"
 #include "scene/color.h"
 
 #include <algorithm>
@@ -68,8 +68,9 @@ ViewEdits parseEdits(const nlohmann::json& json) {
     if (json.contains("camera")) edits.camera = parseMove(json["camera"]);
     if (json.contains("lamps")) edits.lamps = parseLamps(json["lamps"]);
     if (json.contains("bdd") && !json["bdd"].is_null()) {
-        if (!json["bdd"].is_number_unsigned() || json["bdd"].get<uint64_t>() > 1000)
-            throw InputError("bdd is " + json["bdd"].dump() + ", expected a whole number from 0 to 1000");
+        if (!json["bdd"].is_number_unsigned() || json["bdd"].get<uint64_t>() > bddLimit)
+            throw InputError("bdd is " + json["bdd"].dump() + ", expected a whole number from 0 to " +
+                             std::to_string(bddLimit));
         edits.bdd = json["bdd"].get<unsigned>();
     }
     edits.variant = text(json, "variant");
@@ -77,9 +78,9 @@ ViewEdits parseEdits(const nlohmann::json& json) {
     edits.map = text(json, "map");
     edits.quasiSpecular = text(json, "quasiSpecular");
     edits.isDraft = json.value("isDraft", nlohmann::json(false)) == true;
-    if (edits.variant) parseVariant(*edits.variant);
-    if (edits.direct) parseDirect(*edits.direct);
-    if (edits.map) parseMapOrder(*edits.map);
+    if (edits.variant) parseChoice<Variant>(*edits.variant);
+    if (edits.direct) parseChoice<DirectLight>(*edits.direct);
+    if (edits.map) parseChoice<MapOrder>(*edits.map);
     return edits;
 }
 

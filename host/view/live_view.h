@@ -1,4 +1,4 @@
-// A render that is watched by a page in the browser: between the render loop, which calls it after each pass, and the server.
+// A render that is watched by a page in the browser: between the render loop, which calls it after each pass, and the server (docs/guide/live-view.md).
 #pragma once
 
 #include "auto/auto_render.h"

@@ -71,4 +71,11 @@ inline Goniogram luminaireOf(const LdtText& ldt, size_t lampSet = firstLampSet) 
     return luminaireOf(ldt.text(), "lamp.ldt", lampSet);
 }
 
+/// Emitter of that file.
+inline std::string luminaireXml(const std::string& file, const std::string& more = "") {
+    return "<emitter type=\"quasilux_ies\">\n<string name=\"filename\" value=\"" + file + "\"/>" + more + "</emitter>";
+}
+inline const std::string askewPlace =
+    R"(<transform name="to_world"><lookat origin="1,-2,3" target="2,0,4" up="0,0,1"/></transform>)";
+
 } // namespace quasilux::test

@@ -1,6 +1,6 @@
 #include "support/meshes.h"
 
-#include "bench/micro/mesh_builder.h"
+#include "bench/micro/triangles.h"
 
 #include <random>
 

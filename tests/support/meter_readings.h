@@ -4,6 +4,7 @@
 #include "render/renderer.h"
 #include "support/meter_scenes.h"
 #include "support/test_kernels.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ struct Method {
     DirectLight direct = DirectLight::emitters;
     Variant variant = Variant::main;
     MapOrder map = MapOrder::photons;
-    LawRule rule = LawRule::right;
+    test::LawRule rule = test::LawRule::right;
 };
 
 struct Reading {
@@ -32,11 +33,11 @@ inline Reading measure(const Scene& scene, const Method& method, unsigned passes
     RenderSettings settings;
     settings.bdd = method.bdd;
     settings.quasiSpecular = method.quasiSpecular;
-    settings.quasiSpecularFromCommandLine = settings.quasiSpecular != "auto";
+    settings.quasiSpecularOverridesScene = settings.quasiSpecular != "auto";
     settings.direct = method.direct;
     settings.variant = method.variant;
     settings.map = method.map;
-    settings.lawRule = method.rule;
+    settings.controlOptions += optionOf(method.rule);
     settings.photonsPerPass = photons;
     Renderer renderer(testDevice(), scene, settings);
     for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);

@@ -1,5 +1,7 @@
 #include "support/program_runner.h"
 
+#include "util/stopwatch.h"
+
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -43,7 +45,7 @@ CommandLineTest::CommandLineTest() {
 )";
 }
 
-Outcome CommandLineTest::run(std::vector<std::string> arguments, unsigned interruptAfter, int signal) const {
+pid_t CommandLineTest::start(std::vector<std::string> arguments) const {
     const pid_t child = fork();
     if (child == 0) {
         if (chdir(folder.c_str()) != 0) _exit(120);
@@ -56,13 +58,31 @@ Outcome CommandLineTest::run(std::vector<std::string> arguments, unsigned interr
         execv(argv[0], argv.data());
         _exit(121);
     }
+    return child;
+}
+
+Outcome CommandLineTest::outcomeOf(pid_t child) const {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(root / "stdout"), readText(root / "stderr")};
+}
+
+Outcome CommandLineTest::run(const std::vector<std::string>& arguments, unsigned interruptAfter, int signal) const {
+    const pid_t child = start(arguments);
     if (interruptAfter > 0) {
         sleep(interruptAfter);
         kill(child, signal);
     }
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(root / "stdout"), readText(root / "stderr")};
+    return outcomeOf(child);
+}
+
+Outcome CommandLineTest::runUntil(const std::vector<std::string>& arguments, const std::function<bool()>& isTime,
+                                  int signal) const {
+    const pid_t child = start(arguments);
+    const Stopwatch watch;
+    while (!isTime() && watch.seconds() < 120) usleep(20000);
+    kill(child, signal);
+    return outcomeOf(child);
 }
 
 std::vector<std::string> CommandLineTest::filesInFolder() const {

@@ -5,8 +5,10 @@
 
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <gtest/gtest.h>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace quasilux {
@@ -24,7 +26,9 @@ protected:
     CommandLineTest();
 
     /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C, or another signal.
-    Outcome run(std::vector<std::string> arguments, unsigned interruptAfter = 0, int signal = SIGINT) const;
+    Outcome run(const std::vector<std::string>& arguments, unsigned interruptAfter = 0, int signal = SIGINT) const;
+    /// It gets the signal once `isTime`, which is asked every few milliseconds.
+    Outcome runUntil(const std::vector<std::string>& arguments, const std::function<bool()>& isTime, int signal) const;
 
     /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file that was not there before.
     void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;
@@ -33,6 +37,8 @@ protected:
     std::filesystem::path root = temporary.path(), folder = root / "work";
 
 private:
+    pid_t start(std::vector<std::string> arguments) const;
+    Outcome outcomeOf(pid_t child) const;
     std::vector<std::string> filesInFolder() const;
 };
 

@@ -74,7 +74,7 @@ RenderSettings settingsOf(const SlabMethod& method) {
     settings.variant = method.variant;
     settings.direct = method.direct;
     settings.quasiSpecular = method.split;
-    settings.quasiSpecularFromCommandLine = true;
+    settings.quasiSpecularOverridesScene = true;
     settings.photonsPerPass = 10000;
     settings.radiusScale = 0.3; // light is even across the plate, so a wide kernel would help nothing and cost much
     return settings;

@@ -1,6 +1,6 @@
 #include "bench/micro/contest.h"
 
-#include "bench/micro/stopwatch.h"
+#include "util/stopwatch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -24,18 +24,18 @@ void flushDenormals() {
 
 } // namespace
 
-void timeInTurns(std::vector<Contender>& contenders, unsigned rounds, const DeviceInfo& device) {
-    for (Contender& contender : contenders) {
-        contender.prepare();
-        contender.run();
-        contender.seconds = std::numeric_limits<double>::infinity();
+void timeInTurns(std::vector<TimedWay>& ways, unsigned rounds, const DeviceInfo& device) {
+    for (TimedWay& way : ways) {
+        way.prepare();
+        way.run();
+        way.seconds = std::numeric_limits<double>::infinity();
     }
     for (unsigned round = 0; round < rounds; ++round)
-        for (Contender& contender : contenders) {
-            contender.prepare();
+        for (TimedWay& way : ways) {
+            way.prepare();
             const Stopwatch watch;
-            contender.run();
-            contender.seconds = std::min(contender.seconds, device.isCpu ? watch.processorSeconds() : watch.seconds());
+            way.run();
+            way.seconds = std::min(way.seconds, device.isCpu ? watch.processorSeconds() : watch.seconds());
         }
 }
 

@@ -9,7 +9,7 @@
 
 namespace quasilux {
 
-struct Contender {
+struct TimedWay {
     std::string name;
     std::function<void()> run; ///< returns when all is done
     double seconds = 0;        ///< best round: processor time on CPU devices, so that other programs disturb it less
@@ -18,7 +18,7 @@ struct Contender {
 
 /// Runs all of them once unmeasured (kernels are compiled and caches warm then), then `rounds` times in turns. On a GPU
 /// clock time is taken.
-void timeInTurns(std::vector<Contender>& contenders, unsigned rounds, const DeviceInfo& device);
+void timeInTurns(std::vector<TimedWay>& ways, unsigned rounds, const DeviceInfo& device);
 
 /// Calls `work(begin, end)` on so many threads until all of `count` is done. Threads flush denormal numbers to zero, as
 /// Embree advises.

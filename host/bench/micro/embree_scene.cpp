@@ -1,6 +1,6 @@
 #include "bench/micro/embree_scene.h"
 
-#include "bench/micro/stopwatch.h"
+#include "util/stopwatch.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 // The sums of kernels/density.clh against a plain C++ loop over the same sorted photons.
 #include "bench/micro/contest.h"
 #include "bench/micro/gather_loop.h"
-#include "bench/micro/parts.h"
+#include "bench/micro/micro_parts.h"
 #include "bench/micro/photon_index.h"
 
 #include <cmath>
@@ -39,25 +39,24 @@ MicroRow gatherRow(const MicroRun& run, Device& device, unsigned threads, const 
     const NativeMap native{sorted.data(), cellStart.data(), map};
     const auto count = unsigned(photons.queries.size());
     std::vector<shared::GatherSum> theirs(count);
-    std::vector<Contender> contenders{{"quasilux",
-                                       [&] {
-                                           kernel.launch(count, index.table().cellStart(), index.sorted(), queries,
-                                                         sums, map, count, unsigned(LIGHT_DIFFUSE));
-                                           device.finish();
-                                       }},
-                                      {"C++ loop", [&] {
-                                           onThreads(std::max(1u, threads), count, [&](size_t begin, size_t end) {
-                                               gatherLoop(native, &photons.queries[begin], &theirs[begin], end - begin,
-                                                          bias);
-                                           });
-                                       }}};
-    timeInTurns(contenders, run.settings.rounds, device.info());
+    std::vector<TimedWay> ways{{"quasilux",
+                                [&] {
+                                    kernel.launch(count, index.table().cellStart(), index.sorted(), queries, sums, map,
+                                                  count, unsigned(LIGHT_DIFFUSE));
+                                    device.finish();
+                                }},
+                               {"C++ loop", [&] {
+                                    onThreads(std::max(1u, threads), count, [&](size_t begin, size_t end) {
+                                        gatherLoop(native, &photons.queries[begin], &theirs[begin], end - begin, bias);
+                                    });
+                                }}};
+    timeInTurns(ways, run.settings.rounds, device.info());
     const double million = 1e-6 * double(photonsTested(native, photons.queries.data(), count));
     MicroRow row{"gather", fmt::format("{:g} photons a disc{}", perDisc, bias ? ", bias estimated" : ""),
                  threads,  "Mtests/s and thread",
                  {},       {}};
-    for (const Contender& contender : contenders) row.values.emplace_back(contender.name, million / contender.seconds);
-    row.ratios.emplace_back("quasilux / C++", contenders[1].seconds / contenders[0].seconds);
+    for (const TimedWay& way : ways) row.values.emplace_back(way.name, million / way.seconds);
+    row.ratios.emplace_back("quasilux / C++", ways[1].seconds / ways[0].seconds);
     const std::vector<shared::GatherSum> ours = sums.read();
     row.compared = count;
     for (size_t i = 0; i < count; ++i) {

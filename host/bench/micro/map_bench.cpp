@@ -1,7 +1,7 @@
 // The render's index of photons (kernels/photon_map.cl) against a plain counting sort in C++.
 #include "bench/micro/contest.h"
+#include "bench/micro/micro_parts.h"
 #include "bench/micro/native_grid.h"
-#include "bench/micro/parts.h"
 #include "bench/micro/photon_index.h"
 
 #include <bit>
@@ -61,15 +61,14 @@ void benchMap(const MicroRun& run) {
         Device device(run.settings.device, 64, 0, threads);
         MicroIndex index(device, photons, radius);
         NativeSort native(photons, index.table().map());
-        std::vector<Contender> contenders{{"quasilux", [&] { index.sort(); }, 0, [&] { index.putBack(); }},
-                                          {"C++ sort", [&] { native.run(); }}};
-        timeInTurns(contenders, run.settings.rounds, device.info());
+        std::vector<TimedWay> ways{{"quasilux", [&] { index.sort(); }, 0, [&] { index.putBack(); }},
+                                   {"C++ sort", [&] { native.run(); }}};
+        timeInTurns(ways, run.settings.rounds, device.info());
         MicroRow row{"map", fmt::format("{} photons", photons.photons.size()), threads, "Mrecords/s and thread", {},
                      {}};
         const double million = 1e-6 * double(photons.photons.size());
-        for (const Contender& contender : contenders)
-            row.values.emplace_back(contender.name, million / contender.seconds);
-        row.ratios.emplace_back("quasilux / C++", contenders[1].seconds / contenders[0].seconds);
+        for (const TimedWay& way : ways) row.values.emplace_back(way.name, million / way.seconds);
+        row.ratios.emplace_back("quasilux / C++", ways[1].seconds / ways[0].seconds);
         const auto ours = index.sorted().read(), starts = index.table().cellStart().read();
         const size_t stride = index.table().map().photonStride;
         row.compared = microPhotonFields * photons.photons.size() + starts.size();

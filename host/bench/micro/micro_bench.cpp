@@ -1,6 +1,6 @@
 #include "bench/micro/micro_bench.h"
 
-#include "bench/micro/parts.h"
+#include "bench/micro/micro_parts.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -11,17 +11,17 @@ namespace quasilux {
 
 namespace {
 
-struct Part {
+struct NamedPart {
     std::string name;
     void (*bench)(const MicroRun&);
 };
 
-const std::vector<Part>& allParts() {
-    static const std::vector<Part> parts{{"traversal", benchTraversal},
-                                         {"map", benchMap},
-                                         {"gather", benchGather},
-                                         {"samplers", benchSamplers},
-                                         {"tree", benchTree}};
+const std::vector<NamedPart>& allParts() {
+    static const std::vector<NamedPart> parts{{"traversal", benchTraversal},
+                                              {"map", benchMap},
+                                              {"gather", benchGather},
+                                              {"samplers", benchSamplers},
+                                              {"tree", benchTree}};
     return parts;
 }
 
@@ -36,7 +36,7 @@ std::vector<unsigned> threadCounts(const DeviceInfo& device) {
 const std::vector<std::string>& microParts() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list;
-        for (const Part& part : allParts()) list.push_back(part.name);
+        for (const NamedPart& part : allParts()) list.push_back(part.name);
         return list;
     }();
     return names;
@@ -63,7 +63,7 @@ MicroReport runMicro(const MicroSettings& settings, const MicroProgress& progres
     MicroReport report;
     report.device = Device(settings.device).info();
     const MicroRun run{settings, report, progress, interrupted, threadCounts(report.device)};
-    for (const Part& part : allParts())
+    for (const NamedPart& part : allParts())
         if (!interrupted && std::count(settings.parts.begin(), settings.parts.end(), part.name) > 0) part.bench(run);
     return report;
 }

@@ -42,15 +42,15 @@ template <typename Single, typename Packet>
 MicroRow contest(Device& device, unsigned threads, const RaySet& set, unsigned rounds, Packet& packet, Single& single,
                  const EmbreePackets (&embree)[2]) {
     const unsigned hostThreads = std::max(1u, threads);
-    std::vector<Contender> contenders{{"packet", [&] { packet.launch(); }}, {"quasilux", [&] { single.launch(); }}};
+    std::vector<TimedWay> ways{{"packet", [&] { packet.launch(); }}, {"quasilux", [&] { single.launch(); }}};
     for (const EmbreePackets& theirs : embree)
-        contenders.push_back({theirs.name, [&] { onThreads(hostThreads, set.rays.size(), theirs.run); }});
-    timeInTurns(contenders, rounds, device.info());
+        ways.push_back({theirs.name, [&] { onThreads(hostThreads, set.rays.size(), theirs.run); }});
+    timeInTurns(ways, rounds, device.info());
     MicroRow row{"traversal", "", threads, "Mrays/s and thread", {}, {}};
     const double million = 1e-6 * double(set.rays.size());
-    for (const Contender& contender : contenders) row.values.emplace_back(contender.name, million / contender.seconds);
+    for (const TimedWay& way : ways) row.values.emplace_back(way.name, million / way.seconds);
     const auto ratio = [&](size_t theirs, const char* name) {
-        row.ratios.emplace_back(fmt::format("packet / {}", name), contenders[theirs].seconds / contenders[0].seconds);
+        row.ratios.emplace_back(fmt::format("packet / {}", name), ways[theirs].seconds / ways[0].seconds);
     };
     ratio(1, "quasilux");
     for (size_t k = 0; k < std::size(embree); ++k) ratio(2 + k, embree[k].name + 3);

@@ -1,6 +1,6 @@
 // What a sample and an evaluation of every lobe, emitter and phase function cost.
 #include "bench/micro/contest.h"
-#include "bench/micro/parts.h"
+#include "bench/micro/micro_parts.h"
 #include "bench/micro/sampler_subjects.h"
 #include "device/program.h"
 
@@ -19,20 +19,20 @@ public:
     template <typename... Buffers>
     void add(Program& program, const std::string& figure, const std::string& kernelName, const Buffers&... buffers) {
         auto kernel = std::make_shared<Kernel>(program.kernel(kernelName));
-        contenders_.push_back({figure, [this, kernel, &buffers...] {
-                                   kernel->launch(sums_.size(), buffers..., sums_, cl_uint(sums_.size()));
-                                   device_.finish();
-                               }});
+        ways_.push_back({figure, [this, kernel, &buffers...] {
+                             kernel->launch(sums_.size(), buffers..., sums_, cl_uint(sums_.size()));
+                             device_.finish();
+                         }});
     }
 
     /// Appends a row with what was added.
     void report(const std::string& name) {
-        timeInTurns(contenders_, run_.settings.rounds, device_.info());
+        timeInTurns(ways_, run_.settings.rounds, device_.info());
         MicroRow row{"samplers", name, threads_, "ns", {}, {}};
-        for (const Contender& contender : contenders_)
-            row.values.emplace_back(contender.name, 1e9 * contender.seconds / double(sums_.size() * samplesPerItem));
+        for (const TimedWay& way : ways_)
+            row.values.emplace_back(way.name, 1e9 * way.seconds / double(sums_.size() * samplesPerItem));
         run_.report.rows.push_back(row);
-        contenders_.clear();
+        ways_.clear();
     }
 
 private:
@@ -40,7 +40,7 @@ private:
     Device& device_;
     unsigned threads_;
     Buffer<float> sums_;
-    std::vector<Contender> contenders_;
+    std::vector<TimedWay> ways_;
 };
 
 } // namespace

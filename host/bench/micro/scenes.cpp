@@ -1,6 +1,6 @@
 #include "bench/micro/scenes.h"
 
-#include "bench/micro/mesh_builder.h"
+#include "bench/micro/triangles.h"
 
 #include <cmath>
 #include <numbers>

@@ -18,29 +18,28 @@ public:
         theirs_.resize(set.rays.size());
         const auto packets = std::make_shared<std::vector<RayPacket<8>>>(packetsOf<8>(set.rays));
         const auto theirPackets = std::make_shared<std::vector<Hits>>(set.rays.size());
-        contenders_ = {{"quasilux", [this] { launch(tree_.fast); }},
-                       {"portable", [this] { launch(tree_.portable); }},
-                       {set.occlusion ? "rtcOccluded1" : "rtcIntersect1",
-                        [&, hostThreads] {
-                            onThreads(hostThreads, set.rays.size(),
-                                      [&](size_t begin, size_t end) { one(embree, set, begin, end); });
-                        }},
-                       {set.occlusion ? "rtcOccluded8" : "rtcIntersect8", [&, hostThreads, packets, theirPackets] {
-                            onThreads(hostThreads, set.rays.size(), [&](size_t begin, size_t end) {
-                                eight(embree, set, *packets, *theirPackets, begin, end);
-                            });
-                        }}};
+        ways_ = {{"quasilux", [this] { launch(tree_.fast); }},
+                 {"portable", [this] { launch(tree_.portable); }},
+                 {set.occlusion ? "rtcOccluded1" : "rtcIntersect1",
+                  [&, hostThreads] {
+                      onThreads(hostThreads, set.rays.size(),
+                                [&](size_t begin, size_t end) { one(embree, set, begin, end); });
+                  }},
+                 {set.occlusion ? "rtcOccluded8" : "rtcIntersect8", [&, hostThreads, packets, theirPackets] {
+                      onThreads(hostThreads, set.rays.size(), [&](size_t begin, size_t end) {
+                          eight(embree, set, *packets, *theirPackets, begin, end);
+                      });
+                  }}};
     }
 
     MicroRow measure(unsigned rounds, unsigned threads, const RaySet& set, const std::string& scene) {
-        timeInTurns(contenders_, rounds, device_.info());
+        timeInTurns(ways_, rounds, device_.info());
         MicroRow row{"traversal", fmt::format("{}, {}", scene, set.name), threads, "Mrays/s and thread", {}, {}};
         const double million = 1e-6 * double(set.rays.size());
-        for (const Contender& contender : contenders_)
-            row.values.emplace_back(contender.name, million / contender.seconds);
+        for (const TimedWay& way : ways_) row.values.emplace_back(way.name, million / way.seconds);
         const auto ratio = [&](size_t ours, size_t theirs) {
-            row.ratios.emplace_back(fmt::format("{} / {}", contenders_[ours].name, contenders_[theirs].name.substr(3)),
-                                    contenders_[theirs].seconds / contenders_[ours].seconds);
+            row.ratios.emplace_back(fmt::format("{} / {}", ways_[ours].name, ways_[theirs].name.substr(3)),
+                                    ways_[theirs].seconds / ways_[ours].seconds);
         };
         ratio(0, 2);
         ratio(1, 2);
@@ -77,7 +76,7 @@ private:
     Buffer<MicroRay> rays_;
     Buffer<Hit> answers_;
     std::vector<Hit> theirs_;
-    std::vector<Contender> contenders_;
+    std::vector<TimedWay> ways_;
 };
 
 void benchScene(const MicroRun& run, const MicroScene& scene) {

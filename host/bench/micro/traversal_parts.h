@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/micro/contest.h"
-#include "bench/micro/parts.h"
+#include "bench/micro/micro_parts.h"
 #include "bench/micro/ray_sets.h"
 #include "device/program.h"
 

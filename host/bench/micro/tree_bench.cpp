@@ -1,9 +1,9 @@
 // Our tree (Embree's builder, then flattened) against Embree's own scene over the same triangles.
 #include "bench/micro/contest.h"
 #include "bench/micro/embree_scene.h"
-#include "bench/micro/parts.h"
+#include "bench/micro/micro_parts.h"
 #include "bench/micro/scenes.h"
-#include "bench/micro/stopwatch.h"
+#include "util/stopwatch.h"
 
 #include <algorithm>
 #include <fmt/format.h>

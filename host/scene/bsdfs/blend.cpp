@@ -1,4 +1,4 @@
-// Sums of bsdfs, weighted by a number or a texture.
+// Sums of bsdfs, weighted by a number or a texture, and what is a sum with the surface that is not there.
 #include "scene/bsdfs/bsdf_plugin.h"
 
 #include <fmt/format.h>
@@ -64,6 +64,36 @@ BsdfLobes blend(BsdfLobes first, BsdfLobes second, const Scalar& weightOfSecond,
         throw InputError(
             where, fmt::format("this blend comes to more than {} lobes on one side; blend fewer bsdfs.", maximumLobes));
     return sum;
+}
+
+/// <bsdf type="blendbsdf">: (1 - weight) of the first nested bsdf plus weight of the second.
+BsdfLobes readBlend(Properties& properties) {
+    const Scalar weight = readShare(properties, "weight", 0.5f);
+    const std::vector<const Element*> nested = properties.objects("bsdf");
+    if (nested.size() != 2)
+        throw InputError(properties.element().where,
+                         fmt::format("blendbsdf has {} nested bsdfs; it needs two.", nested.size()));
+    return blend(readBsdfLobes(*nested[0], properties.context()), readBsdfLobes(*nested[1], properties.context()),
+                 weight, properties.element().where);
+}
+
+/// <bsdf type="mask">: opacity of the nested bsdf; the rest of the light passes.
+BsdfLobes readMask(Properties& properties) {
+    const Scalar opacity = readShare(properties, "opacity", 0.5f);
+    const std::vector<const Element*> nested = properties.objects("bsdf");
+    if (nested.size() != 1)
+        throw InputError(properties.element().where,
+                         fmt::format("mask has {} nested bsdfs; it needs one.", nested.size()));
+    BsdfLobes nothing;
+    nothing.isNull = true;
+    return blend(nothing, readBsdfLobes(*nested[0], properties.context()), opacity, properties.element().where);
+}
+
+/// <bsdf type="null">: a surface that light passes through as if it were not there.
+BsdfLobes readNull(Properties&) {
+    BsdfLobes lobes;
+    lobes.isNull = true;
+    return lobes;
 }
 
 } // namespace quasilux

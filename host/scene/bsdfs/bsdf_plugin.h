@@ -1,4 +1,4 @@
-// Reading of bsdfs. A new plugin is one file here and one line in the list below (CONTRIBUTING.md; lobes: docs/method/bsdf.md).
+// Reading of bsdfs. A new plugin is one file here and one line in the table of bsdf_table.cpp (CONTRIBUTING.md; lobes: docs/method/bsdf.md).
 #pragma once
 
 #include "scene/properties.h"
@@ -25,29 +25,23 @@ int useDefaultBsdf(const Element& shape, bool emits, LoadContext& context);
 /// Every bsdf plugin; those of the other kinds have such a function too, for plugin_kinds.h.
 Names bsdfPluginNames();
 
-/// Every bsdf plugin: X(name in the scene, function that reads it).
-#define QUASILUX_BSDF_PLUGINS(X)                                                                                       \
-    X(diffuse, readDiffuse)                                                                                            \
-    X(phong, readPhong)                                                                                                \
-    X(conductor, readConductor)                                                                                        \
-    X(roughconductor, readRoughConductor)                                                                              \
-    X(dielectric, readDielectric)                                                                                      \
-    X(thindielectric, readThinDielectric)                                                                              \
-    X(plastic, readPlastic)                                                                                            \
-    X(roughplastic, readRoughPlastic)                                                                                  \
-    X(roughdielectric, readRoughDielectric)                                                                            \
-    X(principled, readPrincipled)                                                                                      \
-    X(principledthin, readPrincipledThin)                                                                              \
-    X(blendbsdf, readBlend)                                                                                            \
-    X(mask, readMask)                                                                                                  \
-    X(normalmap, readNormalMap)                                                                                        \
-    X(bumpmap, readBumpMap)                                                                                            \
-    X(twosided, readTwoSided)                                                                                          \
-    X(null, readNull)
-
-#define QUASILUX_DECLARE_BSDF(name, read) BsdfLobes read(Properties& properties);
-QUASILUX_BSDF_PLUGINS(QUASILUX_DECLARE_BSDF)
-#undef QUASILUX_DECLARE_BSDF
+BsdfLobes readDiffuse(Properties& properties);
+BsdfLobes readPhong(Properties& properties);
+BsdfLobes readConductor(Properties& properties);
+BsdfLobes readRoughConductor(Properties& properties);
+BsdfLobes readDielectric(Properties& properties);
+BsdfLobes readThinDielectric(Properties& properties);
+BsdfLobes readPlastic(Properties& properties);
+BsdfLobes readRoughPlastic(Properties& properties);
+BsdfLobes readRoughDielectric(Properties& properties);
+BsdfLobes readPrincipled(Properties& properties);
+BsdfLobes readPrincipledThin(Properties& properties);
+BsdfLobes readBlend(Properties& properties);
+BsdfLobes readMask(Properties& properties);
+BsdfLobes readNormalMap(Properties& properties);
+BsdfLobes readBumpMap(Properties& properties);
+BsdfLobes readTwoSided(Properties& properties);
+BsdfLobes readNull(Properties& properties);
 
 /// A lobe of type LOBE_* with everything else zero. `halfWidth` in radians.
 LobeDescription makeLobe(unsigned type, const std::string& name, const Reflectance& reflectance, double halfWidth);

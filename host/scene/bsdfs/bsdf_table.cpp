@@ -15,9 +15,25 @@ struct BsdfPlugin {
     BsdfLobes (*read)(Properties&);
 };
 
-#define QUASILUX_BSDF_ENTRY(name, read) {#name, read},
-constexpr BsdfPlugin bsdfPlugins[] = {QUASILUX_BSDF_PLUGINS(QUASILUX_BSDF_ENTRY)};
-#undef QUASILUX_BSDF_ENTRY
+constexpr BsdfPlugin bsdfPlugins[] = {
+    {"diffuse", readDiffuse},
+    {"phong", readPhong},
+    {"conductor", readConductor},
+    {"roughconductor", readRoughConductor},
+    {"dielectric", readDielectric},
+    {"thindielectric", readThinDielectric},
+    {"plastic", readPlastic},
+    {"roughplastic", readRoughPlastic},
+    {"roughdielectric", readRoughDielectric},
+    {"principled", readPrincipled},
+    {"principledthin", readPrincipledThin},
+    {"blendbsdf", readBlend},
+    {"mask", readMask},
+    {"normalmap", readNormalMap},
+    {"bumpmap", readBumpMap},
+    {"twosided", readTwoSided},
+    {"null", readNull},
+};
 
 /// Lobes that scatter nothing cost time and noise.
 void dropBlackLobes(std::vector<LobeDescription>& lobes) {

@@ -38,7 +38,9 @@ Rgb readLightColour(Properties& properties) {
     return tint * static_cast<float>(1 / all);
 }
 
-bool isPhotometric(const Properties& properties) { return properties.context().scene.settings.units == "photometric"; }
+bool isPhotometric(const Properties& properties) {
+    return properties.context().scene.settings.units == Units::photometric;
+}
 
 double radiantFactor(const Properties& properties) { return isPhotometric(properties) ? 1 : 1 / luminousEfficacy; }
 

@@ -1,4 +1,4 @@
-// What the skies in photometric units share: sky and ground as surroundings, the sun as parallel light.
+// What the skies in photometric units share: sky and ground as surroundings, the sun as parallel light (docs/reference/photometry.md).
 #pragma once
 
 #include "scene/properties.h"

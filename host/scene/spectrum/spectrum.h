@@ -1,4 +1,4 @@
-// Spectra by wavelength, and the colours that stand for them.
+// Spectra by wavelength, and the colours that stand for them (docs/reference/scene-language.md).
 #pragma once
 
 #include "scene/color.h"

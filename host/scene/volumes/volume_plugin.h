@@ -1,5 +1,5 @@
 // Reading of volumes, values that vary in space. A new plugin is one file here and one line in the table of
-// volume_table.cpp.
+// volume_table.cpp (docs/reference/scene-language.md).
 #pragma once
 
 #include "scene/properties.h"

@@ -1,4 +1,5 @@
 // The table of volume plugins, and what is common to reading any of them.
+#include "scene/box.h"
 #include "scene/plugin_lookup.h"
 #include "scene/transform.h"
 #include "scene/volumes/volume_plugin.h"
@@ -48,13 +49,10 @@ void placeVolume(VolumeDescription& volume, const glm::dmat4& toWorld, const Sou
             if (!std::isfinite(volume.device.toVoxels[4 * axis + column]))
                 throw InputError(where, "the volume's box has no extent in some direction; give it one.");
         }
-    glm::dvec3 lower(INFINITY), upper(-INFINITY);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p = transformPoint(toWorld, glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2));
-        lower = glm::min(lower, p);
-        upper = glm::max(upper, p);
-    }
-    const glm::vec3 low = toSingle(lower, where), high = toSingle(upper, where);
+    Box box;
+    for (int corner = 0; corner < 8; ++corner)
+        box.add(transformPoint(toWorld, glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2)));
+    const glm::vec3 low = toSingle(box.lower, where), high = toSingle(box.upper, where);
     volume.device.lower = {low.x, low.y, low.z};
     volume.device.upper = {high.x, high.y, high.z};
 }

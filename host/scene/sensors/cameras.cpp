@@ -1,4 +1,4 @@
-// <sensor type="perspective">: a pinhole camera, and <sensor type="thinlens">.
+// Cameras.
 #include "scene/sensors/field_of_view.h"
 #include "scene/sensors/sensors.h"
 #include "scene/transform.h"
@@ -24,18 +24,26 @@ void readView(Properties& properties, Sensor& sensor) {
 
 } // namespace
 
+/// <sensor type="perspective">: a pinhole camera.
 void readPerspective(Properties& properties, Sensor& sensor) {
     readView(properties, sensor);
     sensor.principalPoint = {properties.number("principal_point_offset_x", 0),
                              properties.number("principal_point_offset_y", 0)};
 }
 
+/// <sensor type="thinlens">.
 void readThinLens(Properties& properties, Sensor& sensor) {
     readView(properties, sensor);
     if (!properties.has("aperture_radius"))
         throw InputError(sensor.where, "sensor 'thinlens' needs <float name=\"aperture_radius\" value=\"...\"/>.");
     sensor.apertureRadius = properties.numberAbove("aperture_radius", 0, 0, false);
     sensor.focusDistance = properties.numberAbove("focus_distance", sensor.farClip, 0, true);
+}
+
+/// <sensor type="orthographic">: parallel rays; to_world scales the [-1, 1] that the film is wide.
+void readOrthographic(Properties& properties, Sensor& sensor) {
+    sensor.orthographic = true;
+    sensor.toWorld = properties.transform("to_world");
 }
 
 } // namespace quasilux

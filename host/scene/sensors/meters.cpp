@@ -1,4 +1,4 @@
-// <sensor type="radiancemeter">: the radiance along one ray.
+// Sensors that are no cameras.
 #include "scene/sensors/sensors.h"
 
 #include <fmt/format.h>
@@ -35,6 +35,12 @@ void readRadiancemeter(Properties& properties, Sensor& sensor) {
     sensor.meter = MeterKind::ray;
     sensor.nearClip = 0;
     sensor.farClip = std::numeric_limits<double>::infinity();
+}
+
+/// <sensor type="irradiancemeter">: the irradiance on the shape that it stands in.
+void readIrradiancemeter(Properties& properties, Sensor& sensor) {
+    properties.refuse("to_world", "the meter lies on its shape; move the shape instead");
+    sensor.meter = MeterKind::area;
 }
 
 } // namespace quasilux

@@ -1,4 +1,4 @@
-// <phase type="hg">: Henyey and Greenstein 1941, one mean cosine g.
+// Phase functions that are formulas.
 #include "scene/phases/phase_plugin.h"
 
 #include <cmath>
@@ -6,6 +6,10 @@
 
 namespace quasilux {
 
+/// <phase type="isotropic">: all directions alike.
+void readIsotropic(Properties& /*properties*/, MediumDescription& medium) { medium.phase = PHASE_ISOTROPIC; }
+
+/// <phase type="hg">: Henyey and Greenstein 1941, one mean cosine g.
 void readHenyeyGreenstein(Properties& properties, MediumDescription& medium) {
     medium.phase = PHASE_HG;
     medium.g = properties.number("g", 0.8);
@@ -15,5 +19,8 @@ void readHenyeyGreenstein(Properties& properties, MediumDescription& medium) {
                                      "light would go on unscattered, or turn back).",
                                      properties.describe(), medium.g));
 }
+
+/// <phase type="rayleigh">: particles much smaller than the wavelength, light unpolarised.
+void readRayleigh(Properties& /*properties*/, MediumDescription& medium) { medium.phase = PHASE_RAYLEIGH; }
 
 } // namespace quasilux

@@ -1,4 +1,4 @@
-#include "bench/energy.h"
+#include "bench/device_energy.h"
 
 #include <dlfcn.h>
 #include <fstream>

@@ -1,0 +1,44 @@
+// Known mistakes, as negative controls: what the kernels hold of them is switched on by RenderSettings::controlOptions.
+#pragma once
+
+#include <fmt/format.h>
+#include <string>
+
+namespace quasilux::test {
+
+/// The law, or one of its known wrong readings (kernels/law.clh).
+enum class LawRule { right, quasiSpecularUntilFirst, diffuseAtEveryHit, fullAlongChain };
+
+/// The right handling of media, or one of the known mistakes: flux at collisions not divided by the extinction; refracted
+/// radiance not scaled by 1/eta^2; the phase function's g of the wrong sign where photons are taken; flux in a heterogeneous
+/// medium divided by the mean of its extinction.
+enum class MediumRule { right, missingSigmaT, missingEtaSquared, wrongSignOfG, meanSigmaT };
+
+/// The right tracing of photons, or a known mistake: flux that escapes is not counted in the energy balance; scattering
+/// multiplies flux by 1.02; shading normals are taken for the geometry's where photons scatter, or where they are stored; guided
+/// photons do not carry the weight of their leaf, aimed ones not that of their direction; those into which one is split are worth
+/// nearly four times their share.
+enum class PhotonRule {
+    right,
+    escapeNotCounted,
+    scatteringGains,
+    missingAdjoint,
+    missingArrival,
+    missingGuideWeight,
+    missingAimWeight,
+    missingSplitWeight,
+    missingStoreWeight
+};
+
+/// Compiler options; none where it is the right one.
+inline std::string optionOf(LawRule rule) {
+    return rule == LawRule::right ? "" : fmt::format(" -DLAW_RULE={}", static_cast<int>(rule));
+}
+inline std::string optionOf(MediumRule rule) {
+    return rule == MediumRule::right ? "" : fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(rule));
+}
+inline std::string optionOf(PhotonRule rule) {
+    return rule == PhotonRule::right ? "" : fmt::format(" -DPHOTON_RULE={}", static_cast<int>(rule));
+}
+
+} // namespace quasilux::test
