@@ -15,9 +15,13 @@
 #include "cli/render_command.h"
 #include "cli/report_command.h"
 #include "cli/view_command.h"
+#include "ranks/job.h"
+#include "share/device_workers.h"
 #include "util/error.h"
 #include "util/nearest.h"
 
+#include <cstdio>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <new>
 
@@ -28,6 +32,7 @@ namespace {
 constexpr int exitFailed = 1, exitBadInput = 2;
 
 int fail(int exitCode, const std::string& message) {
+    if (launchedAs().rank > 0) return exitCode; // rank 0 says it
     fmt::print(stderr, "quasilux: error: {}\n", message);
     return exitCode;
 }
@@ -88,13 +93,9 @@ int runCommand(CLI::App& app, const Options& options) {
 
 } // namespace
 
-int runCommandLine(int argc, char** argv) {
-    CLI::App app(
-        "Renders images by bidirectional Monte Carlo ray tracing with photon maps and quasi-specular elements, "
-        "on any OpenCL device.",
-        "quasilux");
-    Options options;
-    declareOptions(app, options);
+namespace {
+
+int parseAndRun(CLI::App& app, const Options& options, int argc, char** argv) {
     try {
         app.parse(argc, argv);
         return runCommand(app, options);
@@ -107,6 +108,22 @@ int runCommandLine(int argc, char** argv) {
     } catch (const std::exception& error) {
         return fail(exitFailed, error.what());
     }
+}
+
+} // namespace
+
+int runCommandLine(int argc, char** argv) {
+    CLI::App app(
+        "Renders images by bidirectional Monte Carlo ray tracing with photon maps and quasi-specular elements, "
+        "on any OpenCL device.",
+        "quasilux");
+    Options options;
+    declareOptions(app, options);
+    const int code = parseAndRun(app, options, argc, argv);
+    Job::endCurrent();
+    if (!hasAbandonedThreads()) return code;
+    std::fflush(nullptr);
+    std::_Exit(code); // a device that gives no answer keeps a thread, and what is destroyed now would be taken from it
 }
 
 } // namespace quasilux

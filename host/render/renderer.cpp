@@ -427,7 +427,7 @@ unsigned Renderer::nextPass() const { return stages_->nextPass; }
 
 void Renderer::saveState(StateSink& sink) const {
     stages_->film.save(sink, "film");
-    if (stages_->adaptive) stages_->adaptive->save(sink);
+    saveRadii(sink);
 }
 
 void Renderer::restoreState(const StateSource& source, const RenderCounters& counters, unsigned nextPass) {
@@ -440,6 +440,25 @@ void Renderer::restoreState(const StateSource& source, const RenderCounters& cou
     s.counters.prepareSeconds += prepareSeconds;
     s.counters.compileSeconds += compileSeconds;
     s.nextPass = nextPass;
+}
+
+bool Renderer::radiiAreChosen() const {
+    const auto& s = *stages_;
+    return !s.adaptive || !s.takesPhotons() || s.adaptive->pilotHasEnded();
+}
+
+void Renderer::saveRadii(StateSink& sink) const {
+    if (stages_->adaptive) stages_->adaptive->save(sink);
+}
+
+void Renderer::restoreRadii(const StateSource& source) {
+    if (stages_->adaptive) stages_->adaptive->restore(source);
+}
+
+void Renderer::clearPasses() {
+    stages_->film.clear();
+    stages_->dropped = {};
+    stages_->counters = {};
 }
 
 bool Renderer::isFilmWhole() const { return stages_->film.isWhole(); }
