@@ -1,6 +1,7 @@
 // Put before libOpenCL by LD_PRELOAD: one of several devices is bad, so that tests see how a render goes on without it.
 //   QUASILUX_BAD_QUEUE   the device whose command queue is created as this one, from 1; 0: all
-//   QUASILUX_BAD_HOW     lost: its launches of kernels fail; silent: they wait for an hour; nan: what is read from it holds one;
+//   QUASILUX_BAD_HOW     lost: its launches of kernels fail; silent: they wait for an hour; nan: what is read from it
+//                        in 16 KiB and more, as films are, holds one;
 //                        memory: its buffers cannot be created; build: its programs do not build
 //   QUASILUX_BAD_AT      of its launches the first that is lost or silent, of its reads the first with a NaN, from 1
 #include <CL/cl.h>
@@ -87,7 +88,7 @@ cl_int clEnqueueReadBuffer(cl_command_queue queue, cl_mem buffer, cl_bool blocki
                            void* into, cl_uint waits, const cl_event* waitFor, cl_event* event) {
     static auto* call = real<decltype(clEnqueueReadBuffer)>("clEnqueueReadBuffer");
     const cl_int result = call(queue, buffer, blocking, offset, size, into, waits, waitFor, event);
-    if (is("nan") && isBadQueue(queue) && isDue()) {
+    if (is("nan") && size >= 16384 && isBadQueue(queue) && isDue()) {
         const float nan = std::numeric_limits<float>::quiet_NaN();
         std::memcpy(into, &nan, sizeof nan);
     }
