@@ -123,10 +123,14 @@ std::shared_ptr<Device> livingDevice(const RenderOptions& options, const SharedD
 }
 
 void assistJob(const RenderOptions& options) {
+    // While rank 0 learns; what is wrong with it is said when it is needed.
+    std::shared_ptr<const Scene> early;
+    if (options.sensor != "all") failureOf([&] { early = loadRenderScene(options).scene; });
     const OpenWorkers open = [&](const RankPlan& plan) -> std::unique_ptr<PassWorkers> {
         RenderOptions here = options;
         here.sensor = plan.sensor;
-        const RendererPlan ofRenderers{loadRenderScene(here).scene, plan.settings,
+        const auto scene = early && plan.sensor == options.sensor ? early : loadRenderScene(here).scene;
+        const RendererPlan ofRenderers{scene, plan.settings,
                                        std::make_shared<LearnedScene>(restoreLearned(plan.learned)), plan.checksums};
         auto workers = std::make_unique<DeviceWorkers>(answerSeconds(options));
         addDevices(*workers, here, ownDevices(here), ofRenderers);

@@ -9,6 +9,9 @@
 
 namespace quasilux {
 
+/// Between two looks at what has arrived.
+inline constexpr double secondsOfTurn = 1e-3;
+
 struct Message {
     unsigned from = 0;
     nlohmann::json head;

@@ -9,12 +9,6 @@
 
 namespace quasilux {
 
-namespace {
-
-constexpr double secondsOfTurn = 1e-3;
-
-} // namespace
-
 void RankAgent::say(nlohmann::json head) { messages_.send(0, {0, std::move(head)}); }
 
 void RankAgent::say(WorkerEvent event) {

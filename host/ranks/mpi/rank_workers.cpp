@@ -9,12 +9,6 @@
 
 namespace quasilux {
 
-namespace {
-
-constexpr double secondsOfTurn = 1e-3;
-
-} // namespace
-
 RankWorkers::RankWorkers(Messages& messages, unsigned ranks, std::unique_ptr<PassWorkers> own, const RankPlan& plan)
     : messages_(messages), ranks_(ranks), own_(std::move(own)), shape_(plan.shape), parts_(ranks) {
     auto learned = plan.learned.packed();
