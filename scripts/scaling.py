@@ -1,7 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Simulates a render whose passes are shared among up to 1,000 nodes (docs/method/scaling.md).
 
-    scaling.py [STATISTICS.json ...]   pass times from `quasilux bench --pass-times` or --stats; without: a lognormal of the spread below
+    scaling.py [STATISTICS.json ...]   mean and spread of pass times from the `workers` of --stats; without: as options say
 
 Passes are dealt as host/share/pass_dealer.cpp deals them. Prints a table by number of nodes: time, and efficiency against as many nodes that are
 never idle.
@@ -21,10 +21,10 @@ FIRST_PASSES = 16  # on the first node alone: radii are chosen from them
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("times", nargs="*", help="JSON files with a list passSeconds: their shape is taken, their mean is --pass-seconds")
+    parser.add_argument("statistics", nargs="*", help="of renders: times of passes")
     parser.add_argument("--passes", type=int, default=20000)
     parser.add_argument("--pass-seconds", type=float, default=1.0, help="mean, of a node that is not slow")
-    parser.add_argument("--spread", type=float, default=0.05, help="standard deviation of the logarithm of pass times")
+    parser.add_argument("--spread", type=float, default=0.05, help="standard deviation of pass times, relative to their mean")
     parser.add_argument("--slow", type=float, default=0.1, help="share of nodes that are slow")
     parser.add_argument("--slowness", type=float, default=3.0)
     parser.add_argument("--failures", type=float, default=1.0, help="of a node an hour")
@@ -39,13 +39,17 @@ def arguments():
     return parser.parse_args()
 
 
-def measured_times(paths):
-    """Relative to their mean."""
-    seconds = []
-    for path in paths:
+def measure(options):
+    """Mean seconds of a pass and their relative spread, over all workers of these statistics."""
+    workers = []
+    for path in options.statistics:
         with open(path, encoding="utf-8") as file:
-            seconds += json.load(file)["passSeconds"]
-    return np.array(seconds) / np.mean(seconds) if seconds else None
+            workers += [one for one in json.load(file)["workers"] if one["passes"] > 0]
+    if not workers:
+        return
+    passes = sum(one["passes"] for one in workers)
+    options.pass_seconds = sum(one["seconds"] for one in workers) / passes
+    options.spread = math.sqrt(sum(one["passes"] * one["spread"] ** 2 for one in workers) / passes)
 
 
 def reduction_seconds(options, nodes):
@@ -61,17 +65,15 @@ def reduction_seconds(options, nodes):
 class Simulation:
     """One render. Nodes that fail are lost; with `restarts` the whole job is, and begins again from its last checkpoint."""
 
-    def __init__(self, options, nodes, shape, rng):
-        self.options, self.nodes, self.shape, self.rng = options, nodes, shape, rng
+    def __init__(self, options, nodes, rng):
+        self.options, self.nodes, self.rng = options, nodes, rng
         slow = rng.random(nodes) < options.slow
         slow[0] = False
         self.seconds = options.pass_seconds * np.where(slow, options.slowness, 1.0)
 
     def noise(self, passes):
-        if self.shape is not None:
-            return self.rng.choice(self.shape, passes).mean()
-        s = self.options.spread
-        return math.exp(self.rng.normal(0, s / math.sqrt(passes)))
+        """Of the mean of so many passes: lognormal."""
+        return math.exp(self.rng.normal(0, self.options.spread / math.sqrt(passes)))
 
     def batches_for(self, node, known, left):
         if not known[node]:
@@ -144,7 +146,7 @@ class Simulation:
         start = o.opening
         work = whole - start
         done, now = 0.0, 0.0
-        for _ in range(1000000):
+        while now < 100 * whole:
             until = self.rng.exponential(3600 / o.failures / self.nodes)
             if start + work - done <= until:
                 return now + start + work - done
@@ -155,8 +157,8 @@ class Simulation:
 
 def main():
     options = arguments()
-    shape = measured_times(options.times)
-    print(f"{options.passes} passes of {options.pass_seconds} s, film {options.pixels * options.film_bytes / 1e6:.0f} MB, "
+    measure(options)
+    print(f"{options.passes} passes of {options.pass_seconds:.3g} s, spread {options.spread:.2g}, film {options.pixels * options.film_bytes / 1e6:.0f} MB, "
           f"{100 * options.slow:.0f} % of nodes {options.slowness:g} times slower, {options.failures:g} failures a node an hour")
     print(f"{'nodes':>6} {'reduction s':>12} {'no failure s':>13} {'efficiency':>11} {'nodes lost s':>13} {'efficiency':>11} {'job restarts s':>15} {'efficiency':>11}")
     work = options.passes * options.pass_seconds
@@ -165,11 +167,11 @@ def main():
         cells = []
         for failures in (0.0, options.failures):
             now = argparse.Namespace(**{**vars(options), "failures": failures})
-            one = Simulation(now, nodes, shape, rng)
+            one = Simulation(now, nodes, rng)
             ideal = work / (options.pass_seconds / one.seconds).sum()
             seconds = one.run()
             cells += [seconds, ideal / seconds]
-        again = Simulation(options, nodes, shape, rng)
+        again = Simulation(options, nodes, rng)
         seconds = again.restarts()
         cells += [seconds, work / (options.pass_seconds / again.seconds).sum() / seconds]
         print(f"{nodes:6d} {reduction_seconds(options, nodes):12.2f} {cells[0]:13.1f} {cells[1]:11.3f} {cells[2]:13.1f} {cells[3]:11.3f} {cells[4]:15.1f} {cells[5]:11.3f}")

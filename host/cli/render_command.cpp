@@ -120,7 +120,7 @@ void printWorkers(const std::vector<WorkerRecord>& workers) {
     TextTable table({"passes rendered by", "passes", "passes/s", "dropped since"});
     for (const WorkerRecord& one : workers)
         table.add({one.name, std::to_string(one.passes),
-                   one.seconds > 0 ? fmt::format("{:.3g}", one.passes / one.seconds) : "", one.failure});
+                   one.seconds > 0 ? fmt::format("{:.3g}", one.timed / one.seconds) : "", one.failure});
     fmt::print("{}", table.text());
 }
 

@@ -139,6 +139,7 @@ json workersJson(const std::vector<WorkerRecord>& workers) {
         rows.push_back({{"name", one.name},
                         {"passes", one.passes},
                         {"seconds", one.seconds},
+                        {"spread", one.spread()},
                         {"failure", one.failure.empty() ? json(nullptr) : json(one.failure)}});
     return rows;
 }

@@ -103,13 +103,15 @@ void DeviceWorker::doRender(const PassRange& passes) {
     Renderer& renderer = *opened_.renderer;
     const double start = steadySeconds();
     const auto before = renderer.counters();
+    WorkerEvent rendered = event(WorkerEvent::Kind::rendered);
     for (unsigned pass = passes.first; pass < passes.end && !isOver_; ++pass) {
         const double begun = steadySeconds();
         renderer.renderPass(pass);
-        longestPass_ = std::max<double>(longestPass_, steadySeconds() - begun);
+        const double seconds = steadySeconds() - begun;
+        longestPass_ = std::max<double>(longestPass_, seconds);
+        rendered.squaredSeconds += seconds * seconds;
         sign();
     }
-    WorkerEvent rendered = event(WorkerEvent::Kind::rendered);
     rendered.passes = passes;
     rendered.seconds = steadySeconds() - start;
     rendered.photons = renderer.counters().photonsEmitted - before.photonsEmitted;

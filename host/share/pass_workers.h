@@ -30,7 +30,7 @@ struct WorkerEvent {
     size_t worker = 0;
     std::string name, why;
     PassRange passes;
-    double seconds = 0;
+    double seconds = 0, squaredSeconds = 0;  ///< the sum, and that of the squares of single passes
     uint64_t photons = 0, paths = 0;         ///< of those passes
     std::shared_ptr<const RadiiState> radii; ///< of one that has chosen them, or is about to; null: known already
 };

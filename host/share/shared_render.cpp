@@ -104,6 +104,8 @@ void SharedRender::noteRendered(const WorkerEvent& event) {
     WorkerRecord& record = records_[event.worker];
     record.passes += passes;
     record.seconds += event.seconds;
+    record.timed += passes;
+    record.squaredSeconds += event.squaredSeconds;
     rendered_ += passes;
     photons_ += event.photons;
     paths_ += event.paths;

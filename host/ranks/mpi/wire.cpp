@@ -35,6 +35,7 @@ Message toMessage(const WorkerEvent& event) {
                     {"first", event.passes.first},
                     {"end", event.passes.end},
                     {"seconds", event.seconds},
+                    {"squaredSeconds", event.squaredSeconds},
                     {"photons", event.photons},
                     {"paths", event.paths},
                     {"hasRadii", event.radii != nullptr},
@@ -52,6 +53,7 @@ WorkerEvent eventOf(const Message& message) {
     event.why = head.at("why");
     event.passes = {head.at("first"), head.at("end")};
     event.seconds = head.at("seconds");
+    event.squaredSeconds = head.at("squaredSeconds");
     event.photons = head.at("photons");
     event.paths = head.at("paths");
     if (!head.at("hasRadii").get<bool>()) return event;
