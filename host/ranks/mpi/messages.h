@@ -10,7 +10,7 @@
 namespace quasilux {
 
 /// Between two looks at what has arrived.
-inline constexpr double secondsOfTurn = 1e-3;
+inline constexpr double secondsOfTurn = 2e-3;
 
 struct Message {
     unsigned from = 0;
