@@ -1,6 +1,7 @@
 // Validators for CLI11: each returns an empty text, or what is wrong and what was expected.
 #include "cli/option_checks.h"
 
+#include "device/device_choice.h"
 #include "scene/quasi_specular.h"
 #include "util/nearest.h"
 
@@ -113,6 +114,17 @@ std::vector<std::string> choicesOf(CLI::Option& option) {
         return {};
     }
     return CLI::detail::split(names, '|');
+}
+
+CLI::Validator deviceList() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            if (parseDeviceList(text)) return std::string();
+            return fmt::format("'{}' given, expected numbers from 0 to 1000 with commas between, each with /PARTS or "
+                               "not, or all",
+                               text);
+        },
+        "");
 }
 
 CLI::Validator definition() {

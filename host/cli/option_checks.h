@@ -21,6 +21,8 @@ CLI::Validator numberRange();
 CLI::Validator oneOf(std::vector<std::string> names);
 /// The names of that one; empty for an option without it.
 std::vector<std::string> choicesOf(CLI::Option& option);
+/// parseDeviceList() knows it.
+CLI::Validator deviceList();
 /// "name=value" with a name.
 CLI::Validator definition();
 /// Names and values of such.

@@ -91,11 +91,18 @@ Checkpoint checkpointOf(const CheckpointReader& reader) {
     return c;
 }
 
-void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, const Renderer& renderer) {
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint,
+                     const std::function<void(StateSink&)>& save) {
     CheckpointWriter writer(path);
-    saveLearned(writer, *renderer.learned());
-    renderer.saveState(writer);
+    save(writer);
     writer.finish(describe(checkpoint));
+}
+
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, const Renderer& renderer) {
+    writeCheckpoint(path, checkpoint, [&](StateSink& sink) {
+        saveLearned(sink, *renderer.learned());
+        renderer.saveState(sink);
+    });
 }
 
 std::string differenceOfWanted(const Checkpoint& there, const Checkpoint& here) {

@@ -44,9 +44,10 @@ public:
 
     /// Which photons of this pass its camera paths gather; none where nothing is gathered.
     virtual std::optional<GatheredCount> countGathered(unsigned /*pass*/) { return std::nullopt; }
-    /// What passes have left besides the film.
-    virtual void save(StateSink& /*sink*/) const {}
-    virtual void restore(const StateSource& /*source*/) {}
+    /// Radii by pixel are what passes leave besides the film. Are they those of all passes to come?
+    virtual bool radiiAreChosen() const { return true; }
+    virtual void saveRadii(StateSink& /*sink*/) const {}
+    virtual void restoreRadii(const StateSource& /*source*/) {}
 
 protected:
     MemoryForecast forecast_;

@@ -54,11 +54,15 @@ std::optional<GatheredCount> PhotonMapPass::countGathered(unsigned pass) {
                                    radii_ ? &radii_->scales(pass) : nullptr);
 }
 
-void PhotonMapPass::save(StateSink& sink) const {
+bool PhotonMapPass::radiiAreChosen() const {
+    return !radii_ || !photons_->areTaken() || radii_->pilotHasEnded();
+}
+
+void PhotonMapPass::saveRadii(StateSink& sink) const {
     if (radii_) radii_->save(sink);
 }
 
-void PhotonMapPass::restore(const StateSource& source) {
+void PhotonMapPass::restoreRadii(const StateSource& source) {
     if (radii_) radii_->restore(source);
 }
 

@@ -13,8 +13,9 @@ public:
     void run(unsigned pass, RenderCounters& counters) override;
     unsigned pathsPerPixel() const override { return context_.camera.cameraPaths; }
     std::optional<GatheredCount> countGathered(unsigned pass) override;
-    void save(StateSink& sink) const override;
-    void restore(const StateSource& source) override;
+    bool radiiAreChosen() const override;
+    void saveRadii(StateSink& sink) const override;
+    void restoreRadii(const StateSource& source) override;
 
 private:
     void catchUpRadii(unsigned pass, RenderCounters& counters);

@@ -165,19 +165,31 @@ unsigned Renderer::nextPass() const { return stages_->nextPass; }
 
 void Renderer::saveState(StateSink& sink) const {
     stages_->film->save(sink, "film");
-    stages_->passes->save(sink);
+    saveRadii(sink);
 }
 
 void Renderer::restoreState(const StateSource& source, const RenderCounters& counters, unsigned nextPass) {
     auto& s = *stages_;
     s.film->restore(source, "film");
     s.dropped = s.film->counters();
-    s.passes->restore(source);
+    restoreRadii(source);
     const double prepareSeconds = s.counters.prepareSeconds, compileSeconds = s.counters.compileSeconds;
     s.counters = counters;
     s.counters.prepareSeconds += prepareSeconds;
     s.counters.compileSeconds += compileSeconds;
     s.nextPass = nextPass;
+}
+
+bool Renderer::radiiAreChosen() const { return stages_->passes->radiiAreChosen(); }
+
+void Renderer::saveRadii(StateSink& sink) const { stages_->passes->saveRadii(sink); }
+
+void Renderer::restoreRadii(const StateSource& source) { stages_->passes->restoreRadii(source); }
+
+void Renderer::clearPasses() {
+    stages_->film->clear();
+    stages_->dropped = {};
+    stages_->counters = {};
 }
 
 bool Renderer::isFilmWhole() const { return stages_->film->isWhole(); }

@@ -59,6 +59,13 @@ public:
     void saveState(StateSink& sink) const;
     /// The same bits in another renderer of the same scene and settings, which knows what this one has learned.
     void restoreState(const StateSource& source, const RenderCounters& counters, unsigned nextPass);
+    /// Do radii no longer depend on which passes have been rendered here? Then other renderers of the scene and settings, which know what this
+    /// one has learned, may take them up.
+    bool radiiAreChosen() const;
+    void saveRadii(StateSink& sink) const;
+    void restoreRadii(const StateSource& source);
+    /// Forgets passes, film and counters, but neither radii nor what was learned.
+    void clearPasses();
     /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for meters and
     /// --map camera. Compiles kernels for it.
     std::optional<GatheredCount> countGathered();
