@@ -26,7 +26,7 @@ arguments() {
         photons) echo "$scenes/cornell_phong.xml -D resolution=24 --fixed --photons 2000" ;;
         camera) echo "$scenes/cornell_phong.xml -D resolution=24 --fixed --photons 2000 --map camera" ;;
         grid) echo "$scenes/daylight_room.xml --fixed --photons 2000 --grid NAME.csv" ;;
-        search) echo "$scenes/cornell_phong.xml -D resolution=24 --time 100000" ;;
+        search) echo "$scenes/cornell_phong.xml -D resolution=24 --time 100" ;;
     esac
 }
 
@@ -42,6 +42,20 @@ renders() {
     "$program" render "${words[@]}" "${@:3}"
 }
 
+# secondsToCheckpoint KIND: twice as long as it takes until there is one, and two seconds more: moments before and after it are as likely.
+secondsToCheckpoint() {
+    local start more=()
+    [[ $1 == search ]] || more=(--passes 1000000)
+    optionsOf first "$1"
+    start=$(date +%s%N)
+    "$program" render "${words[@]}" "${more[@]}" --checkpoint first.ckpt --every 0 >/dev/null 2>&1 &
+    while [[ ! -e first.ckpt ]]; do sleep 0.05; done
+    kill -9 $!
+    wait $! 2>/dev/null || true
+    awk -v ns=$(($(date +%s%N) - start)) 'BEGIN { print 2e-9 * ns + 2 }'
+    rm -f first.ckpt first.ckpt.*
+}
+
 sameImages() {
     oiiotool "$1.exr" "$2.exr" --fail 0 --warn 0 --diff >/dev/null 2>&1 || return 1
     [[ ! -e $1.csv ]] || cmp -s <(grep -v '^#' "$1.csv") <(grep -v '^#' "$2.csv")
@@ -50,13 +64,14 @@ sameImages() {
 kinds=(photons camera grid search)
 for kind in "${kinds[@]}"; do
     killed=0 with=0
+    longest=$(secondsToCheckpoint "$kind")
     for ((k = 0; k < kills / ${#kinds[@]}; ++k)); do
         options=(--checkpoint "$kind.ckpt" --every 0)
         [[ $kind == search ]] || options+=(--passes 1000000)
         [[ ! -e $kind.ckpt ]] || options+=(--resume "$kind.ckpt")
         optionsOf "$kind" "$kind"
         "$program" render "${words[@]}" "${options[@]}" >/dev/null 2>log &
-        sleep "$((RANDOM % 3)).$(printf '%03d' $((RANDOM % 1000)))"
+        sleep "$(awk -v longest="$longest" -v share=$((RANDOM % 1000)) 'BEGIN { print longest * share / 1000 }')"
         kill -9 $! 2>/dev/null || true
         if wait $! 2>/dev/null; then fail "$kind: it ended before it was killed"; fi
         [[ ! -s log ]] || ! grep -q 'quasilux: error' log || fail "$kind: $(cat log)"

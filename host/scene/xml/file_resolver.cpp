@@ -37,7 +37,7 @@ void FileResolver::prepend(const std::string& value, const SourceLocation& where
 }
 
 std::string FileResolver::resolve(const std::string& name, const SourceLocation& where) const {
-    const std::string path = find(name, where);
+    std::string path = find(name, where);
     guard_->admit(path, where);
     return path;
 }
