@@ -27,6 +27,8 @@ CLI::Validator deviceList();
 CLI::Validator definition();
 /// Names and values of such.
 std::vector<std::pair<std::string, std::string>> parseDefinitions(const std::vector<std::string>& texts);
+/// "name=number" with the name of a limit on scenes (host/scene/load_limits.h).
+CLI::Validator loadLimit();
 /// "auto", "none", "all", "level:NUMBER" or a comma-separated list without empty items.
 CLI::Validator quasiSpecularList();
 

@@ -279,7 +279,8 @@ int renderSensors(const RenderOptions& options) {
     if (!options.resume.empty())
         throw InputError(
             fmt::format("--resume {}: a checkpoint is of one sensor; give --sensor with its number.", options.resume));
-    const size_t count = loadScene(options.scene, options.parameters(), {"0", options.unknown()}).sensorCount;
+    const size_t count =
+        loadScene(options.scene, options.parameters(), {"0", options.unknown(), options.loadLimits()}).sensorCount;
     for (size_t index = 0; index < count; ++index)
         if (const int code = SensorRender(options.forSensor(index)).run(); code != 0 || interruptFlag()) return code;
     return 0;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <mutex>
+#include <optional>
 #include <tuple>
 #include <utility>
 #ifdef __linux__
@@ -20,26 +21,31 @@ namespace {
 // some it makes wrong or crashes over (docs/notes/devices.md). It reads this when it is loaded; what the user has set stays.
 void turnOffIntelVectorizer() { setenv("CL_CONFIG_CPU_VECTORIZER_MODE", "1", 0); }
 
+constexpr cl_int noPlatform = -1001; // CL_PLATFORM_NOT_FOUND_KHR of the loader, without any ICD
+
+/// Of all runtimes that answer. Throws cl::Error where none does, and one fails.
 std::vector<cl::Device> allDevices() {
     static std::once_flag once;
     std::call_once(once, turnOffIntelVectorizer);
     std::vector<cl::Platform> platforms;
-    // Without any ICD the loader reports an error instead of an empty list: both mean "no device".
+    std::optional<cl::Error> failure;
     try {
         cl::Platform::get(&platforms);
-    } catch (const cl::Error&) {
-        return {};
+    } catch (const cl::Error& error) {
+        if (error.err() != noPlatform) throw;
     }
     std::vector<cl::Device> devices;
     for (const auto& platform : platforms) {
         std::vector<cl::Device> here;
         try {
             platform.getDevices(CL_DEVICE_TYPE_ALL, &here);
-        } catch (const cl::Error&) {
-            continue; // a platform without devices (CL_DEVICE_NOT_FOUND)
+        } catch (const cl::Error& error) {
+            if (error.err() != CL_DEVICE_NOT_FOUND) failure = error;
+            continue;
         }
         devices.insert(devices.end(), here.begin(), here.end());
     }
+    if (devices.empty() && failure) throw *failure;
     return devices;
 }
 
@@ -131,7 +137,7 @@ cl::Buffer bufferOfHugePages(cl::Context& context, size_t bytes) {
 
 std::vector<DeviceInfo> listDevices() {
     std::vector<DeviceInfo> list;
-    for (const auto& device : allDevices()) list.push_back(ask([&] { return describe(device); }));
+    for (const auto& device : ask(allDevices)) list.push_back(ask([&] { return describe(device); }));
     return list;
 }
 
@@ -197,7 +203,7 @@ void Device::run(const std::function<void()>& command) {
     try {
         command();
     } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("device {}: running kernels failed (OpenCL error {})", info_.name, error.err()));
+        throw DeviceError(fmt::format("device {}: {} failed (OpenCL error {})", info_.name, error.what(), error.err()));
     }
 }
 
