@@ -212,10 +212,15 @@ typedef struct {
 } CameraCounters;
 #define CUT_THROUGHPUT_STEPS 1024u
 
+/* Pixels of a block that a piece of the film is made of: the one in its middle, one in each row, all. */
+#define CUT_MIDDLE 0u
+#define CUT_DIAGONAL 1u
+#define CUT_ALL 2u
+
 /* A piece of the film: columns x rows blocks of step x step of its pixels, those at the film's edge maybe smaller. */
 typedef struct {
     unsigned int x, y, columns, rows, step;
-    unsigned int isMean; /* of the block's pixels; or else the one in its middle */
+    unsigned int sampling; /* CUT_*: which of the block's pixels are looked at, to take their mean */
     unsigned int filmWidth, filmHeight;
     unsigned int firstPixel, pixels; /* of the part of the film that is read */
     unsigned int filmFloats;         /* of a pixel */

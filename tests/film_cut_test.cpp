@@ -40,7 +40,7 @@ protected:
 };
 
 TEST_P(FilmCutTest, PixelsAreThoseOfTheImage) {
-    const FilmCutChoice choice{5, 3, 20, 17, 1, true, FilmCutChoice::Content::all, {}};
+    const FilmCutChoice choice{5, 3, 20, 17, 1, CUT_ALL, FilmCutChoice::Content::all, {}};
     const FilmImage cut = cutter.develop(film, passes, choice);
     ASSERT_EQ(cut.width, choice.width);
     ASSERT_EQ(cut.height, choice.height);
@@ -57,7 +57,7 @@ TEST_P(FilmCutTest, PixelsAreThoseOfTheImage) {
 
 // Of blocks of four pixels a side; the last ones reach beyond the film and are smaller.
 TEST_P(FilmCutTest, ValuesAreMeansOfBlocks) {
-    FilmCutChoice choice{0, 0, width, height, 4, true, FilmCutChoice::Content::values, {}};
+    FilmCutChoice choice{0, 0, width, height, 4, CUT_ALL, FilmCutChoice::Content::values, {}};
     for (const auto component : {std::optional<unsigned>(), std::optional<unsigned>(FILM_EMISSION)}) {
         choice.component = component;
         const auto& values = component ? whole.components[*component] : whole.radiance;
@@ -74,8 +74,21 @@ TEST_P(FilmCutTest, ValuesAreMeansOfBlocks) {
     }
 }
 
+// The same blocks by one pixel in each row, each in another column.
+TEST_P(FilmCutTest, DiagonalsAreMeansOfFewerPixels) {
+    const FilmCutChoice choice{0, 0, width, height, 4, CUT_DIAGONAL, FilmCutChoice::Content::values, {}};
+    const FilmImage cut = cutter.develop(film, passes, choice);
+    for (unsigned y = 0; y < cut.height; ++y)
+        for (unsigned x = 0; x < cut.width; ++x) {
+            const unsigned columns = std::min(4u, width - 4 * x), rows = std::min(4u, height - 4 * y);
+            double sum = 0;
+            for (unsigned k = 0; k < rows; ++k) sum += whole.radiance[at(4 * x + k % columns, 4 * y + k)];
+            ASSERT_NEAR(cut.radiance[3 * (size_t(y) * cut.width + x)], sum / rows, 1e-5);
+        }
+}
+
 TEST_P(FilmCutTest, ErrorsAreThoseOfThePixelInTheMiddle) {
-    const FilmCutChoice choice{2, 1, 30, 20, 5, false, FilmCutChoice::Content::errors, {}};
+    const FilmCutChoice choice{2, 1, 30, 20, 5, CUT_MIDDLE, FilmCutChoice::Content::errors, {}};
     const FilmImage cut = cutter.develop(film, passes, choice);
     ASSERT_EQ(cut.width, 6u);
     ASSERT_FALSE(cut.hasComponents());

@@ -152,7 +152,7 @@ TEST(Edits, AreReadOrRefused) {
 // The moment's renderer and settings are not looked at here.
 RenderMoment momentOf(uint64_t number) {
     static const AutoRender none;
-    return {reinterpret_cast<const Renderer&>(none), none, number};
+    return {reinterpret_cast<const Renderer&>(none), none, number, true};
 }
 
 TEST(Errands, AreDoneByTheOtherThreadWhenTheyAreDue) {

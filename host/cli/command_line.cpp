@@ -2,6 +2,7 @@
 #include "cli/command_line.h"
 
 #include "cli/bench_command.h"
+#include "cli/command_end.h"
 #include "cli/compare_command.h"
 #include "cli/devices_command.h"
 #include "cli/dgp_command.h"
@@ -10,26 +11,46 @@
 #include "cli/info_command.h"
 #include "cli/manual_command.h"
 #include "cli/merge_command.h"
+#include "cli/option_checks.h"
+#include "cli/option_list.h"
 #include "cli/options.h"
 #include "cli/photometry_command.h"
-#include "cli/render_command.h"
+#include "cli/render_queue.h"
 #include "cli/report_command.h"
 #include "cli/view_command.h"
-#include "util/error.h"
+#include "util/messages.h"
 #include "util/nearest.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
-#include <new>
 
 namespace quasilux {
 
 namespace {
 
-constexpr int exitFailed = 1, exitBadInput = 2;
-
 int fail(int exitCode, const std::string& message) {
-    fmt::print(stderr, "quasilux: error: {}\n", message);
+    printError(message);
     return exitCode;
+}
+
+// Where tev listens by itself.
+constexpr const char* ownTev = "--tev=127.0.0.1:14158";
+
+/// `quasilux SCENE …` is `quasilux render SCENE …`; and --tev without HOST:PORT has one, so that it takes no scene for that.
+std::vector<std::string> completed(CLI::App& app, std::vector<std::string> arguments) {
+    const auto commands = listedCommands(app);
+    const auto isFirst = [&](const CLI::App* command) { return command->get_name() == arguments[0]; };
+    if (!arguments.empty() && std::none_of(commands.begin(), commands.end(), isFirst)) {
+        const std::filesystem::path path(arguments[0]);
+        std::error_code ignored;
+        if (path.extension() == ".xml" || std::filesystem::is_regular_file(path, ignored))
+            arguments.insert(arguments.begin(), "render");
+    }
+    for (size_t k = 0; k < arguments.size(); ++k)
+        if (arguments[k] == "--tev" && (k + 1 == arguments.size() || !isHostAndPort(arguments[k + 1])))
+            arguments[k] = ownTev;
+    return arguments;
 }
 
 /// The subcommand that was named, or the program itself.
@@ -67,7 +88,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
 }
 
 int runCommand(CLI::App& app, const Options& options) {
-    if (app.got_subcommand("render")) return renderCommand(options.render);
+    if (app.got_subcommand("render")) return renderScenes(options.render);
     if (app.got_subcommand("view")) return viewCommand(options.view);
     if (app.got_subcommand("merge")) return mergeCommand(options.merge);
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
@@ -95,18 +116,17 @@ int runCommandLine(int argc, char** argv) {
         "quasilux");
     Options options;
     declareOptions(app, options);
-    try {
-        app.parse(argc, argv);
+    const CommandEnd end = endOf([&] {
+        try {
+            std::vector<std::string> arguments = completed(app, {argv + 1, argv + argc});
+            std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes them
+            app.parse(std::move(arguments));
+        } catch (const CLI::ParseError& error) {
+            return failParsing(app, error);
+        }
         return runCommand(app, options);
-    } catch (const CLI::ParseError& error) {
-        return failParsing(app, error);
-    } catch (const InputError& error) {
-        return fail(exitBadInput, error.what());
-    } catch (const std::bad_alloc&) {
-        return fail(exitFailed, memoryExhausted);
-    } catch (const std::exception& error) {
-        return fail(exitFailed, error.what());
-    }
+    });
+    return end.error.empty() ? end.exitCode : fail(end.exitCode, end.error);
 }
 
 } // namespace quasilux

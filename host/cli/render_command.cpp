@@ -5,6 +5,7 @@
 #include "cli/render_report.h"
 #include "cli/render_warnings.h"
 #include "cli/started_render.h"
+#include "cli/terminal_picture.h"
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
 #include "output/exr.h"
@@ -13,7 +14,9 @@
 #include "output/progress_line.h"
 #include "output/statistics.h"
 #include "util/error.h"
+#include "util/messages.h"
 #include "view/live_view.h"
+#include "view/tev_client.h"
 
 #include <chrono>
 #include <cmath>
@@ -33,17 +36,17 @@ struct WrittenFiles {
     std::optional<ToneCurve> curve; ///< of the PNG
 };
 
-void checkOutputs(const RenderOptions& options) {
-    if (!options.outputPath().empty()) checkOutputPath(options.outputPath(), "--output", ".exr");
-    if (!options.grid.empty()) checkOutputPath(options.grid, "--grid", ".csv");
-    if (!options.png.empty()) checkOutputPath(options.png, "--png", ".png");
-    if (!options.stats.empty()) checkOutputPath(options.stats, "--stats", ".json");
-    checkCheckpointOptions(options);
-}
+// When warnings are said: those before the first pass end a strict render, those after it only its exit code.
+enum class Moment { beforePasses, whenWritten };
 
-void warn(const RenderOptions& options, const std::vector<std::string>& messages) {
-    if (options.quiet) return;
-    for (const auto& message : messages) fmt::print(stderr, "quasilux: warning: {}\n", message);
+void warn(const RenderOptions& options, const std::vector<std::string>& messages,
+          Moment moment = Moment::beforePasses) {
+    if (!options.quiet || options.strict)
+        for (const auto& message : messages) printWarning(message);
+    if (!options.strict || messages.empty()) return;
+    const char* which = messages.size() == 1 ? "the warning above is an error" : "the warnings above are errors";
+    if (moment == Moment::beforePasses) throw InputError(fmt::format("--strict: {}, nothing is rendered", which));
+    throw std::runtime_error(fmt::format("--strict: {}; the files have been written", which));
 }
 
 WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
@@ -93,7 +96,7 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
 }
 
 // After the passes: the estimated error, then a table by component. Docs: docs/method/accuracy.md.
-void printError(const ErrorEstimate& error) {
+void printErrorTable(const ErrorEstimate& error) {
     if (!std::isfinite(error.sum())) { // after one pass nothing is known
         fmt::print("\n");
         return;
@@ -112,12 +115,17 @@ void printError(const ErrorEstimate& error) {
     fmt::print("{}", table.text());
 }
 
+std::string nameOfShown(const RenderOptions& options) {
+    const std::string path = options.outputPath().empty() ? options.scene : options.outputPath();
+    return std::filesystem::path(path).filename().string();
+}
+
 void printSummary(const RenderRecord& record, const FilmImage& image, const WrittenFiles& written) {
     fmt::print("{} {}, {:.1f} s", record.counters.passes, record.counters.passes == 1 ? "pass" : "passes",
                record.counters.renderSeconds);
     if (record.interrupted) fmt::print(", interrupted");
     if (!record.failure.empty()) fmt::print(", ended by a failure");
-    printError(record.error);
+    printErrorTable(record.error);
     if (record.meter != MeterKind::none) fmt::print("{}", meterText(record, image));
     for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
     if (written.curve)
@@ -125,10 +133,10 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
                    written.curve->white);
 }
 
-int renderSensor(const RenderOptions& options) {
+int renderSensor(const RenderOptions& options, const RenderSurroundings& around) {
     exitOnInterrupt();
     checkOutputs(options);
-    ProgressLine progress(stderr, !options.quiet);
+    ProgressLine progress(stderr, !options.quiet && around.drawsProgress, around.label);
     progress.update({.phase = "loading"});
     const auto start = Clock::now();
     Scene scene = loadScene(options.scene, options.parameters(), options.choice());
@@ -144,10 +152,14 @@ int renderSensor(const RenderOptions& options) {
     exitOnInterrupt();
     progress.update({.phase = "preparing"});
     std::optional<LiveView> view;
+    std::atomic<bool> isOver{false}; // where the scene is watched
+    bool isOutdated = false;
     const auto onProgress = [&](const Progress& now) {
         catchInterrupt();
         progress.update(now);
         if (view) view->onProgress(now);
+        isOutdated = isOutdated || (around.isOutdated && around.isOutdated());
+        isOver = isOutdated || interruptFlag();
     };
     const auto onChosen = [&](const SearchReport& search) {
         progress.clear();
@@ -164,11 +176,18 @@ int renderSensor(const RenderOptions& options) {
         view->begin(device, scene, options.settings(scene), started.stop(), false);
         fmt::print(stderr, "quasilux: live view at {}\n", view->address());
     }
+    std::optional<TevClient> tev;
+    if (options.tev) {
+        tev.emplace(*options.tev, nameOfShown(options), device);
+        warn(options, tev->takeWarnings());
+    }
     const auto afterPass = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
         if (view) view->afterPass(soFar, now, seconds, isLast);
+        if (tev) tev->afterPass(now, isLast);
     };
-    const AutoRender render =
-        started.render(onProgress, onChosen, view ? view->interrupted() : interruptFlag(), afterPass);
+    const std::atomic<bool>& interrupted = view ? view->interrupted() : around.isOutdated ? isOver : interruptFlag();
+    const AutoRender render = started.render(onProgress, onChosen, interrupted, afterPass);
+    if (isOutdated && !interruptFlag()) return exitCodeOutdated;
     const FilmImage& image = render.image;
     if (image.passes == 0) {
         if (interruptFlag()) return exitCodeWithoutResult();
@@ -180,24 +199,41 @@ int renderSensor(const RenderOptions& options) {
     record.loadSeconds = loadSeconds;
     record.unobstructedIlluminance = daylight;
     record.interrupted |= view && view->isStopped();
-    const WrittenFiles written = writeFiles(options, scene, image, renderLayers(device, scene, render), record);
+    const WrittenFiles written = writeFiles(options.named(namePartsOf(record.settings.seed, image.passes)), scene,
+                                            image, renderLayers(device, scene, render), record);
     progress.clear();
-    warn(options, renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height));
     if (options.json)
         printJsonSummary(record, image, written);
     else if (!options.quiet)
         printSummary(record, image, written);
-    // What there is has been written.
+    if (!options.show.empty()) showImage(options.show, image, options.exposure);
+    std::vector<std::string> warnings =
+        renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height);
+    if (tev) tev->finish();
+    if (tev)
+        for (std::string& warning : tev->takeWarnings()) warnings.push_back(std::move(warning));
+    // What there is has been written. Warnings come last: there they are seen.
     if (render.failure) std::rethrow_exception(render.failure);
     if (!started.checkpointFailure().empty())
         throw std::runtime_error("no checkpoint of the last passes could be written: " + started.checkpointFailure());
+    warn(options, warnings, Moment::whenWritten);
     return exitCodeWhenWritten();
 }
 
 } // namespace
 
-int renderCommand(const RenderOptions& options) {
-    if (options.sensor != "all") return renderSensor(options);
+void checkOutputs(const RenderOptions& options) {
+    const NameParts any = namePartsOf(0, 0); // the names are not known yet, their folders are
+    const RenderOptions named = options.named(any);
+    if (!named.outputPath().empty()) checkOutputPath(named.outputPath(), "--output", ".exr");
+    if (!named.grid.empty()) checkOutputPath(named.grid, "--grid", ".csv");
+    if (!named.png.empty()) checkOutputPath(named.png, "--png", ".png");
+    if (!named.stats.empty()) checkOutputPath(named.stats, "--stats", ".json");
+    checkCheckpointOptions(options);
+}
+
+int renderCommand(const RenderOptions& options, const RenderSurroundings& around) {
+    if (options.sensor != "all") return renderSensor(options, around);
     if (!options.grid.empty())
         throw InputError({options.scene}, "--grid measures the illuminance-grid instead of a sensor; give it without "
                                           "--sensor all.");
@@ -206,7 +242,7 @@ int renderCommand(const RenderOptions& options) {
             fmt::format("--resume {}: a checkpoint is of one sensor; give --sensor with its number.", options.resume));
     const size_t count = loadScene(options.scene, options.parameters(), {"0", options.unknown()}).sensorCount;
     for (size_t index = 0; index < count; ++index)
-        if (const int code = renderSensor(options.forSensor(index)); code != 0 || interruptFlag()) return code;
+        if (const int code = renderSensor(options.forSensor(index), around); code != 0 || interruptFlag()) return code;
     return 0;
 }
 

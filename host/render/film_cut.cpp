@@ -20,7 +20,7 @@ shared::FilmCut cutOf(const Film& film, const FilmCutChoice& choice) {
     cut.step = choice.step;
     cut.columns = (choice.width + choice.step - 1) / choice.step;
     cut.rows = (choice.height + choice.step - 1) / choice.step;
-    cut.isMean = choice.isMean;
+    cut.sampling = choice.sampling;
     cut.filmWidth = film.width();
     cut.filmHeight = film.height();
     cut.filmFloats = static_cast<unsigned>(film.layout().floatsPerPixel());

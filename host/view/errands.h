@@ -19,6 +19,7 @@ struct RenderMoment {
     const Renderer& renderer;
     const AutoRender& soFar; ///< settings and search
     uint64_t number;         ///< of the moment: one more after each pass, whatever the render
+    bool goesOn = true;      ///< or else no pass follows, so that time does not matter
 };
 
 class Errands {

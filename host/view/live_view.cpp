@@ -67,12 +67,12 @@ void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, doub
     }
     state_.setPasses(passes, seconds);
     if (isLast) state_.setPhase(over);
-    errands_.doDue({renderer, soFar, ++moment_});
+    errands_.doDue({renderer, soFar, ++moment_, !isLast});
 }
 
 void LiveView::waitWith(const AutoRender& soFar, const Renderer& renderer, const std::function<bool()>& isOver) {
     while (!signalled_ && !hasEdits_ && !isOver()) {
-        errands_.doDue({renderer, soFar, moment_});
+        errands_.doDue({renderer, soFar, moment_, false});
         std::this_thread::sleep_for(whileWaiting);
     }
 }

@@ -185,7 +185,7 @@ struct ViewServer::Http {
             [&](const RenderMoment& now) {
                 const auto start = Clock::now();
                 const Film& film = now.renderer.film();
-                choice = cutFor(wish, film);
+                choice = cutFor(wish, film, now.goesOn);
                 isWhole = choice.width == film.width() && choice.height == film.height();
                 cut = view.cutter().develop(film, static_cast<unsigned>(now.renderer.counters().passes), choice);
                 moment = now.number;

@@ -24,7 +24,12 @@ protected:
     CommandLineTest();
 
     /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C, or another signal.
-    Outcome run(std::vector<std::string> arguments, unsigned interruptAfter = 0, int signal = SIGINT) const;
+    Outcome run(const std::vector<std::string>& arguments, unsigned interruptAfter = 0, int signal = SIGINT) const;
+    /// The same in two steps: what runs meanwhile, and how it ends.
+    pid_t start(std::vector<std::string> arguments) const;
+    Outcome end(pid_t process) const;
+    /// Runs it on a terminal of its own; all that it writes there.
+    Outcome runOnTerminal(std::vector<std::string> arguments) const;
 
     /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file that was not there before.
     void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;
@@ -32,7 +37,6 @@ protected:
     TemporaryFolder temporary;
     std::filesystem::path root = temporary.path(), folder = root / "work";
 
-private:
     std::vector<std::string> filesInFolder() const;
 };
 

@@ -2,6 +2,7 @@
 #include "scene/xml/xml_document.h"
 
 #include "scene/xml/names.h"
+#include "scene/xml/read_files.h"
 #include "scene/xml/tags.h"
 #include "scene/xml/upgrade.h"
 
@@ -269,6 +270,7 @@ Instruction parseInstruction(std::string_view text, const SourceLocation& where)
 }
 
 std::string readFile(const std::string& path, const SourceLocation& where, std::string_view what) {
+    noteReadFile(path);
     std::error_code error;
     const bool regular = std::filesystem::is_regular_file(path, error);
     std::ifstream file(path, std::ios::binary);
