@@ -7,6 +7,7 @@
 inline void addPixel(__global const float* film, __global float* sums, uint2 at, float weight, FilmCut cut) {
     const ulong pixel = (ulong)at.y * cut.filmWidth + at.x;
     if (pixel < cut.firstPixel || pixel >= (ulong)cut.firstPixel + cut.pixels) return;
+    weight *= pixel < cut.pixelsAhead ? cut.aheadWeight : 1.f;
     film += (pixel - cut.firstPixel) * cut.filmFloats + cut.firstFloat;
     for (uint k = 0; k < cut.floats; ++k) sums[k] += weight * film[k];
 }

@@ -225,6 +225,8 @@ typedef struct {
     unsigned int firstPixel, pixels; /* of the part of the film that is read */
     unsigned int filmFloats;         /* of a pixel */
     unsigned int firstFloat, floats; /* which of them */
+    unsigned int pixelsAhead;        /* of the film, from its first on: they have one pass more than the others, */
+    float aheadWeight;               /* and this factor makes up for it */
 } FilmCut;
 
 #define LOBES_MAX 8u /* lobes on one side of a surface; the host refuses more */

@@ -100,6 +100,23 @@ TEST_P(FilmCutTest, ErrorsAreThoseOfThePixelInTheMiddle) {
         }
 }
 
+// In the middle of a pass: its pixels so far have one pass more, and each is the mean of its own.
+TEST_P(FilmCutTest, PixelsAheadAreMeansOfTheirOwnPasses) {
+    constexpr unsigned ahead = 5 * width + 7;
+    const FilmCutChoice choice{0, 0, width, height, 1, CUT_ALL, FilmCutChoice::Content::values, {}};
+    unsigned calls = 0;
+    film.watchRows([&] { ++calls; });
+    film.noteAhead(ahead);
+    EXPECT_EQ(calls, 1u);
+    const FilmImage inPass = cutter.develop(film, passes, choice);
+    film.endPass();
+    for (size_t k = 0; k < inPass.radiance.size(); ++k) {
+        const double factor = k / 3 < ahead ? double(passes) / (passes + 1) : 1;
+        ASSERT_NEAR(inPass.radiance[k], whole.radiance[k] * factor, 1e-6) << k;
+    }
+    EXPECT_EQ(cutter.develop(film, passes, choice).radiance, whole.radiance);
+}
+
 constexpr uint64_t smallBuffer = 64 * 1024; // of the film, several are needed
 INSTANTIATE_TEST_SUITE_P(Buffers, FilmCutTest, testing::Values(Film::inOneBuffer, smallBuffer));
 

@@ -9,6 +9,7 @@
 #include "util/messages.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>

@@ -55,7 +55,10 @@ void CameraStage::runOn(Film& film, const Buffer<float>* radiusScales, const Pho
     if (shared_)
         shared_->addPass(film, params_, geometry_, tracer(film, radiusScales, photons));
     else
-        for (Film::Part& part : film.parts()) tracePart(film, part, part.pixels, radiusScales, photons);
+        for (Film::Part& part : film.parts()) {
+            tracePart(film, part, part.pixels, radiusScales, photons);
+            film.noteAhead(part.firstPixel + part.pixels);
+        }
 }
 
 const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage& photons) {

@@ -25,6 +25,7 @@ class FilmCutter {
 public:
     explicit FilmCutter(Device& device) : device_(device) {}
 
+    /// In the middle of a pass, when some pixels have more of them than `passes`, Content::values alone: each is its own mean then.
     FilmImage develop(const Film& film, unsigned passes, const FilmCutChoice& choice);
 
 private:

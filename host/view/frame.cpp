@@ -78,6 +78,8 @@ std::vector<std::string> layersOf(const FilmLayout& film) {
     return layers;
 }
 
+bool isValueLayer(const std::string& layer) { return layer == imageLayer || componentOf(layer) < FILM_COMPONENTS; }
+
 FilmCutChoice cutFor(const FrameWish& wish, const Film& film, bool goesOn) {
     const auto layers = layersOf(film.layout());
     if (std::find(layers.begin(), layers.end(), wish.layer) == layers.end())
@@ -91,7 +93,7 @@ FilmCutChoice cutFor(const FrameWish& wish, const Film& film, bool goesOn) {
     while (uint64_t(choice.width / choice.step) * (choice.height / choice.step) > mostPixels) ++choice.step;
     const unsigned component = componentOf(wish.layer);
     if (component < FILM_COMPONENTS) choice.component = component;
-    const bool isValue = wish.layer == imageLayer || choice.component;
+    const bool isValue = isValueLayer(wish.layer);
     if (!isValue) choice.content = FilmCutChoice::Content::errors;
     choice.sampling = isValue ? samplingOf(choice, goesOn) : CUT_MIDDLE;
     return choice;

@@ -191,7 +191,7 @@ struct ViewServer::Http {
                 moment = now.number;
                 noteCost(start);
             },
-            {after, after > 0 ? nextFrame() : Clock::time_point{}}, patience);
+            {after, after > 0 ? nextFrame() : Clock::time_point{}, isValueLayer(wish.layer)}, patience);
         if (!isDone) {
             response.status = noContent;
             return;
