@@ -11,7 +11,7 @@ rm -f build/release/quasilux_*.deb
 package=$(echo build/release/quasilux_*.deb)
 dpkg-deb --info "$package"
 
-command -v debootstrap >/dev/null || bash scripts/setup.sh debootstrap
+command -v debootstrap >/dev/null || bash scripts/setup.sh --program debootstrap
 debian=${1:-}
 mounted=()
 clean() {

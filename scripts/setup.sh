@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [PACKAGE...].
+# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [--program] [PACKAGE...].
+# --program: only what it takes to build and run it; without it also what tests and reports need, which is twice as much.
 # Needs root or sudo; does nothing where everything is there already.
 set -euo pipefail
 
@@ -10,7 +11,13 @@ libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-d
 tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools oclgrind chromium python3-websocket
     python3-dev pybind11-dev mypy)
 reports=(python3 python3-numpy python3-openimageio python3-matplotlib)
-packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}" "${tests[@]}" "${reports[@]}" "$@")
+packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}")
+if [[ ${1:-} == --program ]]; then
+    shift
+else
+    packages+=("${tests[@]}" "${reports[@]}")
+fi
+packages+=("$@")
 
 missing=()
 for package in "${packages[@]}"; do

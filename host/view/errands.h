@@ -18,7 +18,7 @@ namespace quasilux {
 struct RenderMoment {
     const Renderer& renderer;
     const AutoRender& soFar; ///< settings and search
-    uint64_t number;         ///< of the moment: one more after each pass, whatever the render
+    uint64_t number;         ///< of the moment: one more after each pass, or more rows of it, whatever the render
     bool goesOn = true;      ///< or else no pass follows, so that time does not matter
     bool inPass = false;     ///< in the middle of one
 };

@@ -165,7 +165,8 @@ class DoneRender(unittest.TestCase):
 class RunningRender(unittest.TestCase):
     def test_it_sharpens_and_stops(self):
         with Viewed(PROGRAM, SCENE, *SMALL) as view:
-            early, noise_early = view.frame(layer="relative_error", after=1)
+            view.wait(lambda state: state["passes"] >= 2)  # after one no error is known
+            early, noise_early = view.frame(layer="relative_error")
             view.wait(lambda state: state["passes"] >= 16 * early["passes"])
             late, noise_late = view.frame(layer="relative_error")
             # The noise falls by the root of the passes, to a quarter; less as radii shrink meanwhile.
