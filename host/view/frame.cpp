@@ -11,7 +11,8 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned mostPixels = 1u << 21; // of a frame
+constexpr unsigned mostPixels = 1u << 21;  // of a frame
+constexpr unsigned mostThinned = 1u << 19; // of one of a film that is thinned, while the render goes on
 constexpr unsigned mostPixelsRead =
     1u << 20; // of the film, for a frame of a render that goes on, where that is thinned
 constexpr size_t pixelsForExposure = 1u << 14; // looked at for the automatic exposure
@@ -90,7 +91,10 @@ FilmCutChoice cutFor(const FrameWish& wish, const Film& film, bool goesOn) {
     choice.width = std::clamp(wish.width, 1u, film.width() - choice.x);
     choice.height = std::clamp(wish.height, 1u, film.height() - choice.y);
     choice.step = std::clamp(wish.step, 1u, std::max(choice.width, choice.height));
-    while (uint64_t(choice.width / choice.step) * (choice.height / choice.step) > mostPixels) ++choice.step;
+    const auto exceeds = [&](unsigned most) {
+        return uint64_t(choice.width / choice.step) * (choice.height / choice.step) > most;
+    };
+    while (exceeds(mostPixels) || (goesOn && choice.step > 1 && exceeds(mostThinned))) ++choice.step;
     const unsigned component = componentOf(wish.layer);
     if (component < FILM_COMPONENTS) choice.component = component;
     const bool isValue = isValueLayer(wish.layer);
