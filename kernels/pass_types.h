@@ -181,8 +181,10 @@ typedef struct {
     unsigned int pixel;
     unsigned int scatterer; /* surface: POINT_LAMBERT, or lobe index << 1 | 1 where it transmits; medium: SCATTER_* */
     unsigned int wo;        /* towards the camera path, octahedral */
-    unsigned int normal; /* surface: shading normal, octahedral; medium: slope of the kernel's weight, a float's bits */
-    unsigned int border; /* index of its PointBorder, or QL_NONE */
+    unsigned int
+        normal; /* octahedral: of a surface the shading normal, in a medium where weights of the kernel rise, in kernel space */
+    unsigned int
+        border; /* of a surface the index of its PointBorder, or QL_NONE; in a medium that slope, a float's bits */
 } CameraPoint;
 #define POINT_LAMBERT QL_NONE
 

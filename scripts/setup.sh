@@ -1,7 +1,15 @@
 #!/usr/bin/env bash
-# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [PACKAGE...].
+# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [--mpi] [PACKAGE...].
+# With --mpi also Open MPI, and build/mpi is set up for a release build with it: cmake --build --preset mpi.
 # Needs root or sudo; does nothing where everything is there already.
 set -euo pipefail
+cd "$(dirname "$0")/.."
+
+mpi=()
+if [[ ${1:-} == --mpi ]]; then
+    mpi=(libopenmpi-dev openmpi-bin)
+    shift
+fi
 
 compiler=(g++ cmake ninja-build pkg-config)
 opencl=(pocl-opencl-icd ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers)
@@ -10,15 +18,21 @@ libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-d
 tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools oclgrind chromium python3-websocket
     python3-dev pybind11-dev mypy)
 reports=(python3 python3-numpy python3-openimageio python3-matplotlib)
-packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}" "${tests[@]}" "${reports[@]}" "$@")
+packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}" "${tests[@]}" "${reports[@]}" "${mpi[@]}" "$@")
 
 missing=()
 for package in "${packages[@]}"; do
     status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
     [[ $status == installed ]] || missing+=("$package")
 done
+
+configure() {
+    ((${#mpi[@]} == 0)) || cmake --preset mpi
+}
+
 if ((${#missing[@]} == 0)); then
     echo "setup: all ${#packages[@]} packages are installed"
+    configure
     exit 0
 fi
 
@@ -33,3 +47,4 @@ fi
 echo "setup: installing ${missing[*]}"
 "${asRoot[@]}" apt-get update
 "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"
+configure

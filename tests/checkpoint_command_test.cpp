@@ -202,6 +202,45 @@ TEST_F(CheckpointCommand, FullDiskLosesNoImage) {
     for (const auto& entry : fs::directory_iterator(folder)) EXPECT_NE(entry.path().extension(), ".tmp");
 }
 
+// The other kinds of renders: camera points stored, and a grid, of which there is a table.
+TEST_F(CheckpointCommand, OtherKindsResumeToTheSameBits) {
+    const auto renders = [&](const Arguments& kind, const Arguments& more) {
+        Arguments all = kind;
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = run(all);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    };
+    const Arguments points = render({"--map", "camera"});
+    renders(points, {"-o", "whole.exr", "--passes", "9"});
+    renders(points, {"-o", "a.exr", "--passes", "4", "--checkpoint", "points.ckpt"});
+    renders(points, {"-o", "b.exr", "--passes", "9", "--resume", "points.ckpt"});
+    expectSameImage("b.exr", "whole.exr");
+    writeScene(test::litPlate().insert(test::litPlate().find("</scene>"),
+                                       "<?quasilux illuminance-grid origin=\"-1,-1,3.9\" edge-u=\"1,0,0\" "
+                                       "edge-v=\"0,1,0\" nx=\"3\" ny=\"2\"?>"));
+    const Arguments grid{"render", "scene.xml", "--fixed", "--photons", "2000", "--json"};
+    renders(grid, {"--grid", "whole.csv", "--passes", "9"});
+    renders(grid, {"--grid", "a.csv", "--passes", "4", "--checkpoint", "grid.ckpt"});
+    renders(grid, {"--grid", "b.csv", "--passes", "9", "--resume", "grid.ckpt"});
+    const auto table = [&](const std::string& name) { // without the header, which says how long it took
+        const std::string text = readText(folder / name);
+        return text.substr(text.find("\ni,j,"));
+    };
+    EXPECT_EQ(table("b.csv"), table("whole.csv"));
+    EXPECT_NE(table("a.csv"), table("whole.csv")); // control
+}
+
+// Nothing is finished yet while settings are searched: there is no checkpoint then, and the code says so.
+TEST_F(CheckpointCommand, SearchThatIsKilledLeavesNoHalfCheckpoint) {
+    const Arguments searched{"render", "scene.xml", "-o", "a.exr", "--time", "1000", "--checkpoint", "a.ckpt"};
+    const Outcome outcome = run(searched, 5, SIGTERM);
+    // While the device is opened on a busy machine: by the signal itself.
+    EXPECT_THAT(outcome.exitCode, testing::AnyOf(128 + SIGTERM, -1)) << outcome.errors;
+    if (isThere("a.ckpt")) checkpoint("a.ckpt"); // throws where it is damaged
+    EXPECT_EQ(isThere("a.exr"), isThere("a.ckpt"));
+    for (const auto& entry : fs::directory_iterator(folder)) EXPECT_NE(entry.path().extension(), ".tmp");
+}
+
 double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
     double largest = 0;
     for (size_t k = 0; k < a.size(); ++k)

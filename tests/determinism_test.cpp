@@ -69,6 +69,28 @@ TEST(Determinism, WorkGroupSizeDoesNotMatter) {
     for (const unsigned size : {1u, 7u, 32u, 256u}) expectSameBits(expected, renderPasses(0, 3, smallSettings(), size));
 }
 
+// Shorter regions, more blocks of cells, functions with a definition of their own to link: the same passes, in another order of sums.
+TEST(Determinism, WorkDividedAsForAGpuGivesTheSameImage) {
+    const auto render = [](MapOrder map, bool asForGpu) {
+        auto settings = smallSettings();
+        settings.map = map;
+        Device device(0);
+        if (asForGpu) device.divideAsForGpu();
+        Renderer renderer(device, smallCornell(), settings);
+        for (unsigned pass = 0; pass < 3; ++pass) renderer.renderPass(pass);
+        return renderer.develop();
+    };
+    for (const MapOrder map : {MapOrder::photons, MapOrder::camera}) {
+        const auto expected = render(map, false), found = render(map, true);
+        double difference = 0, sum = 0;
+        for (size_t k = 0; k < expected.radiance.size(); ++k) {
+            difference += std::abs(double(found.radiance[k]) - double(expected.radiance[k]));
+            sum += double(expected.radiance[k]);
+        }
+        EXPECT_LT(difference, 1e-5 * sum);
+    }
+}
+
 // Beside the image, not in it: the estimate of bias changes no bit of what was there without it.
 TEST(Determinism, EstimatingTheBiasDoesNotChangeTheImage) {
     auto without = smallSettings();

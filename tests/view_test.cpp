@@ -155,6 +155,17 @@ RenderMoment momentOf(uint64_t number) {
     return {reinterpret_cast<const Renderer&>(none), none, number};
 }
 
+// Who writes out what is nested recurses: that deep it would end the program.
+TEST(Edits, DeeplyNestedAreRefused) {
+    const auto message = [](const std::string& text) { return refusal([&] { parseEdits(text); }).value_or(""); };
+    EXPECT_THAT(message(std::string(200000, '[')), testing::HasSubstr("at most 8 levels"));
+    const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+    EXPECT_THAT(message(deep), testing::HasSubstr("at most 8 levels"));
+    EXPECT_THAT(message("{\"lamps\":" + deep + "}"), testing::HasSubstr("at most 8 levels"));
+    EXPECT_THAT(message("{\"lamps\":[1}"), testing::HasSubstr("expected JSON"));
+    EXPECT_EQ(parseEdits(std::string("{\"bdd\":2}")).bdd, 2u); // control
+}
+
 TEST(Errands, AreDoneByTheOtherThreadWhenTheyAreDue) {
     Errands errands;
     std::thread::id doneBy;

@@ -53,19 +53,27 @@ void countGathered(Renderer& renderer, AutoRender& result) {
     }
 }
 
-void renderPasses(Device& device, Renderer& renderer, double seconds, const StopRule& stop,
-                  const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
-                  const AfterChosenPass& afterPass, AutoRender& result) {
+RenderOutcome renderAlone(const ChosenRender& chosen, const AfterChosenPass& afterPass) {
     AfterPass after;
     if (afterPass)
-        after = [&](const Renderer& now, double elapsed, bool isLast) { afterPass(result, now, elapsed, isLast); };
-    RenderOutcome outcome = renderAsFarAsItGoes(renderer, stop, onProgress, interrupted, {seconds}, after);
+        after = [&](const Renderer& now, double elapsed, bool isLast) {
+            afterPass(chosen.soFar, now, elapsed, isLast);
+        };
+    return renderAsFarAsItGoes(*chosen.renderer, chosen.stop, chosen.onProgress, chosen.interrupted, {chosen.seconds},
+                               after);
+}
+
+void renderPasses(Device& device, std::shared_ptr<Renderer> renderer, double seconds, const StopRule& stop,
+                  const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
+                  const AfterChosenPass& afterPass, const PassRunner& run, AutoRender& result) {
+    const ChosenRender chosen{result, std::move(renderer), stop, seconds, onProgress, interrupted};
+    RenderOutcome outcome = run ? run(chosen) : renderAlone(chosen, afterPass);
     result.image = std::move(outcome.image);
     result.counters = outcome.counters;
     result.failure = outcome.failure;
-    result.report = renderer.report();
+    result.report = chosen.renderer->report();
     result.peakBufferBytes = device.peakBytes();
-    if (result.settings.countGathered && !interrupted && !result.failure) countGathered(renderer, result);
+    if (result.settings.countGathered && !interrupted && !result.failure) countGathered(*chosen.renderer, result);
 }
 
 } // namespace
@@ -74,7 +82,7 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
                       std::unique_ptr<Renderer> start, const Freedom& freedom, const StopRule& stop,
                       const std::function<void(const Progress&)>& onProgress,
                       const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted,
-                      const AfterChosenPass& afterPass) {
+                      const AfterChosenPass& afterPass, const PassRunner& run) {
     AutoRender result;
     result.settings = settings;
     result.search.notSearched = whyNotSearched(scene, settings, stop);
@@ -92,18 +100,18 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
                             : openChosen(device, scene, settings, learned, result);
     }
     if (onChosen) onChosen(result.search);
-    renderPasses(device, *start, world.clock(), stop, onProgress, interrupted, afterPass, result);
+    renderPasses(device, std::move(start), world.clock(), stop, onProgress, interrupted, afterPass, run, result);
     return result;
 }
 
 AutoRender renderChosen(Device& device, const RenderSettings& settings, const SearchReport& search,
                         std::unique_ptr<Renderer> start, double seconds, const StopRule& stop,
                         const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,
-                        const AfterChosenPass& afterPass) {
+                        const AfterChosenPass& afterPass, const PassRunner& run) {
     AutoRender result;
     result.settings = settings;
     result.search = search;
-    renderPasses(device, *start, seconds, stop, onProgress, interrupted, afterPass, result);
+    renderPasses(device, std::move(start), seconds, stop, onProgress, interrupted, afterPass, run, result);
     return result;
 }
 

@@ -3,6 +3,7 @@
 #include "learn/learned_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -29,42 +30,55 @@ Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const 
     return checkpoint;
 }
 
-bool CheckpointKeeper::isDue() const {
+double CheckpointKeeper::secondsToNext() const {
+    if (options_.checkpoint.empty()) return INFINITY;
+    if (!wasTried_) return 0;
     const double since = std::chrono::duration<double>(Clock::now() - last_).count();
-    return !wasTried_ || since >= std::max(options_.every, cost_ / mostOfTime);
+    return std::max(options_.every, cost_ / mostOfTime) - since;
 }
 
-Checkpoint CheckpointKeeper::describe(const AutoRender& soFar, const Renderer& renderer, double seconds) const {
+Checkpoint CheckpointKeeper::describe(const AutoRender& soFar, const PassesSoFar& passes, double seconds) const {
     Checkpoint now = base_;
     now.settings = soFar.settings;
     now.search = soFar.search;
-    now.sceneChecksums = renderer.report().checksums;
-    now.photonsPerPass = renderer.report().photonsPerPass;
-    const auto film = renderer.filmShape();
-    now.width = film.width;
-    now.height = film.height;
-    now.film = film.layout;
-    now.counters = renderer.counters();
+    now.sceneChecksums = passes.report.checksums;
+    now.photonsPerPass = passes.report.photonsPerPass;
+    now.width = passes.film.width;
+    now.height = passes.film.height;
+    now.film = passes.film.layout;
+    now.counters = passes.counters;
     now.seconds = seconds;
-    if (now.counters.passes > 0) now.passes = {{now.stop.firstPass, renderer.nextPass()}};
+    if (now.counters.passes > 0) now.passes = {{now.stop.firstPass, passes.nextPass}};
     now.device = device_.info();
-    now.timings = device_.timings();
+    now.timings = passes.timings();
     return now;
 }
 
 void CheckpointKeeper::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
     if (options_.checkpoint.empty()) return;
-    if (isLast && renderer.counters().passes == 0) return; // interrupted, maybe within the search
-    const bool isNew = !wasTried_ || !failure_.empty() || writtenPass_ != renderer.nextPass();
-    if (!(isLast ? isNew : isDue())) return;
+    const auto save = [&](StateSink& sink) {
+        saveLearned(sink, *renderer.learned());
+        renderer.saveState(sink);
+    };
+    afterPasses(soFar,
+                {renderer.report(), renderer.counters(), renderer.filmShape(), renderer.nextPass(),
+                 [&] { return device_.timings(); }, save},
+                seconds, isLast);
+}
+
+void CheckpointKeeper::afterPasses(const AutoRender& soFar, const PassesSoFar& passes, double seconds, bool isLast) {
+    if (options_.checkpoint.empty()) return;
+    if (isLast && passes.counters.passes == 0) return; // interrupted, maybe within the search
+    const bool isNew = !wasTried_ || !failure_.empty() || writtenPass_ != passes.nextPass;
+    if (!(isLast ? isNew : secondsToNext() <= 0)) return;
     const auto start = Clock::now();
     const auto why =
-        failureOf([&] { writeCheckpoint(options_.checkpoint, describe(soFar, renderer, seconds), renderer); });
+        failureOf([&] { writeCheckpoint(options_.checkpoint, describe(soFar, passes, seconds), passes.save); });
     if (why && failure_.empty() && !options_.quiet)
         fmt::print(stderr, "\nquasilux: warning: no checkpoint could be written, the render goes on: {}\n", *why);
     failure_ = why.value_or("");
     wasTried_ = true;
-    writtenPass_ = renderer.nextPass();
+    writtenPass_ = passes.nextPass;
     last_ = Clock::now();
     cost_ = std::chrono::duration<double>(last_ - start).count();
 }

@@ -12,6 +12,16 @@ namespace quasilux {
 /// What a render of these options is, before anything is known of its passes.
 Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const StopRule& stop);
 
+/// How far a render has come, wherever its passes are.
+struct PassesSoFar {
+    const SceneReport& report;
+    const RenderCounters& counters;
+    Renderer::FilmShape film;
+    unsigned nextPass;
+    std::function<std::map<std::string, KernelTiming>()> timings;
+    std::function<void(StateSink&)> save; ///< writeCheckpoint()
+};
+
 /// Writes the checkpoint of a render when it is due. A disk that is full does not end the render: a warning says
 /// so, and writing is tried again when the next one is due.
 class CheckpointKeeper {
@@ -21,13 +31,16 @@ public:
         : options_(options), device_(device), base_(std::move(base)) {}
 
     void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
+    /// The same of passes that no single renderer has.
+    void afterPasses(const AutoRender& soFar, const PassesSoFar& passes, double seconds, bool isLast);
+    /// Seconds until the next one is due, 0 and less: it is; infinity where none will be.
+    double secondsToNext() const;
     /// Why the last one could not be written; empty if it was.
     const std::string& failure() const { return failure_; }
 
 private:
     using Clock = std::chrono::steady_clock;
-    bool isDue() const;
-    Checkpoint describe(const AutoRender& soFar, const Renderer& renderer, double seconds) const;
+    Checkpoint describe(const AutoRender& soFar, const PassesSoFar& passes, double seconds) const;
 
     const RenderOptions& options_;
     Device& device_;

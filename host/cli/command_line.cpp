@@ -3,9 +3,13 @@
 
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "ranks/job.h"
+#include "share/device_workers.h"
 #include "util/error.h"
 #include "util/nearest.h"
 
+#include <cstdio>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <new>
 
@@ -16,6 +20,7 @@ namespace {
 constexpr int exitFailed = 1, exitBadInput = 2;
 
 int fail(int exitCode, const std::string& message) {
+    if (launchedAs().rank > 0) return exitCode; // rank 0 says it
     fmt::print(stderr, "quasilux: error: {}\n", message);
     return exitCode;
 }
@@ -76,13 +81,9 @@ int runCommand(CLI::App& app, const Options& options) {
 
 } // namespace
 
-int runCommandLine(int argc, char** argv) {
-    CLI::App app(
-        "Renders images by bidirectional Monte Carlo ray tracing with photon maps and quasi-specular elements, "
-        "on any OpenCL device.",
-        "quasilux");
-    Options options;
-    declareOptions(app, options);
+namespace {
+
+int parseAndRun(CLI::App& app, const Options& options, int argc, char** argv) {
     try {
         app.parse(argc, argv);
         return runCommand(app, options);
@@ -95,6 +96,22 @@ int runCommandLine(int argc, char** argv) {
     } catch (const std::exception& error) {
         return fail(exitFailed, error.what());
     }
+}
+
+} // namespace
+
+int runCommandLine(int argc, char** argv) {
+    CLI::App app(
+        "Renders images by bidirectional Monte Carlo ray tracing with photon maps and quasi-specular elements, "
+        "on any OpenCL device.",
+        "quasilux");
+    Options options;
+    declareOptions(app, options);
+    const int code = parseAndRun(app, options, argc, argv);
+    Job::endCurrent();
+    if (!hasAbandonedThreads()) return code;
+    std::fflush(nullptr);
+    std::_Exit(code); // a device that gives no answer keeps a thread, and what is destroyed now would be taken from it
 }
 
 } // namespace quasilux

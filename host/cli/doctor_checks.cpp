@@ -103,7 +103,11 @@ bool isWritable(fs::path folder) {
 
 std::vector<Finding> checkDevices() {
     std::vector<Finding> findings = checkVendorFiles();
-    const std::vector<DeviceInfo> devices = listDevices();
+    std::vector<DeviceInfo> devices;
+    if (const auto why = failureOf([&] { devices = listDevices(); })) {
+        findings.push_back({Health::problem, "OpenCL devices", *why, "a runtime fails: restart, or reinstall it"});
+        return findings;
+    }
     for (size_t number = 0; number < devices.size(); ++number) findings.push_back(checkDevice(number, devices[number]));
     const bool hasRuntime =
         std::any_of(findings.begin(), findings.end(), [](const Finding& one) { return one.health == Health::good; });

@@ -1,6 +1,8 @@
 // Validators for CLI11: each returns an empty text, or what is wrong and what was expected.
 #include "cli/option_checks.h"
 
+#include "device/device_choice.h"
+#include "scene/load_limits.h"
 #include "scene/quasi_specular.h"
 #include "util/nearest.h"
 
@@ -115,12 +117,40 @@ std::vector<std::string> choicesOf(CLI::Option& option) {
     return CLI::detail::split(names, '|');
 }
 
+CLI::Validator deviceList() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            if (parseDeviceList(text)) return std::string();
+            return fmt::format("'{}' given, expected numbers from 0 to 1000 with commas between, each with /PARTS or "
+                               "not, or all",
+                               text);
+        },
+        "");
+}
+
 CLI::Validator definition() {
     return CLI::Validator(
         [](const std::string& text) {
             const auto equals = text.find('=');
             if (equals != std::string::npos && equals > 0) return std::string();
             return fmt::format("'{}' given, expected name=value", text);
+        },
+        "");
+}
+
+CLI::Validator loadLimit() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            const auto equals = std::min(text.find('='), text.size());
+            std::vector<std::string> names;
+            for (const NamedLimit& limit : namedLimits) names.emplace_back(limit.name);
+            const std::string name = text.substr(0, equals);
+            if (std::find(names.begin(), names.end(), name) == names.end())
+                return fmt::format("'{}' given: unknown limit '{}', {}", text, name, expectedNames(name, names));
+            const auto value = parseAll<uint64_t>(equals < text.size() ? text.substr(equals + 1) : "");
+            constexpr uint64_t most = 1000000000000;
+            if (value && *value >= 1 && *value <= most) return std::string();
+            return fmt::format("'{}' given, expected {}=N, a whole number from 1 to {}", text, name, most);
         },
         "");
 }

@@ -21,10 +21,14 @@ CLI::Validator numberRange();
 CLI::Validator oneOf(std::vector<std::string> names);
 /// The names of that one; empty for an option without it.
 std::vector<std::string> choicesOf(CLI::Option& option);
+/// parseDeviceList() knows it.
+CLI::Validator deviceList();
 /// "name=value" with a name.
 CLI::Validator definition();
 /// Names and values of such.
 std::vector<std::pair<std::string, std::string>> parseDefinitions(const std::vector<std::string>& texts);
+/// "name=number" with the name of a limit on scenes (host/scene/load_limits.h).
+CLI::Validator loadLimit();
 /// "auto", "none", "all", "level:NUMBER" or a comma-separated list without empty items.
 CLI::Validator quasiSpecularList();
 

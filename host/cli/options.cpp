@@ -76,6 +76,26 @@ void declareCheckpoints(CLI::App& command, RenderOptions& options) {
         ->group(group);
 }
 
+// Of one image; other commands take one device.
+void declareDevices(CLI::App& command, RenderOptions& options) {
+    command.remove_option(command.get_option("--device"));
+    const char* group = "Device";
+    command
+        .add_option("--device", options.devices,
+                    "Device numbers, as `quasilux devices` lists them, with commas between, or all: these share the "
+                    "passes; N/PARTS divides device N into equal parts (default: the first GPU, else the first device)")
+        ->type_name("LIST")
+        ->check(deviceList())
+        ->group(group);
+    command
+        .add_option("--device-timeout", options.answerSeconds,
+                    "Seconds without the end of a pass after which one of several devices is dropped, though never "
+                    "before ten times its longest pass (default: 600)")
+        ->type_name("SECONDS")
+        ->check(numberAbove(0, 1e9))
+        ->group(group);
+}
+
 void declareView(CLI::App& command, RenderOptions& render) {
     ViewOptions& options = render.view;
     const char* group = "Live view";
@@ -223,6 +243,7 @@ void declareOptions(CLI::App& app, Options& options) {
     declareCheckpoints(render, options.render);
     declareSettings(render, options.render);
     declareDevice(render, options.render);
+    declareDevices(render, options.render);
     auto* viewed = render
                        .add_flag("--view", options.render.isViewed,
                                  "Serve a page that shows the picture as it converges, and open it (default: off)")

@@ -21,8 +21,10 @@ namespace quasilux {
 struct RenderOptions : SceneOptions {
     std::string output, png, stats, grid; ///< paths; empty = not asked for
     bool daylightFactor = false;
-    std::string checkpoint, resume; ///< likewise
-    double every = 60;              ///< seconds between checkpoints
+    std::string checkpoint, resume;      ///< likewise
+    double every = 60;                   ///< seconds between checkpoints
+    std::string devices;                 ///< as --device has them; empty: one, chosen
+    std::optional<double> answerSeconds; ///< of a device that shares passes
     StopRule stop;
     ExposureChoice exposure;
     bool isViewed = false; ///< by a page in the browser, as `view` says

@@ -3,6 +3,7 @@
 
 #include "cli/interrupt.h"
 #include "cli/render_report.h"
+#include "cli/render_scene.h"
 #include "cli/render_warnings.h"
 #include "cli/started_render.h"
 #include "cli/text_table.h"
@@ -12,6 +13,7 @@
 #include "output/meter_reading.h"
 #include "output/progress_line.h"
 #include "output/statistics.h"
+#include "ranks/job.h"
 #include "util/error.h"
 #include "util/stopwatch.h"
 #include "view/live_view.h"
@@ -82,6 +84,7 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
                            {"failure", record.failure.empty() ? nlohmann::json() : nlohmann::json(record.failure)},
                            {"nonFinite", record.counters.nonFinite},
                            {"cutPaths", record.counters.cutPaths},
+                           {"workers", workersJson(record.workers)},
                            {"files", written.paths}};
     if (written.curve) summary["exposure"] = {{"scale", written.curve->scale}, {"white", written.curve->white}};
     if (record.meter != MeterKind::none) summary["meter"] = meterJson(record, image);
@@ -108,12 +111,22 @@ void printError(const ErrorEstimate& error) {
     fmt::print("{}", table.text());
 }
 
+void printWorkers(const std::vector<WorkerRecord>& workers) {
+    if (workers.empty()) return;
+    TextTable table({"passes rendered by", "passes", "passes/s", "dropped since"});
+    for (const WorkerRecord& one : workers)
+        table.add({one.name, std::to_string(one.passes),
+                   one.seconds > 0 ? fmt::format("{:.3g}", one.timed / one.seconds) : "", one.failure});
+    fmt::print("{}", table.text());
+}
+
 void printSummary(const RenderRecord& record, const FilmImage& image, const WrittenFiles& written) {
     fmt::print("{} {}, {:.1f} s", record.counters.passes, record.counters.passes == 1 ? "pass" : "passes",
                record.counters.renderSeconds);
     if (record.interrupted) fmt::print(", interrupted");
     if (!record.failure.empty()) fmt::print(", ended by a failure");
     printError(record.error);
+    printWorkers(record.workers);
     if (record.meter != MeterKind::none) fmt::print("{}", meterText(record, image));
     for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
     if (written.curve)
@@ -121,88 +134,166 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
                    written.curve->white);
 }
 
-int renderSensor(const RenderOptions& options) {
-    exitOnInterrupt();
-    checkOutputs(options);
-    ProgressLine progress(stderr, !options.quiet);
-    progress.update({.phase = "loading"});
-    const Stopwatch watch;
-    Scene scene = loadScene(options.scene, options.parameters(), options.choice());
-    if (!options.grid.empty()) useGridAsSensor(scene);
-    const double loadSeconds = watch.seconds();
-    progress.clear();
-    warn(options, scene.warnings);
-    std::vector<std::string> ofSky;
-    const auto daylight = skyOfDaylightFactor(options, scene, ofSky);
-    warn(options, ofSky);
+/// A render that is over, and what it needs while its files are written.
+struct Finished {
+    RenderScene loaded;
+    std::shared_ptr<Device> device; ///< one that has not failed
+    std::unique_ptr<StartedRender> started;
+    AutoRender render;
+    bool isStopped = false; ///< by the page of the live view
+};
 
-    Device device(options.device, options.workGroupSize, options.deviceMemory);
+class SensorRender {
+public:
+    explicit SensorRender(const RenderOptions& options) : options_(options), progress_(stderr, !options.quiet) {}
+    int run();
+
+private:
+    void load();
+    void render(const std::vector<DeviceChoice>& devices);
+    void renderOnFirstThatCan();
+    bool isShared(const std::vector<DeviceChoice>& devices) const {
+        return devices.size() > 1 || Job::current().size() > 1;
+    }
+    void onChosen(const SearchReport& search);
+    std::vector<AovImage> layers() const;
+    int finish();
+
+    const RenderOptions& options_;
+    ProgressLine progress_;
+    Finished done_;
+};
+
+void SensorRender::load() {
+    progress_.update({.phase = "loading"});
+    done_.loaded = loadRenderScene(options_);
+    progress_.clear();
+    warn(options_, done_.loaded.warnings);
+}
+
+void SensorRender::onChosen(const SearchReport& search) {
+    progress_.clear();
+    // Where nothing can be searched, only who asked for it need know.
+    if (!options_.quiet && (search.notSearched.empty() ? search.freedom.any() : options_.autoAll))
+        fmt::print(stderr, "quasilux: {}\n", search.line());
+}
+
+void SensorRender::render(const std::vector<DeviceChoice>& devices) {
+    const Scene& scene = *done_.loaded.scene;
+    done_.started.reset(); // of a device before
+    done_.device = openDevice(options_, devices.front());
     exitOnInterrupt();
-    progress.update({.phase = "preparing"});
+    progress_.update({.phase = "preparing"});
     std::optional<LiveView> view;
-    const auto onProgress = [&](const Progress& now) {
-        catchInterrupt();
-        progress.update(now);
-        if (view) view->onProgress(now);
-    };
-    const auto onChosen = [&](const SearchReport& search) {
-        progress.clear();
-        // Where nothing can be searched, only who asked for it need know.
-        if (!options.quiet && (search.notSearched.empty() ? search.freedom.any() : options.autoAll))
-            fmt::print(stderr, "quasilux: {}\n", search.line());
-    };
-    StartedRender started(options, device, scene);
-    progress.clear();
-    warn(options, started.warnings());
+    done_.started = std::make_unique<StartedRender>(options_, *done_.device, scene);
+    StartedRender& started = *done_.started;
+    progress_.clear();
+    warn(options_, started.warnings());
     catchInterrupt();
-    if (options.isViewed) {
-        view.emplace(options.view, interruptFlag());
-        view->begin(device, scene, options.settings(scene), started.stop(), false);
+    if (options_.isViewed) {
+        view.emplace(options_.view, interruptFlag());
+        view->begin(*done_.device, scene, options_.settings(scene), started.stop(), false);
         fmt::print(stderr, "quasilux: live view at {}\n", view->address());
     }
+    const auto onProgress = [&](const Progress& now) {
+        catchInterrupt();
+        progress_.update(now);
+        if (view) view->onProgress(now);
+    };
     const auto afterPass = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
         if (view) view->afterPass(soFar, now, seconds, isLast);
     };
-    const AutoRender render =
-        started.render(onProgress, onChosen, view ? view->interrupted() : interruptFlag(), afterPass);
-    const FilmImage& image = render.image;
-    if (image.passes == 0) {
-        if (interruptFlag()) return exitCodeWithoutResult();
-        throw std::runtime_error("no pass was rendered before the stop rule was reached");
-    }
+    const SharedDevices shared{done_.device, devices, done_.loaded.scene};
+    if (isShared(devices)) started.share(shared);
+    done_.render = started.render(
+        onProgress, [&](const SearchReport& search) { onChosen(search); }, view ? view->interrupted() : interruptFlag(),
+        afterPass);
+    done_.isStopped = view && view->isStopped();
+    if (isShared(devices)) done_.device = livingDevice(options_, shared, done_.render);
+}
 
-    progress.update({.phase = "writing"});
-    RenderRecord record = makeRecord(scene, started.stop(), device, render, interruptFlag());
-    record.loadSeconds = loadSeconds;
-    record.unobstructedIlluminance = daylight;
-    record.interrupted |= view && view->isStopped();
-    const WrittenFiles written = writeFiles(options, scene, image, renderLayers(device, scene, render), record);
-    progress.clear();
-    warn(options, renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height));
-    if (options.json)
+// One that cannot learn what all need is dropped like one that fails later. What fails on all of them, as a wrong option does, is said once.
+void SensorRender::renderOnFirstThatCan() {
+    std::vector<std::string> dropped;
+    for (auto devices = ownDevices(options_);; devices.erase(devices.begin())) {
+        if (devices.size() == 1)
+            render(devices);
+        else if (const auto why = refusal([&] { render(devices); })) {
+            dropped.push_back(fmt::format("{} is dropped: {}", text(devices.front()), *why));
+            continue;
+        }
+        progress_.clear();
+        return warn(options_, dropped);
+    }
+}
+
+// Of a device that has failed there may be none: the image is there all the same.
+std::vector<AovImage> SensorRender::layers() const {
+    std::vector<AovImage> found;
+    const auto make = [&] { found = renderLayers(*done_.device, *done_.loaded.scene, done_.render); };
+    if (done_.render.workers.empty())
+        make();
+    else if (const auto why = failureOf(make))
+        warn(options_, {"the layers of what is met first are left out: " + *why});
+    return found;
+}
+
+int SensorRender::run() {
+    exitOnInterrupt();
+    checkOutputs(options_);
+    load();
+    renderOnFirstThatCan();
+    if (done_.render.image.passes > 0) return finish();
+    if (interruptFlag()) return exitCodeWithoutResult();
+    throw std::runtime_error("no pass was rendered before the stop rule was reached");
+}
+
+int SensorRender::finish() {
+    const AutoRender& render = done_.render;
+    const FilmImage& image = render.image;
+    progress_.update({.phase = "writing"});
+    RenderRecord record =
+        makeRecord(*done_.loaded.scene, done_.started->stop(), *done_.device, render, interruptFlag());
+    record.loadSeconds = done_.loaded.seconds;
+    record.unobstructedIlluminance = done_.loaded.daylight;
+    record.interrupted |= done_.isStopped;
+    const WrittenFiles written = writeFiles(options_, *done_.loaded.scene, image, layers(), record);
+    progress_.clear();
+    warn(options_, renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height));
+    if (options_.json)
         printJsonSummary(record, image, written);
-    else if (!options.quiet)
+    else if (!options_.quiet)
         printSummary(record, image, written);
     // What there is has been written.
     if (render.failure) std::rethrow_exception(render.failure);
-    if (!started.checkpointFailure().empty())
-        throw std::runtime_error("no checkpoint of the last passes could be written: " + started.checkpointFailure());
+    if (const auto why = done_.started->checkpointFailure(); !why.empty())
+        throw std::runtime_error("no checkpoint of the last passes could be written: " + why);
     return exitCodeWhenWritten();
 }
 
-} // namespace
-
-int renderCommand(const RenderOptions& options) {
-    if (options.sensor != "all") return renderSensor(options);
+int renderSensors(const RenderOptions& options) {
+    if (options.sensor != "all") return SensorRender(options).run();
     if (!options.grid.empty())
         throw InputError({options.scene}, "--grid measures the illuminance-grid instead of a sensor; give it without "
                                           "--sensor all.");
     if (!options.resume.empty())
         throw InputError(
             fmt::format("--resume {}: a checkpoint is of one sensor; give --sensor with its number.", options.resume));
-    const size_t count = loadScene(options.scene, options.parameters(), {"0", options.unknown()}).sensorCount;
+    const size_t count =
+        loadScene(options.scene, options.parameters(), {"0", options.unknown(), options.loadLimits()}).sensorCount;
     for (size_t index = 0; index < count; ++index)
-        if (const int code = renderSensor(options.forSensor(index)); code != 0 || interruptFlag()) return code;
+        if (const int code = SensorRender(options.forSensor(index)).run(); code != 0 || interruptFlag()) return code;
+    return 0;
+}
+
+} // namespace
+
+int renderCommand(const RenderOptions& options) {
+    Job& job = Job::current();
+    if (options.isViewed && (job.size() > 1 || ownDevices(options).size() > 1))
+        throw InputError("--view shows the passes of one device, and several are named: leave one of both out");
+    if (job.rank() == 0) return renderSensors(options);
+    assistJob(options);
     return 0;
 }
 

@@ -30,7 +30,8 @@ RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device
     record.peakHostBytes = peakResidentBytes();
     record.interrupted = interrupted;
     if (render.failure) record.failure = failureOf([&] { std::rethrow_exception(render.failure); }).value_or("");
-    const auto lost = failureOf([&] { record.kernels = device.timings(); });
+    record.workers = render.workers;
+    const auto lost = failureOf([&] { record.kernels = render.timings ? *render.timings : device.timings(); });
     if (lost && record.failure.empty()) record.failure = *lost;
     return record;
 }

@@ -5,6 +5,16 @@
 
 namespace quasilux {
 
+std::optional<LoadLimits> SceneOptions::loadLimits() const {
+    if (!untrusted) return std::nullopt;
+    LoadLimits chosen;
+    chosen.staysInside = !allowOutside;
+    for (const auto& [name, value] : parseDefinitions(limits))
+        for (const NamedLimit& limit : namedLimits)
+            if (limit.name == name) chosen.*limit.value = std::stoull(value);
+    return chosen;
+}
+
 void declareSettings(CLI::App& command, SceneOptions& options) {
     const char* group = "Method (overrides the scene's settings)";
     command
@@ -163,6 +173,23 @@ void declareScene(CLI::App& command, SceneOptions& options, const std::string& m
     command.add_flag("--lenient", options.lenient,
                      "Plugins, parameters and elements of the scene that are not known are left out or replaced by the "
                      "nearest that are, with a warning at each (default: off, an error)");
+    auto* untrusted = command.add_flag(
+        "--untrusted", options.untrusted,
+        "The scene is not trusted: it may read no files outside of its folder, and has limits (default: off)");
+    command
+        .add_flag("--allow-outside", options.allowOutside,
+                  "Files of a scene that is not trusted may lie outside of its folder (default: off)")
+        ->needs(untrusted);
+    command
+        .add_option(
+            "--limit", options.limits,
+            "Limit on a scene that is not trusted: memory (MiB), files, mebibytes (in files), pixels, elements, "
+            "nesting (of includes) or seconds; may be given several times (default: 4096, 1000, 1024, 67108864, "
+            "1000000, 8, 60)")
+        ->type_name("NAME=N")
+        ->allow_extra_args(false)
+        ->check(loadLimit())
+        ->needs(untrusted);
     command.add_flag("--json", options.json, "The result on stdout as one JSON object (default: off, text)");
     command.add_flag("--quiet", options.quiet,
                      "No progress, no warnings and no summary; errors and --json are still printed (default: off)");

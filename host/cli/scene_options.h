@@ -17,6 +17,8 @@ struct SceneOptions {
     std::string sensor;                   ///< its number or id; empty: the first one; render: or "all"
     std::vector<std::string> definitions; ///< "name=value"
     bool lenient = false;                 ///< what the scene says and is not known is left out
+    bool untrusted = false, allowOutside = false;
+    std::vector<std::string> limits; ///< "name=number", of scenes that are not trusted
     std::optional<unsigned> bdd, photons, cameraPaths;
     std::optional<uint64_t> seed;
     std::optional<std::string> variant, direct, caustics, map, emission, quasiSpecular, radius;
@@ -33,7 +35,8 @@ struct SceneOptions {
     /// `definitions` as loadScene takes them.
     std::vector<std::pair<std::string, std::string>> parameters() const;
     Unknown unknown() const { return lenient ? Unknown::forgiven : Unknown::refused; }
-    LoadChoice choice() const { return {sensor, unknown()}; }
+    std::optional<LoadLimits> loadLimits() const;
+    LoadChoice choice() const { return {sensor, unknown(), loadLimits()}; }
     /// The scene's settings, overridden by what was given here. Throws InputError.
     RenderSettings settings(const Scene& loaded) const;
     /// What is left to a search.

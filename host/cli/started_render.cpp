@@ -28,11 +28,20 @@ AutoRender StartedRender::render(const std::function<void(const Progress&)>& onP
         keeper_->afterPass(soFar, now, seconds, isLast);
         if (afterPass) afterPass(soFar, now, seconds, isLast);
     };
-    if (resumed_)
-        return renderChosen(device_, settings_, resumed_->checkpoint().search, std::move(renderer_),
-                            resumed_->checkpoint().seconds, stop(), onProgress, interrupted, afterEach);
-    return renderAuto(device_, scene_, settings_, std::move(renderer_), freedom_, stop(), onProgress, onChosen,
-                      interrupted, afterEach);
+    std::optional<PassSharing> sharing;
+    PassRunner run;
+    if (sharing_) {
+        settings_.countGathered = false; // by one device of its own passes
+        sharing.emplace(options_, *sharing_, *keeper_);
+        run = [&](const ChosenRender& chosen) { return sharing->run(chosen); };
+    }
+    AutoRender render =
+        resumed_ ? renderChosen(device_, settings_, resumed_->checkpoint().search, std::move(renderer_),
+                                resumed_->checkpoint().seconds, stop(), onProgress, interrupted, afterEach, run)
+                 : renderAuto(device_, scene_, settings_, std::move(renderer_), freedom_, stop(), onProgress, onChosen,
+                              interrupted, afterEach, run);
+    if (sharing) sharing->describe(render);
+    return render;
 }
 
 void StartedRender::warnOfDevice(const DeviceInfo& before) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/checkpoints.h"
+#include "cli/pass_sharing.h"
 
 namespace quasilux {
 
@@ -18,6 +19,8 @@ public:
     AutoRender render(const std::function<void(const Progress&)>& onProgress,
                       const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted,
                       const AfterChosenPass& afterPass = {});
+    /// To be called before render(): its passes are shared.
+    void share(SharedDevices devices) { sharing_ = std::move(devices); }
     /// Why the last checkpoint could not be written; empty if it was.
     std::string checkpointFailure() const { return keeper_ ? keeper_->failure() : ""; }
 
@@ -33,6 +36,7 @@ private:
     RenderSettings settings_;
     std::unique_ptr<Renderer> renderer_;
     std::optional<CheckpointKeeper> keeper_;
+    std::optional<SharedDevices> sharing_;
     std::vector<std::string> warnings_;
 };
 

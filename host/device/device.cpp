@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <mutex>
+#include <optional>
+#include <tuple>
 #include <utility>
 #ifdef __linux__
 #include <sys/mman.h>
@@ -14,24 +17,35 @@ namespace quasilux {
 
 namespace {
 
+// Intel's compiler for CPUs runs several work-items in the lanes of a vector, which these kernels, written in vectors, do not gain from, and
+// some it makes wrong or crashes over (docs/notes/devices.md). It reads this when it is loaded; what the user has set stays.
+void turnOffIntelVectorizer() { setenv("CL_CONFIG_CPU_VECTORIZER_MODE", "1", 0); }
+
+constexpr cl_int noPlatform = -1001; // CL_PLATFORM_NOT_FOUND_KHR of the loader, without any ICD
+
+/// Of all runtimes that answer. Throws cl::Error where none does, and one fails.
 std::vector<cl::Device> allDevices() {
+    static std::once_flag once;
+    std::call_once(once, turnOffIntelVectorizer);
     std::vector<cl::Platform> platforms;
-    // Without any ICD the loader reports an error instead of an empty list: both mean "no device".
+    std::optional<cl::Error> failure;
     try {
         cl::Platform::get(&platforms);
-    } catch (const cl::Error&) {
-        return {};
+    } catch (const cl::Error& error) {
+        if (error.err() != noPlatform) throw;
     }
     std::vector<cl::Device> devices;
     for (const auto& platform : platforms) {
         std::vector<cl::Device> here;
         try {
             platform.getDevices(CL_DEVICE_TYPE_ALL, &here);
-        } catch (const cl::Error&) {
-            continue; // a platform without devices (CL_DEVICE_NOT_FOUND)
+        } catch (const cl::Error& error) {
+            if (error.err() != CL_DEVICE_NOT_FOUND) failure = error;
+            continue;
         }
         devices.insert(devices.end(), here.begin(), here.end());
     }
+    if (devices.empty() && failure) throw *failure;
     return devices;
 }
 
@@ -75,19 +89,28 @@ cl::Device pick(int index) {
     return devices.front();
 }
 
-/// Throws cl::Error where the device cannot be divided. Parts are kept until the program ends: PoCL 3.1 looks at the
-/// device of an event once more after the queue has finished, and crashes if that is a part which has been released by then.
-cl::Device partOf(cl::Device& device, unsigned computeUnits) {
-    static std::map<std::pair<cl_device_id, unsigned>, cl::Device>& known =
-        *new std::map<std::pair<cl_device_id, unsigned>, cl::Device>;
-    cl::Device& part = known[{device(), computeUnits}];
-    if (part() != nullptr) return part;
-    const cl_device_partition_property counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
-                                                   static_cast<cl_device_partition_property>(computeUnits),
-                                                   CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
-    std::vector<cl::Device> parts;
-    device.createSubDevices(counts, &parts);
-    return part = parts.at(0);
+/// Parts with so many compute units each. Throws cl::Error where the device cannot be divided. They are kept until the program ends: PoCL 3.1 looks
+/// at the device of an event once more after the queue has finished, and crashes if that is a part which has been released by then.
+std::vector<cl::Device> partsOf(cl::Device& device, unsigned computeUnits, unsigned count) {
+    static std::mutex mutex;
+    static auto& known = *new std::map<std::tuple<cl_device_id, unsigned, unsigned>, std::vector<cl::Device>>;
+    const std::scoped_lock lock(mutex);
+    std::vector<cl::Device>& parts = known[{device(), computeUnits, count}];
+    if (!parts.empty()) return parts;
+    std::vector<cl_device_partition_property> counts(count + 3);
+    counts.front() = CL_DEVICE_PARTITION_BY_COUNTS;
+    std::fill_n(counts.begin() + 1, count, static_cast<cl_device_partition_property>(computeUnits));
+    counts[count + 1] = CL_DEVICE_PARTITION_BY_COUNTS_LIST_END;
+    device.createSubDevices(counts.data(), &parts);
+    return parts;
+}
+
+cl::Device partOf(cl::Device& device, const DeviceChoice& choice, const DeviceInfo& info) {
+    const unsigned units = info.computeUnits / choice.parts;
+    if (units == 0)
+        throw InputError(fmt::format("--device {}/{}: {} has {} compute units, so it cannot be divided into {} parts",
+                                     choice.index, choice.parts, info.name, info.computeUnits, choice.parts));
+    return partsOf(device, units, choice.parts).at(choice.part);
 }
 
 constexpr size_t hugePage = size_t(2) << 20;
@@ -114,22 +137,28 @@ cl::Buffer bufferOfHugePages(cl::Context& context, size_t bytes) {
 
 std::vector<DeviceInfo> listDevices() {
     std::vector<DeviceInfo> list;
-    for (const auto& device : allDevices()) list.push_back(ask([&] { return describe(device); }));
+    for (const auto& device : ask(allDevices)) list.push_back(ask([&] { return describe(device); }));
     return list;
 }
 
-Device::Device(int index, unsigned workGroupSize, uint64_t memoryLimit, unsigned computeUnits, uint64_t bufferLimit)
+Device::Device(const DeviceChoice& choice, unsigned workGroupSize, uint64_t memoryLimit, unsigned computeUnits,
+               uint64_t bufferLimit)
     : workGroupSize_(workGroupSize) {
-    device_ = ask([&] { return pick(index); });
+    device_ = ask([&] { return pick(choice.index); });
     info_ = ask([&] { return describe(device_); });
+    info_.globalMemory /= choice.parts;
+    info_.maximumAllocation = std::min(info_.maximumAllocation, info_.globalMemory);
     if (memoryLimit > 0) {
         info_.globalMemory = std::min(info_.globalMemory, memoryLimit);
         info_.maximumAllocation = std::min(info_.maximumAllocation, memoryLimit);
     }
     if (bufferLimit > 0) info_.maximumAllocation = std::min(info_.maximumAllocation, bufferLimit);
     try {
-        if (computeUnits > 0 && computeUnits < info_.computeUnits) {
-            device_ = partOf(device_, computeUnits);
+        if (choice.parts > 1) {
+            device_ = partOf(device_, choice, info_);
+            info_.computeUnits /= choice.parts;
+        } else if (computeUnits > 0 && computeUnits < info_.computeUnits) {
+            device_ = partsOf(device_, computeUnits, 1).at(0);
             info_.computeUnits = computeUnits;
         }
         context_ = cl::Context(device_);
@@ -174,7 +203,7 @@ void Device::run(const std::function<void()>& command) {
     try {
         command();
     } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("device {}: running kernels failed (OpenCL error {})", info_.name, error.err()));
+        throw DeviceError(fmt::format("device {}: {} failed (OpenCL error {})", info_.name, error.what(), error.err()));
     }
 }
 

@@ -1,6 +1,7 @@
 // One OpenCL device with its context, queue, kernels and timing table. The only folder that calls OpenCL (docs/notes/devices.md).
 #pragma once
 
+#include "device/device_choice.h"
 #include "device/launch_pace.h"
 
 #include <CL/opencl.hpp>
@@ -43,11 +44,11 @@ double secondsOf(const cl::Event& event);
 
 class Device {
 public:
-    /// `index` as in listDevices(); -1 takes the first GPU, else the first device. Throws InputError if there is none.
+    /// Throws InputError if there is no such device. One of several parts has its share of the compute units and of the memory.
     /// `memoryLimit`, bytes: the device is taken to have no more; 0: what it has. `computeUnits` of it alone are used; 0 =
     /// all. `bufferLimit`, bytes: likewise of one buffer.
-    explicit Device(int index = -1, unsigned workGroupSize = 64, uint64_t memoryLimit = 0, unsigned computeUnits = 0,
-                    uint64_t bufferLimit = 0);
+    explicit Device(const DeviceChoice& choice = {}, unsigned workGroupSize = 64, uint64_t memoryLimit = 0,
+                    unsigned computeUnits = 0, uint64_t bufferLimit = 0);
 
     const DeviceInfo& info() const { return info_; }
     cl::Context& context() { return context_; }
@@ -57,6 +58,8 @@ public:
     /// No launch of a kernel is to last longer than so many seconds.
     double longestLaunch() const { return longestLaunch_; }
     void setLongestLaunch(double seconds) { longestLaunch_ = seconds; }
+    /// Work is from now on divided as for a GPU, for tests on machines without one.
+    void divideAsForGpu() { info_.isCpu = false; }
 
     /// Throws InputError that names `label` and by how much what is in use would exceed the limit, DeviceError if the
     /// device refuses.

@@ -3,7 +3,9 @@
 #include "device/kernel_sources.h"
 #include "util/error.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -58,6 +60,17 @@ std::string joinKernelSource(const std::string& file, const Sources& extra) {
     return out;
 }
 
+// Of a kernel on a device; none where the runtime does not say, which is no reason to end a render.
+template <typename T>
+std::optional<T> groupInfo(const cl::Kernel& kernel, const cl::Device& device, cl_kernel_work_group_info what) {
+    try {
+        T value{};
+        if (kernel.getWorkGroupInfo(device, what, &value) == CL_SUCCESS) return value;
+    } catch (const cl::Error&) {
+    }
+    return std::nullopt;
+}
+
 // Groups on each compute unit of a first launch, of which nothing is known: enough to fill a GPU, and little work.
 constexpr unsigned firstGroupsPerUnit = 4;
 
@@ -65,9 +78,9 @@ Kernel::Kernel(Device& device, cl::Kernel kernel, std::string name)
     : device_(&device), kernel_(std::move(kernel)), name_(std::move(name)),
       pace_(device.info().isCpu ? 0
                                 : size_t(firstGroupsPerUnit) * device.info().computeUnits * device.workGroupSize()) {
-    cl_ulong bytes = 0;
-    if (kernel_.getWorkGroupInfo(device.device(), CL_KERNEL_PRIVATE_MEM_SIZE, &bytes) == CL_SUCCESS)
-        privateBytes_ = bytes;
+    privateBytes_ = groupInfo<cl_ulong>(kernel_, device.device(), CL_KERNEL_PRIVATE_MEM_SIZE).value_or(0);
+    const size_t largest = groupInfo<size_t>(kernel_, device.device(), CL_KERNEL_WORK_GROUP_SIZE).value_or(0);
+    largestGroup_ = largest > 0 ? std::min<size_t>(device.workGroupSize(), largest) : device.workGroupSize();
 }
 
 void Kernel::set(cl_uint index, const std::function<void()>& argument) {
@@ -92,8 +105,8 @@ cl::Event Kernel::enqueuePart(size_t first, size_t count, size_t group) {
     return event;
 }
 
-void Kernel::enqueue(size_t count, size_t group) {
-    const size_t global = (count + group - 1) / group * group;
+void Kernel::enqueue(size_t count, size_t asked) {
+    const size_t group = std::min(asked, largestGroup_), global = (count + group - 1) / group * group;
     try {
         for (size_t first = 0; first < global; first += lastCount_) {
             notePace();

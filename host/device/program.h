@@ -56,8 +56,9 @@ private:
         set(index, [&] { kernel_.setArg(index, sizeof(T), &value); });
     }
     void set(cl_uint index, const std::function<void()>& argument);
-    /// In as many launches as longestLaunchSeconds asks for, each of which is waited for if there are several.
-    void enqueue(size_t count, size_t group);
+    /// In as many launches as longestLaunchSeconds asks for, each of which is waited for if there are several. In groups of `asked`, or of as
+    /// many as the device can run of this kernel.
+    void enqueue(size_t count, size_t asked);
     cl::Event enqueuePart(size_t first, size_t count, size_t group);
     void notePace();
 
@@ -65,6 +66,8 @@ private:
     cl::Kernel kernel_;
     std::string name_;
     uint64_t privateBytes_ = 0;
+    size_t largestGroup_ =
+        1; ///< work-items that the device can run in a group of this kernel: registers may leave room for few
     LaunchPace pace_;
     cl::Event last_; ///< the last launch
     size_t lastCount_ = 0;

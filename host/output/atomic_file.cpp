@@ -96,7 +96,7 @@ void AtomicFile::commitKeeping(const std::string& earlier) {
     // By a second name of the file, so that `path` is there at every moment; some file systems know no second names.
     if (link(path_.c_str(), beside.c_str()) == 0) {
         if (std::rename(beside.c_str(), earlier.c_str()) != 0) fail(earlier);
-    } else if (errno != ENOENT && std::rename(path_.c_str(), earlier.c_str()) != 0) {
+    } else if (errno != ENOENT && std::rename(path_.c_str(), earlier.c_str()) != 0 && errno != ENOENT) {
         fail(earlier);
     }
     commit();
@@ -127,6 +127,10 @@ void OutputStream::write(const void* data, size_t bytes) {
         next += written;
         bytes -= static_cast<size_t>(written);
     }
+}
+
+void OutputStream::seek(int64_t offset) {
+    if (lseek(descriptor_, offset, SEEK_SET) < 0) fail(path_);
 }
 
 void OutputStream::close() {

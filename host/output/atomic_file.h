@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -42,6 +43,8 @@ public:
     OutputStream& operator=(const OutputStream&) = delete;
 
     void write(const void* data, size_t bytes);
+    /// The next write is at this place.
+    void seek(int64_t offset);
     /// Some file systems say only here that the disk is full.
     void close();
 

@@ -1,5 +1,7 @@
 #include "output/checkpoint_file.h"
 
+#include "output/json_number.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -107,7 +109,7 @@ void CheckpointReader::describe(uint64_t end, uint64_t bytes) {
     try {
         description_ = nlohmann::json::parse(text);
         for (const auto& row : description_.at("arrays")) {
-            const Place found{row.at(1).get<uint64_t>(), row.at(2).get<uint64_t>()};
+            const Place found{wholeNumber<uint64_t>(row.at(1)), wholeNumber<uint64_t>(row.at(2))};
             if (found.offset > end - bytes || found.bytes > end - bytes - found.offset)
                 damaged("is damaged: an array lies outside");
             places_[row.at(0).get<std::string>()] = found;

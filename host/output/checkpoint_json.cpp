@@ -1,6 +1,9 @@
 #include "output/checkpoint_json.h"
 
+#include "output/json_number.h"
+
 #include <cmath>
+#include <concepts>
 
 namespace quasilux {
 
@@ -30,7 +33,7 @@ struct Reader {
 
     template <typename T>
     void operator()(const char* key, T& value) const {
-        in.at(key).get_to(value);
+        value = valueOf<T>(in.at(key));
     }
     void operator()(const char* key, double& value) const {
         value = in.at(key).is_null() ? INFINITY : in.at(key).get<double>();
@@ -40,7 +43,16 @@ struct Reader {
         if (in.at(key).is_null())
             value.reset();
         else
-            value = in.at(key).get<T>();
+            value = valueOf<T>(in.at(key));
+    }
+
+private:
+    template <typename T>
+    static T valueOf(const Json& json) {
+        if constexpr (std::unsigned_integral<T> && !std::same_as<T, bool>)
+            return wholeNumber<T>(json);
+        else
+            return json.get<T>();
     }
 };
 
@@ -243,7 +255,7 @@ Json toJson(const std::map<std::string, KernelTiming>& timings) {
 void fromJson(const Json& from, std::map<std::string, KernelTiming>& timings) {
     timings.clear();
     for (const auto& [kernel, row] : from.items())
-        timings[kernel] = {row.at(0).get<uint64_t>(), row.at(1).get<double>(), row.at(2).get<uint64_t>()};
+        timings[kernel] = {wholeNumber<uint64_t>(row.at(0)), row.at(1).get<double>(), wholeNumber<uint64_t>(row.at(2))};
 }
 
 } // namespace quasilux

@@ -1,7 +1,7 @@
 // Layers, header and rows of the OpenEXR file, by OpenImageIO.
 #include "output/exr.h"
 
-#include "output/atomic_file.h"
+#include "output/image_writer.h"
 #include "output/meter_reading.h"
 
 #include <OpenImageIO/imageio.h>
@@ -151,12 +151,7 @@ void writeExr(const std::string& path, const FilmImage& image, const RenderRecor
     spec.attribute("compression", "zip");
     describe(spec, record);
 
-    AtomicFile file(path);
-    const auto output = OIIO::ImageOutput::create("openexr"); // by format: the temporary name ends in .tmp
-    if (!output) throw std::runtime_error("cannot write " + path + ": " + OIIO::geterror());
-    if (!output->open(file.temporary(), spec) || !writeRows(*output, image, layers) || !output->close())
-        throw std::runtime_error("cannot write " + path + ": " + output->geterror());
-    file.commit();
+    writeImage(path, "openexr", spec, [&](OIIO::ImageOutput& output) { return writeRows(output, image, layers); });
 }
 
 } // namespace quasilux

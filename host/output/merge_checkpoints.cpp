@@ -1,5 +1,6 @@
 #include "output/merge_checkpoints.h"
 
+#include "render/counter_sums.h"
 #include "render/film_merge.h"
 
 #include <algorithm>
@@ -62,33 +63,6 @@ std::vector<PassRange> unionOf(const std::vector<PartFile>& parts) {
     return merged;
 }
 
-void addCounts(RenderCounters& all, const RenderCounters& part) {
-    const auto addMap = [](auto& to, const auto& from) {
-        for (const auto& [key, value] : from) to[key] += value;
-    };
-    all.passes += part.passes;
-    all.photonsEmitted += part.photonsEmitted;
-    addMap(all.photonsStored, part.photonsStored);
-    addMap(all.cameraPointsStored, part.cameraPointsStored);
-    all.storedPoints = std::max(all.storedPoints, part.storedPoints);
-    all.storedBytes = std::max(all.storedBytes, part.storedBytes);
-    all.cameraPaths += part.cameraPaths;
-    all.nonFinite += part.nonFinite;
-    all.cutPaths += part.cutPaths;
-    all.overflows += part.overflows;
-    all.clipped += part.clipped;
-    if (part.meterCaustics) all.meterCaustics = all.meterCaustics.value_or(0) + *part.meterCaustics;
-    all.fluxEmitted += part.fluxEmitted;
-    all.fluxCut += part.fluxCut;
-    if (part.energy) *(all.energy ? &*all.energy : &all.energy.emplace()) += *part.energy;
-    all.throughputCut += part.throughputCut;
-    all.prepareSeconds += part.prepareSeconds;
-    all.compileSeconds += part.compileSeconds;
-    all.renderSeconds += part.renderSeconds;
-    all.radiusSeconds += part.radiusSeconds;
-    all.radiusPaths += part.radiusPaths;
-}
-
 } // namespace
 
 MergedPasses::MergedPasses(const std::vector<std::string>& paths) {
@@ -125,12 +99,7 @@ void MergedPasses::add(const CheckpointReader& reader, const Checkpoint& part) {
     counts_ = mergedCounts(counts_, counts);
     addCounts(checkpoint_.counters, part.counters);
     checkpoint_.seconds += part.seconds;
-    for (const auto& [kernel, timing] : part.timings) {
-        KernelTiming& all = checkpoint_.timings[kernel];
-        all.launches += timing.launches;
-        all.seconds += timing.seconds;
-        all.privateBytes = timing.privateBytes;
-    }
+    addTimings(checkpoint_.timings, part.timings);
 }
 
 FilmImage MergedPasses::develop() const {

@@ -1,7 +1,7 @@
 // Automatic exposure, tone curve and sRGB encoding of the PNG.
 #include "output/png.h"
 
-#include "output/atomic_file.h"
+#include "output/image_writer.h"
 
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
@@ -68,13 +68,8 @@ void writePng(const std::string& path, const FilmImage& image, const ToneCurve& 
     spec.attribute("quasilux:exposureScale", fmt::format("{:.9g}", curve.scale));
     spec.attribute("quasilux:exposureWhite", fmt::format("{:.9g}", curve.white));
 
-    AtomicFile file(path);
-    const auto output = OIIO::ImageOutput::create("png");
-    if (!output) throw std::runtime_error("cannot write " + path + ": " + OIIO::geterror());
-    if (!output->open(file.temporary(), spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) ||
-        !output->close())
-        throw std::runtime_error("cannot write " + path + ": " + output->geterror());
-    file.commit();
+    writeImage(path, "png", spec,
+               [&](OIIO::ImageOutput& output) { return output.write_image(OIIO::TypeDesc::UINT8, pixels.data()); });
 }
 
 } // namespace quasilux

@@ -3,6 +3,7 @@
 #include "device/kernel_sources.h"
 #include "learn/learned_state.h"
 #include "output/checkpoint_json.h"
+#include "output/json_number.h"
 #include "render/scene_report.h"
 
 #include <fmt/format.h>
@@ -71,16 +72,17 @@ Checkpoint checkpointOf(const CheckpointReader& reader) {
         c.freedom = from.at("freedom");
         c.settings = parsed<RenderSettings>(from.at("settings"));
         from.at("sceneChecksums").get_to(c.sceneChecksums);
-        c.width = from.at("width");
-        c.height = from.at("height");
+        c.width = wholeNumber<unsigned>(from.at("width"));
+        c.height = wholeNumber<unsigned>(from.at("height"));
         c.film = {from.at("film").at("bias"), from.at("film").at("components")};
-        c.meter = static_cast<MeterKind>(from.at("meter").get<unsigned>());
-        for (const auto& range : from.at("passes")) c.passes.push_back({range.at(0), range.at(1)});
+        c.meter = static_cast<MeterKind>(wholeNumber<unsigned>(from.at("meter")));
+        for (const auto& range : from.at("passes"))
+            c.passes.push_back({wholeNumber<unsigned>(range.at(0)), wholeNumber<unsigned>(range.at(1))});
         c.stop = parsed<StopRule>(from.at("stop"));
         c.seconds = from.at("seconds");
         c.counters = parsed<RenderCounters>(from.at("counters"));
         c.scene = from.at("scene");
-        c.photonsPerPass = from.at("photonsPerPass");
+        c.photonsPerPass = wholeNumber<decltype(c.photonsPerPass)>(from.at("photonsPerPass"));
         c.search = parsed<SearchReport>(from.at("search"));
         c.device = parsed<DeviceInfo>(from.at("device"));
         c.timings = parsed<std::map<std::string, KernelTiming>>(from.at("timings"));
@@ -91,11 +93,18 @@ Checkpoint checkpointOf(const CheckpointReader& reader) {
     return c;
 }
 
-void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, const Renderer& renderer) {
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint,
+                     const std::function<void(StateSink&)>& save) {
     CheckpointWriter writer(path);
-    saveLearned(writer, *renderer.learned());
-    renderer.saveState(writer);
+    save(writer);
     writer.finish(describe(checkpoint));
+}
+
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, const Renderer& renderer) {
+    writeCheckpoint(path, checkpoint, [&](StateSink& sink) {
+        saveLearned(sink, *renderer.learned());
+        renderer.saveState(sink);
+    });
 }
 
 std::string differenceOfWanted(const Checkpoint& there, const Checkpoint& here) {

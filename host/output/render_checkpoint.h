@@ -4,6 +4,7 @@
 #include "output/checkpoint_file.h"
 #include "output/render_record.h"
 
+#include <functional>
 #include <utility>
 
 namespace quasilux {
@@ -11,6 +12,7 @@ namespace quasilux {
 /// Passes first, first + 1, …, end - 1.
 struct PassRange {
     unsigned first = 0, end = 0;
+    bool operator==(const PassRange&) const = default;
 };
 
 /// All of it but the arrays.
@@ -46,7 +48,9 @@ nlohmann::json describe(const Checkpoint& checkpoint);
 /// Throws InputError where it is of another version.
 Checkpoint checkpointOf(const CheckpointReader& reader);
 
-/// Whole or not at all; the one before is kept. Throws std::system_error, DeviceError.
+/// Whole or not at all; the one before is kept. `save` writes what was learned, film and radii. Throws std::system_error, DeviceError.
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint,
+                     const std::function<void(StateSink&)>& save);
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, const Renderer& renderer);
 
 /// Why `there`, the checkpoint, and `here` cannot be of one image: the first setting that differs. Empty: they can, as far as `wanted` tells.

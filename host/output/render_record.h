@@ -5,10 +5,12 @@
 #include "device/device.h"
 #include "render/error_estimate.h"
 #include "render/renderer.h"
+#include "render/worker_record.h"
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace quasilux {
 
@@ -28,6 +30,7 @@ struct RenderRecord {
     MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
     std::optional<double> unobstructedIlluminance; ///< lx, of which illuminances are stated as daylight factors too
     std::map<std::string, KernelTiming> kernels;
+    std::vector<WorkerRecord> workers;        ///< that shared its passes; empty: one device had them all
     uint64_t peakBufferBytes = 0;             ///< most that were in use at once, of all candidates
     uint64_t peakHostBytes = 0;               ///< of the process, until the images are written
     double loadSeconds = 0, writeSeconds = 0; ///< reading the scene; writing the images

@@ -133,6 +133,17 @@ json searchJson(const SearchReport& search) {
             {"outOfTime", search.outOfTime}};
 }
 
+json workersJson(const std::vector<WorkerRecord>& workers) {
+    json rows = json::array();
+    for (const WorkerRecord& one : workers)
+        rows.push_back({{"name", one.name},
+                        {"passes", one.passes},
+                        {"seconds", one.seconds},
+                        {"spread", one.spread()},
+                        {"failure", one.failure.empty() ? json(nullptr) : json(one.failure)}});
+    return rows;
+}
+
 json settingsJson(const RenderSettings& settings) {
     return {{"bdd", settings.bdd},
             {"variant", name(settings.variant)},
@@ -215,6 +226,7 @@ json statisticsJson(const RenderRecord& record, const FilmImage& image) {
             {"gatheredPhotons", gatheredJson(record.gathered)},
             {"error", errorJson(record.error)},
             {"kernels", kernelsJson(record.kernels)},
+            {"workers", workersJson(record.workers)},
             {"phases", phasesJson(record)},
             {"peakBufferBytes", record.peakBufferBytes},
             {"peakHostBytes", record.peakHostBytes}};

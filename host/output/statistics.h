@@ -13,6 +13,7 @@ nlohmann::json deviceJson(const DeviceInfo& device);
 nlohmann::json settingsJson(const RenderSettings& settings);
 nlohmann::json sceneReportJson(const SceneReport& report);
 nlohmann::json errorJson(const ErrorEstimate& error);
+nlohmann::json workersJson(const std::vector<WorkerRecord>& workers);
 nlohmann::json countersJson(const RenderCounters& counters);
 nlohmann::json searchJson(const SearchReport& search, const std::vector<double>& weights);
 

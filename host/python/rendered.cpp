@@ -5,6 +5,8 @@
 #include "cli/started_render.h"
 #include "util/error.h"
 
+#include <fmt/format.h>
+
 namespace quasilux {
 
 namespace {
@@ -30,7 +32,12 @@ std::shared_ptr<const Rendered> render(const RenderOptions& options, const Scene
                                        RenderWatch& watch) {
     Device device = [&] {
         const DelayedSignals delayed;
-        return Device(options.device, options.workGroupSize, options.deviceMemory);
+        const auto devices = ownDevices(options);
+        if (devices.size() > 1)
+            throw InputError(fmt::format("device {}: names {} devices, expected one here; `quasilux render` shares "
+                                         "passes among several",
+                                         options.devices, devices.size()));
+        return Device(devices.front(), options.workGroupSize, options.deviceMemory);
     }();
     watch.look();
     StartedRender started(options, device, scene);

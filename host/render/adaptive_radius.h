@@ -40,6 +40,9 @@ public:
     /// To be called when the pilot's film has taken its next pass. Chooses the radii anew after 4, 8 and 16, and ends the pilot.
     void endPilotPass();
 
+    /// Have all radii been chosen?
+    bool pilotHasEnded() const { return !film_; }
+
     /// Radius of each block in a pass by that of the map, radiusIndex() in kernels/adaptive_radius.clh; 1 in the first passes. The
     /// pilot passes before it must have ended.
     const Buffer<float>& scales(unsigned pass) const;

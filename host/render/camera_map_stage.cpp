@@ -1,7 +1,7 @@
 #include "render/camera_map_stage.h"
 
 #include "render/meter_sums.h"
-#include "render/photon_stage.h"
+#include "render/regions.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -10,33 +10,25 @@
 
 namespace quasilux {
 
-namespace {
-
-constexpr unsigned pixelsPerRegion = 64;
-
-unsigned divideUp(size_t count, unsigned by) { return static_cast<unsigned>((count + by - 1) / by); }
-
-} // namespace
-
 CameraMapStage::CameraMapStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                                shared::CameraParams camera, shared::PhotonParams photons, unsigned classes,
                                double meanRadiance)
     : device_(device), geometry_(geometry), film_(film), traceCameraPoints_(pass.kernel("traceCameraPoints")),
       addSamples_(pass.kernel("addSamples")), splatPhotons_(pass.kernel("splatPhotons")), index_(device, pass, classes),
       cameraParams_(camera), photonParams_(photons), classes_(classes) {
-    photonParams_.pathsPerRegion = PhotonStage::pathsPerRegion;
-    photonParams_.regions = PhotonStage::regionCount(photonParams_.paths);
+    photonParams_.pathsPerRegion = photonsPerRegion(device.info());
+    photonParams_.regions = regionsOf(photonParams_.paths, photonParams_.pathsPerRegion);
     photonRegions_ = Buffer<shared::RegionCount>(device, photonParams_.regions, "photon regions");
 
-    points_.pixelsPerRegion = pixelsPerRegion;
+    points_.pixelsPerRegion = pixelsPerRegion(device.info());
     points_.quantaPerRadiance = quantaPerRadiance(meanRadiance);
-    points_.borderCapacity = pixelsPerRegion / 2;
-    index_.table().map().regionCapacity = pixelsPerRegion;
+    points_.borderCapacity = points_.pixelsPerRegion / 2;
+    index_.table().map().regionCapacity = points_.pixelsPerRegion;
     index_.table().map().media = camera.scene.media;
     index_.table().map().fluxUnit = 1 / photons.perFluxUnit;
     thinVolume({1, 1, 1, 1});
     const size_t paths = film.pixels() * pathsPerPixel();
-    const unsigned regions = divideUp(paths, pixelsPerRegion);
+    const unsigned regions = regionsOf(paths, points_.pixelsPerRegion);
     index_.make(paths, regions);
     regions_ = Buffer<shared::PointRegionCount>(device, regions, "camera point regions");
     samples_ = Buffer<float>(device, CAMERA_SAMPLE_FLOATS * paths, "camera samples");

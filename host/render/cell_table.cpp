@@ -7,8 +7,6 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned scanBlocksMax = 64;
-
 // A few cells per disc's worth of records: collisions of rows only cost tests, and memory, on a GPU for each of many chunks,
 // more than on a CPU.
 unsigned cellsPerSlot(uint64_t records, const DeviceInfo& device) {
@@ -21,8 +19,8 @@ unsigned chunksFor(const DeviceInfo& device, unsigned regions) {
     return std::min(regions, device.isCpu ? device.computeUnits : 256u);
 }
 
-unsigned scanBlocksFor(size_t cells) {
-    return static_cast<unsigned>(std::clamp<size_t>(cells / 256, 1, scanBlocksMax));
+unsigned scanBlocksFor(size_t cells, const DeviceInfo& device) {
+    return static_cast<unsigned>(std::clamp<size_t>(cells / 256, 1, device.isCpu ? 64 : 4096));
 }
 
 } // namespace
@@ -36,7 +34,7 @@ void CellTable::make(uint64_t expected, unsigned regions) {
     map_.cellMask = cellsPerSlot(expected, device_.info()) - 1;
     map_.chunks = chunksFor(device_.info(), regions);
     const size_t cells = size_t(std::popcount(slots_)) * (map_.cellMask + 1);
-    map_.scanBlocks = scanBlocksFor(cells);
+    map_.scanBlocks = scanBlocksFor(cells, device_.info());
     counts_ = Buffer<uint32_t>(device_, cells * map_.chunks, noun_ + " cell counts");
     blockSums_ = Buffer<uint32_t>(device_, map_.scanBlocks, noun_ + " scan blocks");
     cellStart_ = Buffer<uint32_t>(device_, cells + 1, noun_ + " cells");
@@ -46,7 +44,7 @@ BufferSizes CellTable::plan(unsigned slots, uint64_t expected, unsigned regions,
                             const DeviceInfo& device) {
     const size_t cells = size_t(std::popcount(slots)) * cellsPerSlot(expected, device);
     return {{noun + " cell counts", std::max<size_t>(1, cells * chunksFor(device, regions)) * sizeof(uint32_t)},
-            {noun + " scan blocks", scanBlocksFor(cells) * sizeof(uint32_t)},
+            {noun + " scan blocks", scanBlocksFor(cells, device) * sizeof(uint32_t)},
             {noun + " cells", (cells + 1) * sizeof(uint32_t)}};
 }
 

@@ -108,10 +108,16 @@ Film::Film(Device& device, unsigned width, unsigned height, FilmLayout layout, u
     for (const size_t pixels : partsOf(size_t(width) * height, layout, largestBuffer)) {
         parts_.push_back(
             {first, pixels, Buffer<float>(device, pixels * layout.floatsPerPixel(), partLabel(owner, parts_.size()))});
-        parts_.back().sums.fill(0);
         first += pixels;
     }
+    clear();
+}
+
+void Film::clear() {
+    for (Part& part : parts_) part.sums.fill(0);
     counters_.write({shared::CameraCounters{0, 0, 0}});
+    counts_ = {};
+    isWhole_ = true;
 }
 
 std::map<std::string, uint64_t> Film::plan(size_t pixels, FilmLayout layout, uint64_t largestBuffer,

@@ -83,6 +83,8 @@ public:
 
     /// All that later passes and the image depend on. `name` goes before the arrays' names.
     void save(StateSink& sink, const std::string& name) const;
+    /// As if no pass had been added.
+    void clear();
     /// Throws InputError where it was saved of another film.
     void restore(const StateSource& source, const std::string& name);
 

@@ -72,6 +72,13 @@ void mergeFilmSums(float* sums, const FilmCounts& counts, const float* others, c
     }
 }
 
+void closeBatches(float* sums, const FilmCounts& counts, size_t pixels, const FilmLayout& layout) {
+    const size_t floats = layout.floatsPerPixel();
+    const std::vector<float> none(floats);
+    for (size_t k = 0; k < pixels; ++k)
+        mergePixel(sums + k * floats, {sums + k * floats, counts.openWeight()}, {none.data(), 0}, layout);
+}
+
 FilmCounts mergedCounts(const FilmCounts& a, const FilmCounts& b) {
     const FilmCounts first = a.closed(), second = b.closed();
     return {first.batches + second.batches, 0, first.biasPasses + second.biasPasses, 0,

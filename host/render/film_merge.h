@@ -10,6 +10,9 @@ namespace quasilux {
 void mergeFilmSums(float* sums, const FilmCounts& counts, const float* others, const FilmCounts& otherCounts,
                    size_t pixels, const FilmLayout& layout);
 
+/// Completes the batch of passes that is open, as mergeFilmSums does. Its counts are FilmCounts::closed() then.
+void closeBatches(float* sums, const FilmCounts& counts, size_t pixels, const FilmLayout& layout);
+
 /// The counts of both, after mergeFilmSums.
 FilmCounts mergedCounts(const FilmCounts& a, const FilmCounts& b);
 

@@ -5,7 +5,8 @@
 #include "render/meter_stage.h"
 #include "render/meter_sums.h"
 #include "render/method.h"
-#include "render/photon_stage.h"
+#include "render/photon_arrays.h"
+#include "render/regions.h"
 #include "render/shared_samples.h"
 #include "util/error.h"
 
@@ -69,7 +70,7 @@ BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, u
                      const DeviceInfo& device) {
     BufferSizes sizes = planScene(scene, settings, device);
     const unsigned classes = compiledClasses(scene.features, settings);
-    const unsigned regions = PhotonStage::regionCount(photonsPerPass(settings, scene.camera));
+    const unsigned regions = regionsOf(photonsPerPass(settings, scene.camera), photonsPerRegion(device));
     sizes["photon regions"] = regions * sizeof(shared::RegionCount);
     sizes.merge(PhotonArrays::plan(classes, photons, regions, compiledFeatures(scene, settings).depthLimit, device));
     if (const unsigned floats = SharedSamples::floatsPerSample(scene, settings))

@@ -16,6 +16,12 @@ using BufferSizes = std::map<std::string, uint64_t>;
 
 uint64_t sumOf(const BufferSizes& sizes);
 
+/// Memory that the whole render takes at most, forecast before its first pass.
+struct MemoryForecast {
+    uint64_t deviceBytes = 0;
+    uint64_t hostPeakBytes = 0; ///< of the process; buffers of a CPU device included
+};
+
 /// Buffers that depend on the scene and the film alone.
 BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, const DeviceInfo& device);
 

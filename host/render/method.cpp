@@ -155,6 +155,10 @@ bool sharesSamples(const Features& features, const RenderSettings& settings) {
     return features.filterTable && settings.map == MapOrder::photons && !isMeter(features);
 }
 
+bool storesDepth(const DeviceScene& scene, const RenderSettings& settings) {
+    return compiledFeatures(scene, settings).depthLimit;
+}
+
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings) {
     std::string options = compiledFeatures(scene, settings).options() + ' ' + bvhOptions(scene.bvh);
     options += fmt::format(" -DPHOTON_CLASSES={}u", compiledClasses(scene.features, settings));

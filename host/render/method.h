@@ -50,6 +50,9 @@ bool meterCountsCaustics(const Features& features, const RenderSettings& setting
 /// What the kernels are compiled for: what the scene needs, or everything.
 Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings);
 
+/// Do photons say how many events they have had?
+bool storesDepth(const DeviceScene& scene, const RenderSettings& settings);
+
 /// Compiler options shared by all stages.
 std::string kernelOptions(const DeviceScene& scene, const RenderSettings& settings);
 

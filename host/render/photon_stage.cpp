@@ -1,5 +1,7 @@
 #include "render/photon_stage.h"
 
+#include "render/regions.h"
+
 #include <algorithm>
 
 namespace quasilux {
@@ -9,8 +11,8 @@ PhotonStage::PhotonStage(Device& device, const Program& pass, const GeometryBuff
                          std::optional<uint64_t> photons)
     : geometry_(geometry), tracePhotons_(pass.kernel("tracePhotons")), photons_(device, pass, classes, storesDepth),
       params_(params), classes_(classes) {
-    params_.pathsPerRegion = pathsPerRegion;
-    params_.regions = regionCount(params_.paths);
+    params_.pathsPerRegion = photonsPerRegion(device.info());
+    params_.regions = regionsOf(params_.paths, params_.pathsPerRegion);
     regions_ = Buffer<shared::RegionCount>(device, params_.regions, "photon regions");
     photons_.make(classes == 0 ? 0 : photons.value_or(params_.paths), params_.regions);
     shared::MapParams& map = photons_.table().map();

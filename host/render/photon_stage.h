@@ -18,9 +18,6 @@ struct PhotonPassCount : TraceCount {
 
 class PhotonStage {
 public:
-    static constexpr unsigned pathsPerRegion = 256;
-    static unsigned regionCount(unsigned paths) { return (paths + pathsPerRegion - 1) / pathsPerRegion; }
-
     /// `pass` is photon_map_pass.cl; `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where the
     /// kernels are compiled with HAS_DEPTH_LIMIT; room for so many `photons` saves enlarging the buffers
     /// later.

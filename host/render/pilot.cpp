@@ -1,5 +1,8 @@
 #include "render/pilot.h"
 
+#include "render/method.h"
+#include "render/pass_params.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +21,24 @@ double upperBound(double perPath, double count) {
 }
 
 } // namespace
+
+PilotResult tracePilot(const PassContext& context, const Program& photonMap,
+                       const std::function<void(const PhotonStage&)>& compile) {
+    Device& device = context.device;
+    shared::PhotonParams params = context.photons;
+    params.paths = std::min(pilotPaths, params.paths);
+    PhotonStage stage(device, photonMap, context.geometry, params, context.classes,
+                      storesDepth(context.flat, context.settings));
+    std::optional<MeterSums> uncounted;
+    if (meterCountsPhotons(context.flat.features, context.settings))
+        stage.countAt(uncounted.emplace(device, context.classes, context.film.pixels(), meanRadiance(context.flat)));
+    stage.useField(context.field);
+    const PhotonPassCount counted = stage.run(pilotPass, context.radii.radii(0), context.radii.volumeScale(0));
+    stage.compile();
+    if (compile) compile(stage);
+    device.finish();
+    return expectPass(counted, context.photons.paths);
+}
 
 PilotResult expectPass(const PhotonPassCount& counted, unsigned paths) {
     PilotResult result;

@@ -1,7 +1,10 @@
 // A few photons traced apart from all passes: how many a pass will store decides its buffers and how they are thinned.
 #pragma once
 
+#include "render/pass.h"
 #include "render/photon_stage.h"
+
+#include <functional>
 
 namespace quasilux {
 
@@ -14,6 +17,11 @@ struct PilotResult {
 
 constexpr unsigned pilotPaths = 2048;
 constexpr unsigned pilotPass = UINT32_MAX; // no render gets there
+
+/// Traces the pilot with a program of --map photons, which compiles its kernels: the runtime does when they are first launched. `compile` launches
+/// those that gather, with the pilot's photons, if there are any.
+PilotResult tracePilot(const PassContext& context, const Program& photonMap,
+                       const std::function<void(const PhotonStage&)>& compile = {});
 
 /// From the count of `pilotPaths` photons, or of all where a pass has fewer, to a pass of `paths`.
 PilotResult expectPass(const PhotonPassCount& counted, unsigned paths);

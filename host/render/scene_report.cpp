@@ -1,8 +1,11 @@
 #include "render/scene_report.h"
 
+#include "render/learned_scene.h"
 #include "render/method.h"
 #include "util/checksum.h"
 #include "util/error.h"
+
+#include <cmath>
 
 namespace quasilux {
 
@@ -80,6 +83,25 @@ SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const Ren
     for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)
         if (photonClasses(flat.features, settings) >> slot & 1) report.photonClasses.push_back(slotName(slot));
     return report;
+}
+
+SceneReport::Learned describeLearned(const LearnedScene& learned, const shared::RadiusField& field, unsigned photons,
+                                     double seconds) {
+    const LearnedTables& tables = learned.tables;
+    SceneReport::Learned row;
+    row.isGuided = tables.guide.isGuided;
+    row.leaves = tables.guide.leaves.size();
+    for (const auto& source : tables.guide.sources) row.openings += source.halfU > 0;
+    row.aims = tables.aims.size();
+    for (const bool byPhotons : tables.directByPhotons) row.emittersByPhotons += byPhotons;
+    row.directSamples = directSamplesOf(learned);
+    row.hasWeightWindows = learned.usualWorth > 0;
+    row.lightOfPhotons = learned.lightOfPhotons;
+    if (learned.effectiveShare >= 0) row.effectivePhotons = learned.effectiveShare * photons;
+    for (unsigned k = 0; field.octaves > 0 && k <= field.octaves; ++k)
+        row.radiusFactors.emplace_back(field.nearest * std::exp2(k), field.factor[k]);
+    row.seconds = seconds;
+    return row;
 }
 
 } // namespace quasilux

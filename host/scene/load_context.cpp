@@ -2,6 +2,7 @@
 #include "scene/load_context.h"
 
 #include "scene/xml/names.h"
+#include "scene/xml/tags.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -48,12 +49,29 @@ const Element& LoadContext::resolve(const Element& element) const {
 }
 
 void LoadContext::warn(const SourceLocation& where, const std::string& message) {
-    scene.warnings.push_back(where.text() + ": " + message);
+    scene.warnings.push_back(asMessage(where.text() + ": " + message));
 }
 
 void LoadContext::refuseUnknown(const SourceLocation& where, const std::string& message, const std::string& instead) {
     if (unknown == Unknown::refused) throw InputError(where, message);
     forgiven.push_back(fmt::format("{}: {} It is {}.", where.text(), message, instead));
+}
+
+// Each reference is read where it stands: a sum of two references to a sum of two references … doubles at each level.
+void LoadContext::enter(const Element& element, std::vector<const Element*>& open) {
+    constexpr unsigned mostNestedReads = 1000000;
+    if (std::find(open.begin(), open.end(), &element) != open.end())
+        throw InputError(element.where,
+                         fmt::format("{} '{}' contains itself; remove one <ref>.", element.tag, idOf(element)));
+    if (open.size() > maximumNesting)
+        throw InputError(element.where, fmt::format("{} '{}' lies within more than {} others; nest fewer of them.",
+                                                    element.tag, idOf(element), maximumNesting));
+    if (!open.empty() && ++nestedReads_ > mostNestedReads)
+        throw InputError(element.where,
+                         fmt::format("{} '{}': with their references, objects within others come to more than {}; use "
+                                     "fewer references.",
+                                     element.tag, idOf(element), mostNestedReads));
+    open.push_back(&element);
 }
 
 std::string idOf(const Element& element) {

@@ -33,6 +33,10 @@ public:
     /// Throws InputError with this message, or notes it and what is done instead where the unknown is forgiven.
     void refuseUnknown(const SourceLocation& where, const std::string& message, const std::string& instead);
 
+    /// Throws InputError where `element`, which is to be read within the objects of `open`, contains itself, lies too deep, or where
+    /// objects that refer to each other multiply without end.
+    void enter(const Element& element, std::vector<const Element*>& open);
+
     Unknown unknown = Unknown::refused;
     std::vector<std::string> forgiven; ///< "file:line:column: …", in the order of reading
 
@@ -67,6 +71,7 @@ private:
     const Element& find(const std::string& id, const SourceLocation& where) const;
 
     std::unordered_map<std::string, const Element*> ids_;
+    unsigned nestedReads_ = 0;
 };
 
 /// The id of an object, or "<plugin>@line".

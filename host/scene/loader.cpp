@@ -278,7 +278,11 @@ Scene readSceneAnywhere(const SceneDocument& document, const std::string& path, 
 
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters,
                 const LoadChoice& choice) {
-    return loadScene(readSceneDocument(path, parameters, choice.unknown), path, choice);
+    const auto guard = std::make_shared<LoadGuard>(path, choice.limits);
+    std::optional<Scene> scene;
+    guard->withinMemory(
+        [&] { scene = loadScene(readSceneDocument(path, parameters, choice.unknown, guard), path, choice); });
+    return std::move(*scene);
 }
 
 Scene loadScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice) {

@@ -12,6 +12,7 @@
 namespace quasilux {
 
 Properties::Properties(const Element& element, LoadContext& context) : element_(element), context_(context) {
+    context.files.guard().note(element.where);
     for (const Element& child : element.children) {
         const TagKind kind = tagOf(child).kind;
         if (kind == TagKind::object || kind == TagKind::reference) {

@@ -4,6 +4,7 @@
 #include "bsdf/lobe_list.h"
 #include "scene/goniograms/goniogram.h"
 #include "scene/setting_choices.h"
+#include "scene/load_limits.h"
 #include "shared_types.h"
 #include "util/error.h"
 
@@ -359,6 +360,7 @@ struct LoadChoice {
     std::string sensor =
         {}; ///< which is rendered: its number, in the order of the file from 0 on, or its id; empty: the first one
     Unknown unknown = Unknown::refused;
+    std::optional<LoadLimits> limits = {}; ///< of a scene that is not trusted
 };
 
 /// Loads a Mitsuba 3 scene (docs/reference/scene-language.md). Throws InputError at file:line:column.

@@ -13,6 +13,16 @@ std::string SourceLocation::text() const {
     return out;
 }
 
+std::string asMessage(std::string text) {
+    constexpr size_t longest = 8000;
+    if (text.size() > longest) text = text.substr(0, longest / 2) + " … " + text.substr(text.size() - longest / 2);
+    for (char& letter : text)
+        if (const auto code = static_cast<unsigned char>(letter);
+            (code < 0x20 && letter != '\n' && letter != '\t') || code == 0x7f)
+            letter = '?';
+    return text;
+}
+
 std::optional<std::string> refusal(const std::function<void()>& action) {
     try {
         action();

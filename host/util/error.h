@@ -18,13 +18,16 @@ struct SourceLocation {
     std::string text() const;
 };
 
+/// Of bounded length, without what a terminal would obey: input is quoted in messages as it is.
+std::string asMessage(std::string text);
+
 /// Input that the user can mend (scene, mesh, option, output folder). The program ends with exit code 2.
 class InputError : public std::runtime_error {
 public:
-    explicit InputError(const std::string& message) : std::runtime_error(message) {}
+    explicit InputError(const std::string& message) : std::runtime_error(asMessage(message)) {}
     /// The message becomes "file:line:column: message".
     InputError(const SourceLocation& where, const std::string& message)
-        : std::runtime_error(where.file.empty() ? message : where.text() + ": " + message) {}
+        : InputError(where.file.empty() ? message : where.text() + ": " + message) {}
 };
 
 /// The device or its runtime failed; names the kernel or buffer, its bytes and the device. Exit code 1.

@@ -9,6 +9,8 @@ namespace quasilux {
 
 namespace {
 
+constexpr size_t longestName = 200;
+
 char lower(char letter) { return static_cast<char>(std::tolower(static_cast<unsigned char>(letter))); }
 
 /// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment), without regard to case.
@@ -35,6 +37,9 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
     std::string best;
     size_t bestDistance = SIZE_MAX;
     for (const auto& name : known) {
+        // Names that differ so much in length cannot be near, and long ones would take hours to compare.
+        const size_t longer = std::max(word.size(), name.size()), shorter = std::min(word.size(), name.size());
+        if (longer > longestName || 3 * (longer - shorter) > std::max<size_t>(name.size(), 3)) continue;
         const size_t distance = editDistance(word, name);
         if (distance < bestDistance && 3 * distance <= std::max<size_t>(name.size(), 3)) {
             bestDistance = distance;

@@ -25,6 +25,8 @@ uint64_t machineBytes(const std::string& key) { return bytesIn("/proc/meminfo", 
 
 uint64_t residentBytes() { return statusBytes("VmRSS:"); }
 
+uint64_t dataBytes() { return statusBytes("VmData:"); }
+
 uint64_t peakResidentBytes() {
     // getrusage also counts what the process was before exec: the parent's memory.
     if (const uint64_t peak = statusBytes("VmHWM:")) return peak;

@@ -8,6 +8,9 @@ namespace quasilux {
 /// Bytes in physical memory now; 0 where the system does not report it.
 uint64_t residentBytes();
 
+/// Of data, whether touched or not; 0 likewise.
+uint64_t dataBytes();
+
 /// The most that ever were.
 uint64_t peakResidentBytes();
 

@@ -84,6 +84,19 @@ ViewEdits parseEdits(const nlohmann::json& json) {
     return edits;
 }
 
+ViewEdits parseEdits(const std::string& text) {
+    // Who writes it out recurses, so a message that quotes it could take more of the stack than a thread has.
+    constexpr int mostNested = 8;
+    bool isFlat = true;
+    const auto check = [&](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+        return isFlat = isFlat && depth <= mostNested;
+    };
+    const auto json = nlohmann::json::parse(text, check, false);
+    if (!isFlat) throw InputError(fmt::format("expected JSON of at most {} levels", mostNested));
+    if (json.is_discarded()) throw InputError("expected JSON");
+    return parseEdits(json);
+}
+
 EditedScene::EditedScene(Scene scene) : scene_(std::move(scene)), pivotDistance_(distanceToMiddle()) {
     original_.view = scene_.sensor.toWorld;
     for (const auto& shape : scene_.shapes) original_.byShape.push_back(shape.emitter);

@@ -35,6 +35,8 @@ struct ViewEdits {
 
 /// From what the page sends; keys as the members, what is missing or null is not set. Throws InputError.
 ViewEdits parseEdits(const nlohmann::json& json);
+/// The same of its text.
+ViewEdits parseEdits(const std::string& text);
 
 /// A scene whose camera and lamps can be changed again and again.
 class EditedScene {

@@ -302,9 +302,7 @@ struct ViewServer::Http {
             response.status = unsupportedType;
             return;
         }
-        const auto json = nlohmann::json::parse(request.body, nullptr, false);
-        if (json.is_discarded()) throw InputError("expected JSON");
-        view.edit(parseEdits(json));
+        view.edit(parseEdits(request.body));
         reply(response, nlohmann::json::object());
     }
 

@@ -2,12 +2,12 @@
 #include "camera.clh"
 #include "film.clh"
 
-/* Adds `count` samples, one after the other, to pixel `id` of `pixels`; component k of a sample is its k-th share. */
+/* Adds samples `first` to before `end` of `count`, one after the other, to pixel `id` of `pixels`; component k of a sample is its k-th share. */
 __kernel void addSamples(__global const float4* samples, __global float* film, const uint pixels, const uint count,
-                         const uint layout) {
+                         const uint first, const uint end, const uint layout) {
     const uint pixel = get_global_id(0);
     if (pixel >= pixels) return;
-    for (uint i = 0; i < count; ++i) {
+    for (uint i = first; i < end; ++i) {
         const float3 value = samples[(size_t)pixel * count + i].xyz;
         float3 components[FILM_COMPONENTS];
         for (uint k = 0; k < FILM_COMPONENTS; ++k) components[k] = k == LIGHT_DIFFUSE ? value : (float3)0;

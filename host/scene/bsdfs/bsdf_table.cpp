@@ -4,7 +4,6 @@
 #include "scene/quasi_specular.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace quasilux {
 
@@ -71,11 +70,9 @@ Names bsdfPluginNames() { return namesOf(bsdfPlugins); }
 
 BsdfLobes readBsdfLobes(const Element& element, LoadContext& context) {
     std::vector<const Element*>& open = context.openBsdfs;
-    if (std::find(open.begin(), open.end(), &element) != open.end())
-        throw InputError(element.where, fmt::format("bsdf '{}' contains itself; remove one <ref>.", idOf(element)));
     const BsdfPlugin* plugin = findPlugin(bsdfPlugins, element, context, "a grey diffuse bsdf of reflectance 0.5");
     if (!plugin) return greyLobes(0.5f);
-    open.push_back(&element);
+    context.enter(element, open);
     Properties properties(element, context);
     BsdfLobes lobes = plugin->read(properties);
     properties.finish();

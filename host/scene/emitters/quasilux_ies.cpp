@@ -28,7 +28,10 @@ unsigned typeOf(Properties& properties) {
         context.luminaireTypes.insert({{path, static_cast<size_t>(lampSet), metresPerUnit, fromShape},
                                        static_cast<unsigned>(context.scene.luminaireTypes.size())});
     if (isNew) {
-        Goniogram goniogram = readGoniogram(path, where, static_cast<size_t>(lampSet));
+        const auto mayRead = [&](const std::string& named, const SourceLocation& whereNamed) {
+            context.files.guard().admit(named, whereNamed);
+        };
+        Goniogram goniogram = readGoniogram(path, where, static_cast<size_t>(lampSet), mayRead);
         context.scene.warnings.insert(context.scene.warnings.end(), goniogram.warnings.begin(),
                                       goniogram.warnings.end());
         context.scene.luminaireTypes.push_back({std::move(goniogram), metresPerUnit, fromShape});

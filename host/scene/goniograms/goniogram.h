@@ -4,6 +4,7 @@
 #include "util/error.h"
 
 #include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -86,7 +87,12 @@ glm::dvec3 directionAt(double c, double gamma);
 /// The set of lamps to take where a file has several, from 1 on.
 inline constexpr size_t firstLampSet = 1;
 
-/// By its ending, .ies or .ldt. Throws InputError at file:line; `where`: of the mention, for files that cannot be read.
-Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet = firstLampSet);
+/// Throws InputError at `where` if this file may not be read.
+using FileCheck = std::function<void(const std::string& path, const SourceLocation& where)>;
+
+/// By its ending, .ies or .ldt. Throws InputError at file:line; `where`: of the mention, for files that cannot be read. `mayRead` is asked
+/// about files that this one names.
+Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet = firstLampSet,
+                        const FileCheck& mayRead = {});
 
 } // namespace quasilux

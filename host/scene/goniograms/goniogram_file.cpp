@@ -65,7 +65,8 @@ void checkMagnitudes(const Goniogram& goniogram) {
 
 } // namespace
 
-Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet) {
+Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet,
+                        const FileCheck& mayRead) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
     if (ending != ".ies" && ending != ".ldt")
@@ -77,7 +78,8 @@ Goniogram readGoniogram(const std::string& path, const SourceLocation& where, si
     if (ending == ".ies" && lampSet != firstLampSet)
         throw InputError(
             where, fmt::format("set of lamps number {} of '{}'; IES LM-63 files have one, remove it.", lampSet, path));
-    Goniogram goniogram = ending == ".ldt" ? readEulumdat(path, content, where, lampSet) : readIes(path, content);
+    Goniogram goniogram =
+        ending == ".ldt" ? readEulumdat(path, content, where, lampSet) : readIes(path, content, mayRead);
     checkMagnitudes(goniogram);
     makeUtf8(goniogram.luminaire);
     for (LampSet& set : goniogram.lampSets) makeUtf8(set.name);

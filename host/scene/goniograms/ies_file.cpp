@@ -38,7 +38,10 @@ struct IesAngles {
 
 class IesReader {
 public:
-    IesReader(const std::string& path, const std::string& content) : lines_(splitLines(content)) { out_.path = path; }
+    IesReader(const std::string& path, const std::string& content, const FileCheck& mayRead)
+        : mayRead_(mayRead), lines_(splitLines(content)) {
+        out_.path = path;
+    }
 
     Goniogram read() {
         readHeader();
@@ -90,6 +93,7 @@ private:
     void readTiltFile(const std::string& name, const SourceLocation& where) {
         if (name.empty()) throw InputError(where, "TILT= says nothing; expected NONE, INCLUDE or the name of a file.");
         const std::string path = (std::filesystem::path(out_.path).parent_path() / name).string();
+        if (mayRead_) mayRead_(path, where);
         const std::string content = readFile(path, where, "tilt");
         FileNumbers numbers(path, splitLines(content), 0);
         readTilt(numbers);
@@ -217,6 +221,7 @@ private:
                   [](const HalfPlane& a, const HalfPlane& b) { return a.azimuth < b.azimuth; });
     }
 
+    const FileCheck& mayRead_;
     std::vector<std::string_view> lines_;
     Edition edition_ = Edition::of1986;
     Goniogram out_;
@@ -224,7 +229,9 @@ private:
 
 } // namespace
 
-Goniogram readIes(const std::string& path, const std::string& content) { return IesReader(path, content).read(); }
+Goniogram readIes(const std::string& path, const std::string& content, const FileCheck& mayRead) {
+    return IesReader(path, content, mayRead).read();
+}
 
 LuminousShape shapeOfLm63(double width, double length, double height, double metres) {
     using Kind = LuminousShape::Kind;

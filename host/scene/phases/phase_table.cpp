@@ -2,9 +2,6 @@
 #include "scene/phases/phase_plugin.h"
 #include "scene/plugin_lookup.h"
 
-#include <algorithm>
-#include <fmt/format.h>
-
 namespace quasilux {
 
 namespace {
@@ -30,9 +27,7 @@ void readPhase(const Element& element, LoadContext& context, MediumDescription& 
     if (!plugin) return;
     Properties properties(element, context);
     std::vector<const Element*>& open = context.openPhases;
-    if (std::find(open.begin(), open.end(), &element) != open.end())
-        throw InputError(element.where, fmt::format("phase '{}' contains itself.", idOf(element)));
-    open.push_back(&element);
+    context.enter(element, open);
     plugin->read(properties, medium);
     open.pop_back();
     properties.finish();

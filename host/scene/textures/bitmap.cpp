@@ -14,8 +14,10 @@ const Image& imageOf(const std::string& path, const std::string& name, bool raw,
     const auto known = context.images.find(key);
     if (known != context.images.end()) return known->second;
     const bool emits = use == TextureUse::emission;
+    LoadGuard& guard = context.files.guard();
     const Image& image =
-        context.images.emplace(key, emits ? readRadianceImage(path, raw, where) : readImage(path, raw, where))
+        context.images
+            .emplace(key, emits ? readRadianceImage(path, raw, where, guard) : readImage(path, raw, where, guard))
             .first->second;
     const char* const what = emits ? "negative and are taken as 0"
                                    : "above 1 and are taken as 1: a surface cannot reflect more light than it gets";

@@ -140,9 +140,7 @@ const Names& constantTextureNames() {
 
 Rgb readConstantTexture(const Element& element, ColorUse use, LoadContext& context) {
     std::vector<const Element*>& open = context.openTextures;
-    if (std::find(open.begin(), open.end(), &element) != open.end())
-        throw InputError(element.where, fmt::format("texture '{}' contains itself; remove one <ref>.", idOf(element)));
-    open.push_back(&element);
+    context.enter(element, open);
     context.textureIndex.emplace(&element, -1);
     Properties properties(element, context);
     const Rgb color = findConstant(element)->read(properties, use);

@@ -62,8 +62,8 @@ Scalar readShare(Properties& properties, const std::string& name, float missing)
 
 /// Reads an image file. Files of integers are taken as sRGB encoded unless `raw`; one channel is grey, alpha is left
 /// out. Throws InputError at `where` where the file cannot be read, or has negative or non-finite values.
-Image readImage(const std::string& path, bool raw, const SourceLocation& where);
+Image readImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard);
 /// An image of radiance: as readImage, but values may be above 1, and negative ones become 0.
-Image readRadianceImage(const std::string& path, bool raw, const SourceLocation& where);
+Image readRadianceImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard);
 
 } // namespace quasilux

@@ -102,9 +102,7 @@ bool replacesTexture(const Element& element, LoadContext& context) {
 TextureDescription readTexture(const Element& element, LoadContext& context, TextureUse use) {
     const TexturePlugin& plugin = findPlugin(texturePlugins, element, constantTextureNames());
     std::vector<const Element*>& open = context.openTextures;
-    if (std::find(open.begin(), open.end(), &element) != open.end())
-        throw InputError(element.where, fmt::format("texture '{}' contains itself; remove one <ref>.", idOf(element)));
-    open.push_back(&element);
+    context.enter(element, open);
     Properties properties(element, context);
     TextureDescription texture;
     texture.where = element.where;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <utility>
 
 namespace quasilux {
 
@@ -20,12 +20,15 @@ fs::path folderOf(const std::string& file) { return fs::path(file).parent_path()
 
 } // namespace
 
-FileResolver::FileResolver(const std::string& scene) : folders_{folderOf(scene).string()} {}
+FileResolver::FileResolver(const std::string& scene, std::shared_ptr<LoadGuard> guard)
+    : folders_{folderOf(scene).string()}, guard_(guard ? std::move(guard) : std::make_shared<LoadGuard>(scene)) {}
 
 void FileResolver::prepend(const std::string& value, const SourceLocation& where) {
     std::string folder = (folderOf(where.file) / value).string();
-    if (!fs::is_directory(folder)) folder = resolve(value, where);
-    if (!fs::is_directory(folder))
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored)) folder = find(value, where);
+    guard_->admitFolder(folder, where);
+    if (!fs::is_directory(folder, ignored))
         throw InputError(
             where, fmt::format("the folder '{}' does not exist; write it relative to this file, or remove the <path>.",
                                value));
@@ -34,6 +37,12 @@ void FileResolver::prepend(const std::string& value, const SourceLocation& where
 }
 
 std::string FileResolver::resolve(const std::string& name, const SourceLocation& where) const {
+    std::string path = find(name, where);
+    guard_->admit(path, where);
+    return path;
+}
+
+std::string FileResolver::find(const std::string& name, const SourceLocation& where) const {
     for (const auto& folder : folders_)
         if (const fs::path found = fs::path(folder) / name; isThere(found)) return found.string();
     return (folderOf(where.file) / name).string();

@@ -6,11 +6,13 @@
 #include "scene/xml/upgrade.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <pugixml.hpp>
-#include <sstream>
+#include <system_error>
+#include <utility>
 
 namespace quasilux {
 
@@ -46,8 +48,9 @@ struct Parameter {
 
 class DocumentReader {
 public:
-    DocumentReader(const std::string& path, const SceneParameters& parameters, Unknown unknown)
-        : files_(path), unknown_(unknown) {
+    DocumentReader(const std::string& path, const SceneParameters& parameters, Unknown unknown,
+                   std::shared_ptr<LoadGuard> guard)
+        : files_(path, std::move(guard)), unknown_(unknown) {
         for (const auto& [name, value] : parameters) {
             for (const Parameter& earlier : parameters_)
                 if (earlier.name == name)
@@ -57,8 +60,8 @@ public:
     }
 
     /// Root element of a file, as it stands; `mention` is the place that named the file.
-    Element readRoot(const std::string& path, const SourceLocation& mention) {
-        checkLoop(path, mention);
+    Element readRoot(const std::string& path, const SourceLocation& mention, int depth = 0) {
+        checkNesting(path, mention);
         std::string text = readFile(path, mention, "scene");
         if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
         const TextPositions positions(path, text);
@@ -78,7 +81,7 @@ public:
                                  "<?quasilux?> outside of the scene; put it into <scene>, a <bsdf> or a <medium>.");
             if (node.type() != pugi::node_element) continue;
             if (!root.tag.empty()) throw InputError(where, "a second outermost element; a file has one.");
-            root = convert(node, nullptr, positions, 0);
+            root = convert(node, nullptr, positions, depth);
         }
         openFiles_.pop_back();
         return root;
@@ -99,7 +102,11 @@ public:
     }
 
 private:
-    void checkLoop(const std::string& path, const SourceLocation& mention) const {
+    void checkNesting(const std::string& path, const SourceLocation& mention) const {
+        files_.guard().checkNesting(openFiles_.size() + 1, mention);
+        if (openFiles_.size() >= maximumNesting)
+            throw InputError(
+                mention, fmt::format("more than {} files that include each other; join some of them.", maximumNesting));
         const std::string canonical = std::filesystem::weakly_canonical(path).string();
         if (std::find(openFiles_.begin(), openFiles_.end(), canonical) != openFiles_.end())
             throw InputError(mention, fmt::format("include loop: '{}' includes itself; remove one <include>.", path));
@@ -110,6 +117,7 @@ private:
         element.tag = node.name();
         element.where = positions.at(node.offset_debug() - 1);
         if (depth > maximumNesting) throwNesting(element);
+        files_.guard().addElement(element.where);
         for (pugi::xml_attribute attribute : node.attributes())
             element.attributes.push_back({attribute.name(), substitute(attribute.value(), element.where)});
         if (!parent && element.find("version")) version_ = majorVersion(element.get("version"));
@@ -144,7 +152,7 @@ private:
             if (element.tag == "default")
                 define(element);
             else if (element.tag == "include")
-                include(element, parent);
+                include(element, parent, depth);
             else if (element.tag == "path")
                 files_.prepend(element.get("value"), element.where);
             else
@@ -174,9 +182,9 @@ private:
         if (!known) parameters_.push_back({name, element.get("value"), false, false});
     }
 
-    void include(const Element& element, Element& parent) {
+    void include(const Element& element, Element& parent, int depth) {
         const int version = version_; // each file has its own
-        Element root = readRoot(files_.resolve(element.get("filename"), element.where), element.where);
+        Element root = readRoot(files_.resolve(element.get("filename"), element.where), element.where, depth);
         version_ = version;
         if (root.tag != "scene") {
             checkElement(root, &parent);
@@ -228,8 +236,10 @@ private:
 
 } // namespace
 
-SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters, Unknown unknown) {
-    DocumentReader reader(path, parameters, unknown);
+SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters, Unknown unknown,
+                                std::shared_ptr<LoadGuard> guard) {
+    DocumentReader reader(path, parameters, unknown, std::move(guard));
+    reader.files().guard().admit(path, {path});
     Element root = reader.readRoot(path, {});
     if (root.tag != "scene")
         throw InputError(root.where, fmt::format("the outermost element is <{}>; expected <scene>.", root.tag));
@@ -269,16 +279,24 @@ Instruction parseInstruction(std::string_view text, const SourceLocation& where)
 }
 
 std::string readFile(const std::string& path, const SourceLocation& where, std::string_view what) {
-    std::error_code error;
-    const bool regular = std::filesystem::is_regular_file(path, error);
-    std::ifstream file(path, std::ios::binary);
-    if (!regular || !file)
+    const auto fail = [&](const std::string& why) {
         throw InputError(where, fmt::format("cannot read the {} file '{}': {}. Check the name; it is relative to the "
                                             "folder of the file that mentions it.",
-                                            what, path, regular ? "no permission" : "there is no such file"));
-    std::ostringstream content;
-    content << file.rdbuf();
-    return std::move(content).str();
+                                            what, path, why));
+    };
+    std::error_code error;
+    const auto kind = std::filesystem::status(path, error).type();
+    // A pipe or a device may have no end.
+    if (kind != std::filesystem::file_type::regular)
+        fail(kind == std::filesystem::file_type::not_found || error ? "there is no such file" : "it is no plain file");
+    std::ifstream file(path, std::ios::binary);
+    if (!file) fail(std::generic_category().message(errno));
+    std::string content(std::filesystem::file_size(path, error), 0);
+    if (error) fail(error.message());
+    file.read(content.data(), static_cast<std::streamsize>(content.size()));
+    if (file.bad() || static_cast<size_t>(file.gcount()) != content.size())
+        fail(fmt::format("only {} of its {} bytes could be read", file.gcount(), content.size()));
+    return content;
 }
 
 } // namespace quasilux

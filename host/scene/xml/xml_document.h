@@ -21,7 +21,7 @@ struct SceneDocument {
 /// Throws InputError for a missing file, malformed XML, include loops, unknown names unless they are forgiven, and unused
 /// `parameters`.
 SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters,
-                                Unknown unknown = Unknown::refused);
+                                Unknown unknown = Unknown::refused, std::shared_ptr<LoadGuard> guard = nullptr);
 
 /// Entries of `<?quasilux …?>`. Throws InputError at `where` if they are not a list of key="value".
 Instruction parseInstruction(std::string_view text, const SourceLocation& where);

@@ -1,0 +1,70 @@
+#include "render/learned_scene.h"
+
+#include "render/method.h"
+#include "render/pass_params.h"
+#include "render/pilot.h"
+#include "render/regions.h"
+
+#include <algorithm>
+
+namespace quasilux {
+
+namespace {
+
+constexpr unsigned samplesOfManyEmitters = 4;
+// Of a round while learning.
+constexpr unsigned fewestPhotonsOfRound = 8192, mostPhotonsOfRound = 131072;
+constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
+
+RoundResult sumOfRegions(const std::vector<shared::RegionCount>& regions, unsigned photons) {
+    RoundResult result;
+    double arrivals = 0, seen = 0;
+    for (const auto& region : regions) {
+        arrivals += region.arrivals;
+        seen += region.seenArrivals;
+        for (unsigned c = 0; c < LIGHT_CLASSES; ++c) result.density[c] += double(region.density[c]) / photons;
+        for (unsigned o = 0; o < DISTANCE_OCTAVES; ++o)
+            result.densityByOctave[o] += double(region.densityByOctave[o]) / photons;
+    }
+    if (arrivals > 0) result.seenShare = seen / arrivals;
+    return result;
+}
+
+RoundResult tracePhotonRound(Device& device, const Program& program, const GeometryBuffers& geometry,
+                             shared::PhotonParams params, unsigned round) {
+    params.paths = std::clamp(2 * params.paths, fewestPhotonsOfRound, mostPhotonsOfRound);
+    params.pathsPerRegion = photonsPerRegion(device.info());
+    params.regions = regionsOf(params.paths, params.pathsPerRegion);
+    params.pass = firstRoundPass + round;
+    params.learns = 1;
+    std::fill(std::begin(params.keepProbability), std::end(params.keepProbability), 1.f);
+    const Buffer<shared::PhotonRecord> records(device, params.paths, "learned photons");
+    const Buffer<uint32_t> blocks(device, 1, "photon blocks");
+    const Buffer<shared::RegionCount> regions(device, params.regions, "photon regions");
+    program.kernel("tracePhotons")
+        .launchLong(params.regions, geometry.nodes, geometry.blocks, geometry.tables, records, blocks, regions, params);
+    RoundResult result = sumOfRegions(regions.read(), params.paths);
+    result.photons = records.read();
+    return result;
+}
+
+} // namespace
+
+LearnedScene learnScene(Device& device, const Program& program, const Scene& scene, const RenderSettings& settings,
+                        DeviceScene& flat, GeometryBuffers& geometry) {
+    if (!learns(flat.features, settings)) return {};
+    Learning learning(device, program, flat, SceneBuffers{geometry.nodes, geometry.blocks, geometry.tables},
+                      cameraParams(flat, settings, QL_NONE));
+    learning.followPilots(mayTakeDirectFromPhotons(flat.features, settings));
+    if (settings.map == MapOrder::photons && flat.offsets.meter.kind == METER_NONE)
+        learning.traceRounds([&](unsigned round) {
+            return tracePhotonRound(device, program, geometry, photonParams(scene, flat, settings), round);
+        });
+    return learning.learned();
+}
+
+unsigned directSamplesOf(const LearnedScene& learned) {
+    return learned.tables.lights.empty() ? 1 : samplesOfManyEmitters;
+}
+
+} // namespace quasilux

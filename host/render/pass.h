@@ -1,0 +1,62 @@
+// A pass of a render: one independent estimate of the image, added to the film. There are three kinds, by a photon map for camera paths or for meters
+// and by a map of camera points; only makePass() tells them apart.
+#pragma once
+
+#include "device/program.h"
+#include "render/film.h"
+#include "render/gathered_photons.h"
+#include "render/geometry_buffers.h"
+#include "render/memory_plan.h"
+#include "render/radius_schedule.h"
+#include "render/render_counters.h"
+#include "util/state_archive.h"
+
+#include <memory>
+
+namespace quasilux {
+
+/// What passes of all kinds work with. It outlives them.
+struct PassContext {
+    Device& device;
+    const Program& program;
+    const GeometryBuffers& geometry;
+    const DeviceScene& flat;
+    const RenderSettings& settings;
+    const RadiusSchedule& radii;
+    const shared::RadiusField& field;
+    Film& film;
+    const BufferSizes& buffers; ///< of the render so far
+    unsigned classes;           ///< bits 1 << slot of the photons that kernels know
+    shared::CameraParams camera;
+    shared::PhotonParams photons;
+};
+
+class Pass {
+public:
+    virtual ~Pass() = default;
+
+    /// Adds the estimate of this number to the film, and to the counters what it counted; passes and seconds are the caller's.
+    virtual void run(unsigned pass, RenderCounters& counters) = 0;
+    /// Camera paths of a pixel.
+    virtual unsigned pathsPerPixel() const = 0;
+    /// Memory that all passes will take, known once the pass is made.
+    const MemoryForecast& forecast() const { return forecast_; }
+
+    /// Which photons of this pass its camera paths gather; none where nothing is gathered.
+    virtual std::optional<GatheredCount> countGathered(unsigned /*pass*/) { return std::nullopt; }
+    /// Radii by pixel are what passes leave besides the film. Are they those of all passes to come?
+    virtual bool radiiAreChosen() const { return true; }
+    virtual void saveRadii(StateSink& /*sink*/) const {}
+    virtual void restoreRadii(const StateSource& /*source*/) {}
+
+protected:
+    MemoryForecast forecast_;
+};
+
+/// The kind that sensor and settings ask for, with its kernels compiled. Throws InputError where a pass does not fit into the device's memory.
+std::unique_ptr<Pass> makePass(const PassContext& context);
+
+/// All buffers, of which `untouched` bytes are still to become resident: those of a CPU device are memory of this process.
+MemoryForecast forecastOf(const PassContext& context, const BufferSizes& sizes, uint64_t untouched);
+
+} // namespace quasilux

@@ -1,0 +1,69 @@
+#include "render/photon_map_pass.h"
+
+#include "render/method.h"
+
+#include <chrono>
+
+namespace quasilux {
+
+PhotonMapPass::PhotonMapPass(const PassContext& context) : context_(context) {
+    const shared::Camera& camera = context.flat.camera;
+    if (adaptsRadius(context.flat.features, context.settings))
+        radii_.emplace(context.device, context.program, camera, context.classes);
+    if (const unsigned floats = SharedSamples::floatsPerSample(context.flat, context.settings))
+        samples_.emplace(context.device, context.program, camera, floats);
+    camera_.emplace(context.program, context.geometry, context.film, context.camera, radii_ ? &*radii_ : nullptr,
+                    samples_ ? &*samples_ : nullptr);
+    photons_.emplace(context, [&](const PhotonStage& pilot) { camera_->compile(pilot); });
+    forecast_ = photons_->forecast();
+}
+
+void PhotonMapPass::run(unsigned pass, RenderCounters& counters) {
+    catchUpRadii(pass, counters);
+    photons_->trace(pass, counters);
+    camera_->run(pass, photons_->stage());
+    if (!photons_->areTaken() || !camera_->radiusIsDue(pass)) return;
+    context_.device.finish();
+    chooseRadii(pass, counters);
+}
+
+// Radii of this pass are chosen with the photons of earlier ones; where these were not rendered here, they are traced for that
+// alone.
+void PhotonMapPass::catchUpRadii(unsigned pass, RenderCounters& counters) {
+    while (radii_ && photons_->areTaken() && radii_->pilotPasses() < AdaptiveRadius::pilotPassesBefore(pass)) {
+        const unsigned earlier = radii_->pilotPasses();
+        photons_->traceUncounted(earlier);
+        chooseRadii(earlier, counters);
+    }
+}
+
+void PhotonMapPass::chooseRadii(unsigned pass, RenderCounters& counters) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    counters.radiusPaths += camera_->chooseRadius(pass, photons_->stage());
+    context_.device.finish();
+    counters.radiusSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::optional<GatheredCount> PhotonMapPass::countGathered(unsigned pass) {
+    RenderCounters ofNoPass;
+    catchUpRadii(pass, ofNoPass);
+    photons_->traceUncounted(pass);
+    return quasilux::countGathered(context_.device, kernelOptions(context_.flat, context_.settings), context_.geometry,
+                                   photons_->stage(), camera_->params(pass, photons_->stage()),
+                                   radii_ ? &radii_->scales(pass) : nullptr);
+}
+
+bool PhotonMapPass::radiiAreChosen() const {
+    return !radii_ || !photons_->areTaken() || radii_->pilotHasEnded();
+}
+
+void PhotonMapPass::saveRadii(StateSink& sink) const {
+    if (radii_) radii_->save(sink);
+}
+
+void PhotonMapPass::restoreRadii(const StateSource& source) {
+    if (radii_) radii_->restore(source);
+}
+
+} // namespace quasilux

@@ -1,0 +1,31 @@
+// --map photons: camera paths gather from a map of photons (stage 3 of a pass, camera_stage.h).
+#pragma once
+
+#include "render/camera_stage.h"
+#include "render/pass_photons.h"
+
+namespace quasilux {
+
+class PhotonMapPass : public Pass {
+public:
+    explicit PhotonMapPass(const PassContext& context);
+
+    void run(unsigned pass, RenderCounters& counters) override;
+    unsigned pathsPerPixel() const override { return context_.camera.cameraPaths; }
+    std::optional<GatheredCount> countGathered(unsigned pass) override;
+    bool radiiAreChosen() const override;
+    void saveRadii(StateSink& sink) const override;
+    void restoreRadii(const StateSource& source) override;
+
+private:
+    void catchUpRadii(unsigned pass, RenderCounters& counters);
+    void chooseRadii(unsigned pass, RenderCounters& counters);
+
+    const PassContext& context_;
+    std::optional<AdaptiveRadius> radii_;  ///< by pixel, where they are
+    std::optional<SharedSamples> samples_; ///< of a filter wider than a pixel
+    std::optional<CameraStage> camera_;
+    std::optional<PassPhotons> photons_;
+};
+
+} // namespace quasilux

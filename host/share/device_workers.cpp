@@ -1,0 +1,101 @@
+#include "share/device_workers.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace quasilux {
+
+namespace {
+
+constexpr double passesOfPatience = 10;
+std::atomic<bool> someAreAbandoned{false};
+
+} // namespace
+
+bool hasAbandonedThreads() { return someAreAbandoned; }
+
+DeviceWorkers::~DeviceWorkers() {
+    for (Member& member : members_) member.worker->end();
+    for (Member& member : members_)
+        if (member.thread.joinable()) member.thread.join();
+}
+
+void DeviceWorkers::add(const std::string& name, std::function<OpenedRenderer()> open) {
+    const size_t number = members_.size();
+    Member member;
+    member.worker = std::make_shared<DeviceWorker>(number, name, std::move(open), events_);
+    member.thread = std::thread(&DeviceWorker::run, member.worker);
+    members_.push_back(std::move(member));
+    opening_.insert(number);
+}
+
+std::optional<WorkerEvent> DeviceWorkers::wait(double seconds) {
+    if (isSumming_ && asked_.empty()) {
+        isSumming_ = false;
+        std::sort(gave_.begin(), gave_.end());
+        WorkerEvent summed;
+        summed.kind = WorkerEvent::Kind::summed;
+        return summed;
+    }
+    if (auto silent = silentOne()) return silent;
+    if (auto event = events_->wait(seconds)) return note(std::move(*event));
+    return std::nullopt;
+}
+
+std::optional<WorkerEvent> DeviceWorkers::note(WorkerEvent event) {
+    if (!members_[event.worker].isAlive) return std::nullopt; // it answers after all: too late
+    using enum WorkerEvent::Kind;
+    if (event.kind == opened || event.kind == failed) opening_.erase(event.worker);
+    if (event.kind == gave || event.kind == failed) asked_.erase(event.worker);
+    if (event.kind == gave) gave_.push_back(event.worker);
+    if (event.kind == failed) members_[event.worker].isAlive = false;
+    return event;
+}
+
+std::optional<WorkerEvent> DeviceWorkers::silentOne() {
+    for (size_t k = 0; k < members_.size(); ++k) {
+        Member& member = members_[k];
+        if (!member.isAlive) continue;
+        const double patience = std::max(answerSeconds_, passesOfPatience * member.worker->longestPass());
+        if (member.worker->silentFor() <= patience) continue;
+        abandon(member);
+        WorkerEvent event;
+        event.kind = WorkerEvent::Kind::failed;
+        event.worker = k;
+        event.name = member.worker->name();
+        event.why = fmt::format("no answer for {:.3g} s", patience);
+        return note(std::move(event));
+    }
+    return std::nullopt;
+}
+
+void DeviceWorkers::abandon(Member& member) {
+    member.worker->end();
+    member.thread.detach();
+    someAreAbandoned = true;
+}
+
+void DeviceWorkers::giveRadii(const RadiiState& radii) {
+    const auto shared = std::make_shared<const RadiiState>(radii);
+    for (Member& member : members_)
+        if (member.isAlive) member.worker->giveRadii(shared);
+}
+
+void DeviceWorkers::askForSums() {
+    gave_.clear();
+    for (size_t k = 0; k < members_.size(); ++k)
+        if (members_[k].isAlive && !opening_.contains(k)) {
+            asked_.insert(k);
+            members_[k].worker->askForSums();
+        }
+    isSumming_ = true;
+}
+
+PassSums DeviceWorkers::takeSums() {
+    PassSums all;
+    for (const size_t k : gave_) quasilux::add(all, members_[k].worker->takeSums());
+    gave_.clear();
+    return all;
+}
+
+} // namespace quasilux

@@ -1,0 +1,233 @@
+// Each call of OpenCL, of a file and of operator new fails once (shims/failing_calls.cpp) in a small render with every kind of output: what
+// failed is named, the exit code is the documented one, no file is half written, and an image that is there is right. Here the middle
+// call of each function, or the one that QUASILUX_FAULTS says: `all`, or a number of calls spread evenly (scripts/faults.sh).
+#include "support/program_runner.h"
+
+#include "compare/image_file.h"
+#include "output/render_checkpoint.h"
+#include "util/error.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace quasilux {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Arguments = std::vector<std::string>;
+using Variables = std::vector<std::pair<std::string, std::string>>;
+
+constexpr unsigned passes = 3;
+// A mesh from a file; what photons serve; little to compile.
+constexpr const char* plate = R"(<scene version="3.0.0">
+  <sensor type="perspective"><float name="fov" value="40"/>
+    <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film></sensor>
+  <shape type="obj"><string name="filename" value="plate.obj"/></shape>
+  <emitter type="point"><point name="position" x="0" y="2" z="2"/></emitter>
+</scene>
+)";
+
+class FaultsTest : public CommandLineTest {
+protected:
+    FaultsTest() {
+        std::ofstream(folder / "scene.xml") << plate;
+        std::ofstream(folder / "plate.obj") << "v -1 -1 4\nv -1 1 4\nv 1 1 4\nv 1 -1 4\nf 1 2 3 4\n";
+        for (unsigned pass = 1; pass <= passes; ++pass) {
+            const auto name = "whole" + std::to_string(pass) + ".exr";
+            const Outcome outcome = run(render(pass, name));
+            EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+            images_[pass] = radianceOf(name);
+            fs::rename(folder / name, root / name);
+        }
+        clean();
+    }
+
+    static Arguments render(unsigned pass, const std::string& image) {
+        return {"render",    "scene.xml", "--fixed", "--radius", "fixed",    "--emission",         "plain",
+                "--photons", "64",        "-o",      image,      "--passes", std::to_string(pass), "--json"};
+    }
+    static Arguments allOutputs() {
+        Arguments arguments = render(passes, "a.exr");
+        const Arguments more{"--png", "a.png", "--stats", "a.json", "--checkpoint", "a.ckpt", "--every", "0"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    }
+
+    std::vector<float> radianceOf(const std::string& name) const {
+        return readRadiance((folder / name).string()).radiance;
+    }
+
+    /// Removes what a run has written.
+    void clean() const {
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (entry.path().filename() != "scene.xml" && entry.path().filename() != "plate.obj")
+                fs::remove_all(entry.path());
+    }
+
+    Outcome runFailing(const Arguments& arguments, const Variables& variables) const {
+        Variables all = variables;
+        all.emplace_back("LD_PRELOAD", QUASILUX_FAILING_CALLS);
+        for (const auto& [name, value] : all) setenv(name.c_str(), value.c_str(), 1);
+        Outcome outcome = run(arguments);
+        for (const auto& [name, value] : all) unsetenv(name.c_str());
+        return outcome;
+    }
+
+    /// Of a run without a fault.
+    std::map<std::string, unsigned> countCalls(const Arguments& arguments) const {
+        const auto file = root / "counts";
+        const Outcome outcome = runFailing(arguments, {{"QUASILUX_COUNT_CALLS", file.string()}});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+        std::map<std::string, unsigned> counts;
+        std::ifstream stream(file);
+        std::string name;
+        for (unsigned count = 0; stream >> name >> count;) counts[name] = count;
+        return counts;
+    }
+
+    /// Everything in the folder is whole; the image is that of as many passes as the render says.
+    void expectWholeFiles(const Outcome& outcome) const {
+        const std::set<std::string> known{"scene.xml", "plate.obj", "a.exr",          "a.png",
+                                          "a.json",    "a.ckpt",    "a.ckpt.previous"};
+        for (const auto& entry : fs::directory_iterator(folder))
+            EXPECT_TRUE(known.contains(entry.path().filename())) << entry.path();
+        unsigned pass = passes;
+        if (const auto summary = nlohmann::json::parse(outcome.output, nullptr, false); summary.is_object())
+            pass = summary.at("passes").get<unsigned>();
+        if (fs::exists(folder / "a.exr")) {
+            const auto radiance = radianceOf("a.exr");
+            EXPECT_TRUE(
+                std::any_of(images_.begin(), images_.end(), [&](const auto& each) { return each.second == radiance; }));
+            if (!outcome.output.empty()) {
+                EXPECT_EQ(radiance, images_.at(pass));
+            }
+        }
+        if (fs::exists(folder / "a.png")) {
+            EXPECT_TRUE(readText(folder / "a.png").ends_with("IEND\xae\x42\x60\x82"));
+        }
+        if (fs::exists(folder / "a.json")) {
+            EXPECT_TRUE(nlohmann::json::accept(readText(folder / "a.json")));
+        }
+        for (const char* checkpoint : {"a.ckpt", "a.ckpt.previous"})
+            if (fs::exists(folder / checkpoint)) {
+                EXPECT_NO_THROW(checkpointOf(CheckpointReader((folder / checkpoint).string()))) << checkpoint;
+            }
+    }
+
+    /// Whether the message says what failed: of OpenCL the function and the error's number, of files the name, of memory that.
+    static bool names(const std::string& call, const std::string& errors) {
+        const auto has = [&](const char* pattern) { return std::regex_search(errors, std::regex(pattern)); };
+        if (call.rfind("cl", 0) == 0)
+            return has("OpenCL error -[0-9]+|do not build on device") && has("kernel|buffer|device|cl[A-Z][A-Za-z]+");
+        if (call == "new") return has("memory");
+        return has("a\\.(exr|png|json|ckpt)|begun\\.ckpt|scene\\.xml|plate\\.obj");
+    }
+
+    void expectGoodEnd(const std::string& call, unsigned at, const Arguments& arguments) {
+        SCOPED_TRACE(call + ", call " + std::to_string(at));
+        const Outcome outcome =
+            runFailing(arguments, {{"QUASILUX_FAIL_CALL", call}, {"QUASILUX_FAIL_AT", std::to_string(at)}});
+        // 0: what failed was not needed, or was tried again. 2: a file that cannot be read is bad input.
+        EXPECT_THAT(outcome.exitCode, testing::AnyOf(0, 1, 2)) << outcome.errors;
+        if (outcome.exitCode != 0) {
+            EXPECT_THAT(outcome.errors, testing::HasSubstr("quasilux: error: "));
+            EXPECT_TRUE(names(call, outcome.errors)) << outcome.errors;
+        } else {
+            EXPECT_TRUE(fs::exists(folder / "a.exr"));
+        }
+        expectWholeFiles(outcome);
+        ++ends_[outcome.exitCode];
+        clean();
+    }
+
+    /// Of `count` calls those that fail, one at a time.
+    static std::vector<unsigned> chosen(unsigned count) {
+        const char* const wish = std::getenv("QUASILUX_FAULTS");
+        const unsigned most = !wish ? 1 : std::string(wish) == "all" ? count : static_cast<unsigned>(std::stoul(wish));
+        std::vector<unsigned> calls;
+        const unsigned parts = std::min(most, count);
+        for (unsigned k = 0; k < parts; ++k)
+            calls.push_back(1 + static_cast<unsigned>((uint64_t(2) * k + 1) * count / (uint64_t(2) * parts)) % count);
+        return calls;
+    }
+
+    std::map<unsigned, std::vector<float>> images_; ///< by the number of passes
+    std::map<int, unsigned> ends_;                  ///< by exit code
+};
+
+TEST_F(FaultsTest, NoneLosesWhatIsThere) {
+    const auto counts = countCalls(allOutputs());
+    clean();
+    ASSERT_GT(counts.at("clEnqueueNDRangeKernel"), passes);
+    for (const auto& [call, count] : counts)
+        for (const unsigned at : chosen(count)) expectGoodEnd(call, at, allOutputs());
+    // Control: most calls are needed.
+    EXPECT_GT(ends_[1], 10u);
+}
+
+// A render that goes on reads its checkpoint.
+TEST_F(FaultsTest, NoneSpoilsAResumedRender) {
+    Arguments first = render(2, "a.exr");
+    first.insert(first.end(), {"--checkpoint", "begun.ckpt"});
+    ASSERT_EQ(run(first).exitCode, 0);
+    fs::rename(folder / "begun.ckpt", root / "begun.ckpt");
+    clean();
+    Arguments resumed = allOutputs();
+    resumed.insert(resumed.end(), {"--resume", "../begun.ckpt"});
+    const auto counts = countCalls(resumed);
+    clean();
+    for (const char* call : {"read", "fopen", "new", "clEnqueueWriteBuffer"})
+        for (const unsigned at : chosen(counts.at(call))) expectGoodEnd(call, at, resumed);
+}
+
+TEST_F(FaultsTest, WhatDoesNotFitIsNotCompiled) {
+    Arguments tiny = render(1, "a.exr");
+    tiny.insert(tiny.end(), {"--device-memory", "10000"});
+    const auto file = root / "counts";
+    const Outcome outcome = runFailing(tiny, {{"QUASILUX_COUNT_CALLS", file.string()}});
+    EXPECT_EQ(outcome.exitCode, 2);
+    EXPECT_THAT(outcome.errors, testing::HasSubstr("MiB"));
+    EXPECT_THAT(readText(file), testing::HasSubstr("clBuildProgram 0\n"));
+    EXPECT_GT(countCalls(render(1, "a.exr")).at("clBuildProgram"), 0u); // control
+}
+
+// Objects of OpenCL, and files, that are made and not given back.
+TEST_F(FaultsTest, PassesTakeNoMoreObjects) {
+    const auto few = countCalls(render(10, "a.exr")), many = countCalls(render(200, "a.exr"));
+    EXPECT_GT(many.at("clEnqueueNDRangeKernel"), few.at("clEnqueueNDRangeKernel") + 190); // control
+    for (const char* made : {"clCreateBuffer", "clCreateKernel", "clCreateProgramWithSource", "clCreateCommandQueue",
+                             "clCreateContext", "open", "fopen"})
+        EXPECT_EQ(many.at(made), few.at(made)) << made;
+    const auto left = [](const std::map<std::string, unsigned>& counts, const char* object, const char* maker) {
+        const auto of = [&](const std::string& call) { return int64_t(counts.at(call)); };
+        return of(maker) + of(std::string("clRetain") + object) - of(std::string("clRelease") + object);
+    };
+    EXPECT_EQ(left(many, "Event", "clEnqueueNDRangeKernel"), left(few, "Event", "clEnqueueNDRangeKernel"));
+    EXPECT_EQ(left(many, "MemObject", "clCreateBuffer"), left(few, "MemObject", "clCreateBuffer"));
+    EXPECT_EQ(left(many, "Kernel", "clCreateKernel"), left(few, "Kernel", "clCreateKernel"));
+}
+
+// The program calls nothing of OpenCL that cannot be made to fail.
+TEST_F(FaultsTest, AllCallsOfOpenClAreKnown) {
+    const std::string list = (root / "imports").string();
+    const std::string command = std::string("nm -D --undefined-only '") + QUASILUX_PROGRAM + "' > '" + list + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const auto counts = countCalls(allOutputs());
+    const std::string text = readText(list);
+    const std::regex function("\\bcl[A-Z]\\w*");
+    size_t found = 0;
+    for (std::sregex_iterator each(text.begin(), text.end(), function), end; each != end; ++each, ++found)
+        EXPECT_TRUE(counts.contains(each->str())) << each->str();
+    EXPECT_GT(found, 20u);
+}
+
+} // namespace
+} // namespace quasilux
