@@ -219,14 +219,21 @@ typedef struct {
 } CameraCounters;
 #define CUT_THROUGHPUT_STEPS 1024u
 
+/* Pixels of a block that a piece of the film is made of: the one in its middle, one in each row, all. */
+#define CUT_MIDDLE 0u
+#define CUT_DIAGONAL 1u
+#define CUT_ALL 2u
+
 /* A piece of the film: columns x rows blocks of step x step of its pixels, those at the film's edge maybe smaller. */
 typedef struct {
     unsigned int x, y, columns, rows, step;
-    unsigned int isMean; /* of the block's pixels; or else the one in its middle */
+    unsigned int sampling; /* CUT_*: which of the block's pixels are looked at, to take their mean */
     unsigned int filmWidth, filmHeight;
     unsigned int firstPixel, pixels; /* of the part of the film that is read */
     unsigned int filmFloats;         /* of a pixel */
     unsigned int firstFloat, floats; /* which of them */
+    unsigned int pixelsAhead;        /* of the film, from its first on: they have one pass more than the others, */
+    float aheadWeight;               /* and this factor makes up for it */
 } FilmCut;
 
 #define LOBES_MAX 8u /* lobes on one side of a surface; the host refuses more */

@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-30}
 
-bash scripts/setup.sh
+bash scripts/setup.sh --program
 cmake --preset release
 cmake --build --preset release --target quasilux
 mkdir -p out

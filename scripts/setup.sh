@@ -1,15 +1,21 @@
 #!/usr/bin/env bash
-# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [--mpi] [PACKAGE...].
-# With --mpi also Open MPI, and build/mpi is set up for a release build with it: cmake --build --preset mpi.
+# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [--program] [--mpi] [PACKAGE...].
+# --program: only what it takes to build and run it; without it also what tests and reports need, which is twice as much.
+# --mpi: also Open MPI, and build/mpi is set up for a release build with it: cmake --build --preset mpi.
 # Needs root or sudo; does nothing where everything is there already.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 mpi=()
-if [[ ${1:-} == --mpi ]]; then
-    mpi=(libopenmpi-dev openmpi-bin)
+onlyProgram=0
+while [[ ${1:-} == --* ]]; do
+    case $1 in
+        --program) onlyProgram=1 ;;
+        --mpi) mpi=(libopenmpi-dev openmpi-bin) ;;
+        *) echo "setup: unknown option $1, expected --program or --mpi" >&2; exit 2 ;;
+    esac
     shift
-fi
+done
 
 compiler=(g++ cmake ninja-build pkg-config)
 opencl=(pocl-opencl-icd ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers)
@@ -18,7 +24,9 @@ libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-d
 tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools oclgrind chromium python3-websocket
     python3-dev pybind11-dev mypy)
 reports=(python3 python3-numpy python3-openimageio python3-matplotlib)
-packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}" "${tests[@]}" "${reports[@]}" "${mpi[@]}" "$@")
+packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}")
+((onlyProgram)) || packages+=("${tests[@]}" "${reports[@]}")
+packages+=("${mpi[@]}" "$@")
 
 missing=()
 for package in "${packages[@]}"; do

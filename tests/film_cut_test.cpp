@@ -40,7 +40,7 @@ protected:
 };
 
 TEST_P(FilmCutTest, PixelsAreThoseOfTheImage) {
-    const FilmCutChoice choice{5, 3, 20, 17, 1, true, FilmCutChoice::Content::all, {}};
+    const FilmCutChoice choice{5, 3, 20, 17, 1, CUT_ALL, FilmCutChoice::Content::all, {}};
     const FilmImage cut = cutter.develop(film, passes, choice);
     ASSERT_EQ(cut.width, choice.width);
     ASSERT_EQ(cut.height, choice.height);
@@ -57,7 +57,7 @@ TEST_P(FilmCutTest, PixelsAreThoseOfTheImage) {
 
 // Of blocks of four pixels a side; the last ones reach beyond the film and are smaller.
 TEST_P(FilmCutTest, ValuesAreMeansOfBlocks) {
-    FilmCutChoice choice{0, 0, width, height, 4, true, FilmCutChoice::Content::values, {}};
+    FilmCutChoice choice{0, 0, width, height, 4, CUT_ALL, FilmCutChoice::Content::values, {}};
     for (const auto component : {std::optional<unsigned>(), std::optional<unsigned>(FILM_EMISSION)}) {
         choice.component = component;
         const auto& values = component ? whole.components[*component] : whole.radiance;
@@ -74,8 +74,21 @@ TEST_P(FilmCutTest, ValuesAreMeansOfBlocks) {
     }
 }
 
+// The same blocks by one pixel in each row, each in another column.
+TEST_P(FilmCutTest, DiagonalsAreMeansOfFewerPixels) {
+    const FilmCutChoice choice{0, 0, width, height, 4, CUT_DIAGONAL, FilmCutChoice::Content::values, {}};
+    const FilmImage cut = cutter.develop(film, passes, choice);
+    for (unsigned y = 0; y < cut.height; ++y)
+        for (unsigned x = 0; x < cut.width; ++x) {
+            const unsigned columns = std::min(4u, width - 4 * x), rows = std::min(4u, height - 4 * y);
+            double sum = 0;
+            for (unsigned k = 0; k < rows; ++k) sum += whole.radiance[at(4 * x + k % columns, 4 * y + k)];
+            ASSERT_NEAR(cut.radiance[3 * (size_t(y) * cut.width + x)], sum / rows, 1e-5);
+        }
+}
+
 TEST_P(FilmCutTest, ErrorsAreThoseOfThePixelInTheMiddle) {
-    const FilmCutChoice choice{2, 1, 30, 20, 5, false, FilmCutChoice::Content::errors, {}};
+    const FilmCutChoice choice{2, 1, 30, 20, 5, CUT_MIDDLE, FilmCutChoice::Content::errors, {}};
     const FilmImage cut = cutter.develop(film, passes, choice);
     ASSERT_EQ(cut.width, 6u);
     ASSERT_FALSE(cut.hasComponents());
@@ -85,6 +98,23 @@ TEST_P(FilmCutTest, ErrorsAreThoseOfThePixelInTheMiddle) {
             ASSERT_EQ(cut.standardError[to], whole.standardError[from]);
             ASSERT_EQ(cut.biasError[to + 1], whole.biasError[from + 1]);
         }
+}
+
+// In the middle of a pass: its pixels so far have one pass more, and each is the mean of its own.
+TEST_P(FilmCutTest, PixelsAheadAreMeansOfTheirOwnPasses) {
+    constexpr unsigned ahead = 5 * width + 7;
+    const FilmCutChoice choice{0, 0, width, height, 1, CUT_ALL, FilmCutChoice::Content::values, {}};
+    unsigned calls = 0;
+    film.watchRows([&] { ++calls; });
+    film.noteAhead(ahead);
+    EXPECT_EQ(calls, 1u);
+    const FilmImage inPass = cutter.develop(film, passes, choice);
+    film.endPass();
+    for (size_t k = 0; k < inPass.radiance.size(); ++k) {
+        const double factor = k / 3 < ahead ? double(passes) / (passes + 1) : 1;
+        ASSERT_NEAR(inPass.radiance[k], whole.radiance[k] * factor, 1e-6) << k;
+    }
+    EXPECT_EQ(cutter.develop(film, passes, choice).radiance, whole.radiance);
 }
 
 constexpr uint64_t smallBuffer = 64 * 1024; // of the film, several are needed

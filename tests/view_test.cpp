@@ -170,10 +170,12 @@ TEST(Errands, AreDoneByTheOtherThreadWhenTheyAreDue) {
     Errands errands;
     std::thread::id doneBy;
     uint64_t doneAt = 0;
-    std::atomic<bool> isOver{false};
+    std::atomic<bool> isOver{false}, inPass{false};
     std::thread renders([&] {
         for (uint64_t number = 1; !isOver; ++number) {
-            errands.doDue(momentOf(number));
+            RenderMoment moment = momentOf(number);
+            moment.inPass = inPass;
+            errands.doDue(moment);
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     });
@@ -190,6 +192,11 @@ TEST(Errands, AreDoneByTheOtherThreadWhenTheyAreDue) {
     EXPECT_TRUE(errands.run(note, {0, later}, patience));
     EXPECT_GE(Errands::Clock::now(), later);
     EXPECT_FALSE(errands.run(note, {UINT64_MAX, {}}, std::chrono::milliseconds(5))) << "never due";
+    inPass = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_FALSE(errands.run(note, {}, std::chrono::milliseconds(20))) << "needs the whole film";
+    EXPECT_TRUE(errands.run(note, {0, {}, true}, patience));
+    inPass = false;
     EXPECT_THROW(errands.run([](const RenderMoment&) { throw InputError("no"); }, {}, patience), InputError);
     std::thread closes([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -11,6 +11,7 @@
 #include "output/progress_line.h"
 #include "output/statistics.h"
 #include "util/error.h"
+#include "util/messages.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -158,7 +159,7 @@ int benchCommand(const BenchOptions& options) {
     else if (!options.quiet)
         printTables(report);
     for (const BenchFailure& failure : report.failures)
-        fmt::print(stderr, "quasilux: error: {}: {}\n", failure.what, failure.message);
+        printError(fmt::format("{}: {}", failure.what, failure.message));
     return report.failures.empty() ? exitCodeWhenWritten() : 1;
 }
 

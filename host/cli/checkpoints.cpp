@@ -1,6 +1,7 @@
 #include "cli/checkpoints.h"
 
 #include "learn/learned_state.h"
+#include "util/messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,8 +75,10 @@ void CheckpointKeeper::afterPasses(const AutoRender& soFar, const PassesSoFar& p
     const auto start = Clock::now();
     const auto why =
         failureOf([&] { writeCheckpoint(options_.checkpoint, describe(soFar, passes, seconds), passes.save); });
-    if (why && failure_.empty() && !options_.quiet)
-        fmt::print(stderr, "\nquasilux: warning: no checkpoint could be written, the render goes on: {}\n", *why);
+    if (why && failure_.empty() && !options_.quiet) {
+        fmt::print(stderr, "\n"); // below the progress line
+        printWarning("no checkpoint could be written, the render goes on: " + *why);
+    }
     failure_ = why.value_or("");
     wasTried_ = true;
     writtenPass_ = passes.nextPass;

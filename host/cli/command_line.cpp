@@ -1,28 +1,50 @@
 // Parses the command line, runs the command, and turns what it throws into messages and exit codes.
 #include "cli/command_line.h"
 
+#include "cli/command_end.h"
 #include "cli/commands.h"
+#include "cli/option_checks.h"
+#include "cli/option_list.h"
 #include "cli/options.h"
+#include "cli/render_queue.h"
 #include "ranks/job.h"
 #include "share/device_workers.h"
-#include "util/error.h"
+#include "util/messages.h"
 #include "util/nearest.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
-#include <new>
 
 namespace quasilux {
 
 namespace {
 
-constexpr int exitFailed = 1, exitBadInput = 2;
-
 int fail(int exitCode, const std::string& message) {
     if (launchedAs().rank > 0) return exitCode; // rank 0 says it
-    fmt::print(stderr, "quasilux: error: {}\n", message);
+    printError(message);
     return exitCode;
+}
+
+// Where tev listens by itself.
+constexpr const char* ownTev = "--tev=127.0.0.1:14158";
+
+/// `quasilux SCENE …` is `quasilux render SCENE …`; and --tev without HOST:PORT has one, so that it takes no scene for that.
+std::vector<std::string> completed(CLI::App& app, std::vector<std::string> arguments) {
+    const auto commands = listedCommands(app);
+    const auto isFirst = [&](const CLI::App* command) { return command->get_name() == arguments[0]; };
+    if (!arguments.empty() && std::none_of(commands.begin(), commands.end(), isFirst)) {
+        const std::filesystem::path path(arguments[0]);
+        std::error_code ignored;
+        if (path.extension() == ".xml" || std::filesystem::is_regular_file(path, ignored))
+            arguments.insert(arguments.begin(), "render");
+    }
+    for (size_t k = 0; k < arguments.size(); ++k)
+        if (arguments[k] == "--tev" && (k + 1 == arguments.size() || !isHostAndPort(arguments[k + 1])))
+            arguments[k] = ownTev;
+    return arguments;
 }
 
 /// The subcommand that was named, or the program itself.
@@ -60,7 +82,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
 }
 
 int runCommand(CLI::App& app, const Options& options) {
-    if (app.got_subcommand("render")) return renderCommand(options.render);
+    if (app.got_subcommand("render")) return renderScenes(options.render);
     if (app.got_subcommand("view")) return viewCommand(options.view);
     if (app.got_subcommand("merge")) return mergeCommand(options.merge);
     if (app.got_subcommand("bench")) return benchCommand(options.bench);
@@ -79,23 +101,18 @@ int runCommand(CLI::App& app, const Options& options) {
     return 0;
 }
 
-} // namespace
-
-namespace {
-
 int parseAndRun(CLI::App& app, const Options& options, int argc, char** argv) {
-    try {
-        app.parse(argc, argv);
+    const CommandEnd end = endOf([&] {
+        try {
+            std::vector<std::string> arguments = completed(app, {argv + 1, argv + argc});
+            std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes them
+            app.parse(std::move(arguments));
+        } catch (const CLI::ParseError& error) {
+            return failParsing(app, error);
+        }
         return runCommand(app, options);
-    } catch (const CLI::ParseError& error) {
-        return failParsing(app, error);
-    } catch (const InputError& error) {
-        return fail(exitBadInput, error.what());
-    } catch (const std::bad_alloc&) {
-        return fail(exitFailed, memoryExhausted);
-    } catch (const std::exception& error) {
-        return fail(exitFailed, error.what());
-    }
+    });
+    return end.error.empty() ? end.exitCode : fail(end.exitCode, end.error);
 }
 
 } // namespace

@@ -1,13 +1,10 @@
-// The commands of the program; a file each, in the order of `quasilux --help`. They throw InputError before anything is computed, DeviceError, and
+// The commands of the program but for `render` (render_queue.h); a file each, in the order of `quasilux --help`. They throw InputError before anything is computed, DeviceError, and
 // std::runtime_error where a file cannot be written. What is returned is the exit code.
 #pragma once
 
 #include "cli/options.h"
 
 namespace quasilux {
-
-/// Scene in, images and statistics out. 130: interrupted before the first pass, and nothing is written.
-int renderCommand(const RenderOptions& options);
 
 /// A render that a page in the browser shows and changes (docs/guide/live-view.md). Throws InputError where the scene cannot
 /// be loaded to begin with; later the page says so.
@@ -25,7 +22,7 @@ int photometryCommand(const PhotometryOptions& options);
 /// Pictures of luminance and illuminance with a scale, and isolux lines of grids.
 int falseColourCommand(const FalseColourOptions& options);
 
-/// Scene in, one page on its lighting out. Exit code as of renderCommand.
+/// Scene in, one page on its lighting out. Exit code as of renderScenes.
 int reportCommand(const ReportOptions& options);
 
 /// Daylight glare probability of an image.

@@ -6,6 +6,7 @@
 #include "compare/html_page.h"
 #include "output/atomic_file.h"
 #include "util/error.h"
+#include "util/messages.h"
 
 #include <cmath>
 #include <filesystem>
@@ -16,7 +17,7 @@ namespace quasilux {
 namespace {
 
 void warn(const CompareOptions& options, const std::string& message) {
-    if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
+    if (!options.quiet) printWarning(message);
 }
 
 std::vector<Region> regionsOf(const CompareOptions& options, const RadianceImage& image) {

@@ -3,6 +3,7 @@
 #include "cli/text_table.h"
 #include "photometry/daylight_glare.h"
 #include "util/error.h"
+#include "util/messages.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -102,7 +103,7 @@ int dgpCommand(const DgpOptions& options) {
                                      "as a meter at the eye reads it, or a fisheye image of 180 degrees",
                                      options.input, 100 * glare.covered));
     if (!options.quiet)
-        for (const auto& warning : warningsOf(glare)) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+        for (const auto& warning : warningsOf(glare)) printWarning(warning);
     if (options.json)
         fmt::print("{}\n", glareJson(options, glare).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else if (!options.quiet)

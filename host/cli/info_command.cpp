@@ -6,6 +6,7 @@
 #include "cli/text_table.h"
 #include "output/progress_line.h"
 #include "output/statistics.h"
+#include "util/messages.h"
 
 #include <cmath>
 #include <filesystem>
@@ -110,7 +111,7 @@ void infoCommand(const SceneOptions& options) {
     exitOnInterrupt();
     const Scene scene = loadScene(options.scene, options.parameters(), options.choice());
     if (!options.quiet)
-        for (const auto& warning : scene.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+        for (const auto& warning : scene.warnings) printWarning(warning);
     const Freedom freedom = options.freedom(scene);
     const RenderSettings settings = searchStart(options.settings(scene), scene, freedom, {});
     Device device(options.device, options.workGroupSize, options.deviceMemory);
@@ -124,7 +125,7 @@ void infoCommand(const SceneOptions& options) {
 
     const SceneReport& report = renderer.report();
     if (!options.quiet)
-        for (const auto& warning : report.warnings) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+        for (const auto& warning : report.warnings) printWarning(warning);
     const std::string notSearched = whyNotSearched(scene, settings, {});
     const auto candidates = firstCandidates(freedom, settings, report.photonsPerPass, scene);
     const std::string file = std::filesystem::path(options.scene).filename().string();

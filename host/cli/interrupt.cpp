@@ -51,6 +51,8 @@ void catchInterrupt() { handle(onInterrupt); }
 
 void exitOnInterrupt() { handle(exitNow); }
 
+int signalThatCame() { return firstSignal; }
+
 int exitCodeWhenWritten() {
     const int signal = firstSignal;
     return signal == 0 || signal == SIGINT ? 0 : signalBase + signal;

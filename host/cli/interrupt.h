@@ -18,6 +18,9 @@ void catchInterrupt();
 /// opening the device.
 void exitOnInterrupt();
 
+/// The number of the first of these signals; 0: none has come.
+int signalThatCame();
+
 /// Exit code once all has been written: 0, also after Ctrl-C, which people use to end a render in time; 128 + the number of another
 /// signal, so that a scheduler knows that the render is not done.
 int exitCodeWhenWritten();

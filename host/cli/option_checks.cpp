@@ -97,6 +97,22 @@ CLI::Validator numberRange() {
         "");
 }
 
+bool isHostAndPort(const std::string& text) {
+    const auto colon = text.rfind(':');
+    if (colon == std::string::npos || colon == 0 || text.find('/') != std::string::npos) return false;
+    const auto port = parseAll<unsigned>(text.substr(colon + 1));
+    return port && *port >= 1 && *port <= 65535;
+}
+
+CLI::Validator hostAndPort() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            return isHostAndPort(text) ? std::string()
+                                       : fmt::format("'{}' given, expected HOST:PORT, as 127.0.0.1:14158", text);
+        },
+        "");
+}
+
 CLI::Validator oneOf(std::vector<std::string> names) {
     const std::string known = fmt::format("{}", fmt::join(names, "|")); // no other validator has a name
     return CLI::Validator(

@@ -18,6 +18,10 @@ CLI::Validator numberAbove(double above, double to);
 CLI::Validator numberBetween(double from, double to);
 /// "A:B", two finite numbers, A below B.
 CLI::Validator numberRange();
+/// "HOST:PORT"; of an IPv6 address "[ADDRESS]:PORT".
+CLI::Validator hostAndPort();
+/// Whether it is such.
+bool isHostAndPort(const std::string& text);
 CLI::Validator oneOf(std::vector<std::string> names);
 /// The names of that one; empty for an option without it.
 std::vector<std::string> choicesOf(CLI::Option& option);

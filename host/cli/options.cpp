@@ -14,10 +14,10 @@ namespace {
 constexpr uint64_t maximumPasses = 1000000000;
 
 void declareFiles(CLI::App& command, RenderOptions& options) {
-    const char* group = "Files";
+    const char* group = "Files ({scene}, {sensor}, {date}, {seed} and {passes} in their names stand for these)";
     command
         .add_option("-o,--output", options.output,
-                    "OpenEXR image with all layers, .exr (default: the scene's name with .exr, in the current folder)")
+                    "OpenEXR image with all layers, .exr (default: the scene's name with .exr)")
         ->type_name("FILE")
         ->group(group);
     auto* png = command.add_option("--png", options.png, "Tone-mapped 8-bit sRGB picture, .png (default: none)")
@@ -35,6 +35,13 @@ void declareFiles(CLI::App& command, RenderOptions& options) {
                   "sun and lamps (default: off)")
         ->group(group);
     command.add_option("--stats", options.stats, "Statistics, .json (default: none)")->type_name("FILE")->group(group);
+    command
+        .add_option("--folder", options.folder,
+                    "Where files go whose names have no folder (default: what the environment variable "
+                    "QUASILUX_OUTPUT says, else the current folder)")
+        ->envname("QUASILUX_OUTPUT")
+        ->type_name("FOLDER")
+        ->group(group);
     auto* stops = command
                       .add_option("--exposure", options.exposure.stops,
                                   "Exposure of the PNG in stops relative to the automatic one (default: 0)")
@@ -51,6 +58,47 @@ void declareFiles(CLI::App& command, RenderOptions& options) {
         ->group(group)
         ->needs(png)
         ->excludes(stops);
+}
+
+void declareScenes(CLI::App& command, RenderOptions& options) {
+    command.add_option("SCENE", options.scenes, "Scene files, Mitsuba 3 XML")->required()->type_name("FILE");
+    command
+        .add_option("-j,--jobs", options.jobs,
+                    "Scenes that are rendered at once, each by a process of its own (default: 1, one after the other)")
+        ->type_name("N")
+        ->transform(wholeNumber(1, 1000));
+    command.add_flag("--watch", options.watch,
+                     "Render again whenever the scene or a file that it was read from changes (default: off)");
+}
+
+void declareTerminal(CLI::App& command, RenderOptions& options) {
+    command.add_flag("--strict", options.strict,
+                     "Warnings are errors: what is known before the first pass ends the program before it, with exit "
+                     "code 2 (default: off)");
+    command
+        .add_option("--show", options.show,
+                    "Show the finished picture in the terminal, by what that understands: sixel or kitty (default: "
+                    "not)")
+        ->type_name("NAME")
+        ->check(oneOf({"sixel", "kitty"}));
+}
+
+void declareTev(CLI::App& command, RenderOptions& options) {
+    command
+        .add_option("--tev", options.tev,
+                    "Send the picture to the viewer tev as it converges; HOST:PORT is where tev runs, or left out "
+                    "(default: off; of HOST:PORT 127.0.0.1:14158)")
+        ->type_name("HOST:PORT")
+        ->check(hostAndPort())
+        ->group("Live view");
+}
+
+// What has one terminal or one page for itself.
+void excludeEachOther(CLI::App& render) {
+    for (const char* name : {"--watch", "--view", "--show", "--resume"})
+        render.get_option("--jobs")->excludes(render.get_option(name));
+    for (const char* name : {"--view", "--resume"}) render.get_option("--watch")->excludes(render.get_option(name));
+    render.get_option("--show")->excludes(render.get_option("--json"));
 }
 
 void declareCheckpoints(CLI::App& command, RenderOptions& options) {
@@ -200,16 +248,46 @@ std::string RenderOptions::outputPath() const {
     return output.empty() ? std::filesystem::path(scene).stem().string() + ".exr" : output;
 }
 
+RenderOptions RenderOptions::forScene(const std::string& path) const {
+    checkNamePattern(output, "--output");
+    checkNamePattern(png, "--png");
+    checkNamePattern(grid, "--grid");
+    checkNamePattern(stats, "--stats");
+    checkNamePattern(checkpoint, "--checkpoint", NameNeeded::beforeLoading);
+    RenderOptions one = *this;
+    one.scene = path;
+    one.output = one.outputPath();
+    NameParts parts = namePartsOf(path);
+    if (sensor != "all") parts["sensor"] = sensor.empty() ? "0" : sensor;
+    one = one.named(parts);
+    for (std::string* file : {&one.output, &one.png, &one.grid, &one.stats}) *file = inFolder(folder, *file);
+    return one;
+}
+
 RenderOptions RenderOptions::forSensor(size_t index) const {
     RenderOptions one = *this;
     one.sensor = std::to_string(index);
     one.output = outputPath();
     for (std::string* file : {&one.output, &one.png, &one.stats, &one.checkpoint}) {
-        if (file->empty()) continue;
-        const std::filesystem::path path(*file);
-        *file = (path.parent_path() / (path.stem().string() + "_" + one.sensor + path.extension().string())).string();
+        if (file->empty() || hasPlace(*file, "sensor")) continue;
+        const std::filesystem::path name(*file);
+        *file = (name.parent_path() / (name.stem().string() + "_" + one.sensor + name.extension().string())).string();
     }
-    return one;
+    return one.named({{"sensor", one.sensor}});
+}
+
+RenderOptions RenderOptions::named(const NameParts& parts) const {
+    RenderOptions filled = *this;
+    for (std::string* file : {&filled.output, &filled.png, &filled.grid, &filled.stats, &filled.checkpoint})
+        *file = fillName(*file, parts);
+    return filled;
+}
+
+std::vector<std::string> RenderOptions::fileNames() const {
+    std::vector<std::string> names;
+    for (const std::string& name : {outputPath(), png, grid, stats})
+        if (!name.empty()) names.push_back(name);
+    return names;
 }
 
 namespace {
@@ -217,6 +295,7 @@ namespace {
 void declareViewCommand(CLI::App& app, RenderOptions& options) {
     CLI::App& view =
         *app.add_subcommand("view", "Render a scene in the browser: look, move the camera, change the method");
+    declareSceneFile(view, options);
     declareScene(view, options, "");
     declareView(view, options);
     declareStop(view, options.stop, "none; 600 with --auto if no stop rule is given");
@@ -236,9 +315,11 @@ void declareOptions(CLI::App& app, Options& options) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "quasilux " QUASILUX_VERSION, "Print the version");
 
-    CLI::App& render = *app.add_subcommand("render", "Render a scene to an OpenEXR image");
+    CLI::App& render = *app.add_subcommand("render", "Render scenes to OpenEXR images");
+    declareScenes(render, options.render);
     declareScene(render, options.render, ", or all, one after the other, into files NAME_0.exr, NAME_1.exr ...");
     declareFiles(render, options.render);
+    declareTerminal(render, options.render);
     declareStop(render, options.render.stop, "30 if no stop rule is given");
     declareCheckpoints(render, options.render);
     declareSettings(render, options.render);
@@ -249,6 +330,8 @@ void declareOptions(CLI::App& app, Options& options) {
                                  "Serve a page that shows the picture as it converges, and open it (default: off)")
                        ->group("Live view");
     declareView(render, options.render);
+    declareTev(render, options.render);
+    excludeEachOther(render);
     for (const char* name : {"--listen", "--port", "--no-browser"}) render.get_option(name)->needs(viewed);
 
     declareViewCommand(app, options.view);
@@ -274,6 +357,7 @@ void declareOptions(CLI::App& app, Options& options) {
 
     CLI::App& info =
         *app.add_subcommand("info", "Print what a scene needs and what is chosen for it, after a trial pass");
+    declareSceneFile(info, options.info);
     declareScene(info, options.info, "");
     declareSettings(info, options.info);
     declareDevice(info, options.info);

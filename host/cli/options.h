@@ -5,6 +5,7 @@
 #include "cli/compare_options.h"
 #include "cli/dgp_options.h"
 #include "cli/false_colour_options.h"
+#include "cli/file_names.h"
 #include "cli/merge_options.h"
 #include "cli/photometry_options.h"
 #include "cli/report_options.h"
@@ -19,6 +20,13 @@
 namespace quasilux {
 
 struct RenderOptions : SceneOptions {
+    std::vector<std::string> scenes;      ///< of `render`, which makes options for each of them (forScene)
+    std::string folder;                   ///< of files whose names have none; empty: the current one
+    unsigned jobs = 1;                    ///< scenes that are rendered at once
+    bool watch = false;                   ///< render again when a file of the scene changes
+    bool strict = false;                  ///< warnings are errors
+    std::string show;                     ///< "sixel", "kitty": the picture in the terminal; empty: not
+    std::optional<std::string> tev;       ///< HOST:PORT of the viewer that the picture is sent to
     std::string output, png, stats, grid; ///< paths; empty = not asked for
     bool daylightFactor = false;
     std::string checkpoint, resume;      ///< likewise
@@ -32,8 +40,15 @@ struct RenderOptions : SceneOptions {
 
     /// `output`, or the scene's stem with .exr in the current folder; empty where only the grid is asked for.
     std::string outputPath() const;
-    /// For sensor number `index` of several: the files' names end with _0, _1 …
+    /// For one of `scenes`: names of files have no {scene} and {date} any more, nor {sensor} unless there are several. Throws InputError
+    /// for patterns that cannot be filled.
+    RenderOptions forScene(const std::string& one) const;
+    /// For sensor number `index` of several: where a file's name does not say {sensor}, it ends with _0, _1 …
     RenderOptions forSensor(size_t index) const;
+    /// With these parts in all names.
+    RenderOptions named(const NameParts& parts) const;
+    /// Of all files that are to be written, but checkpoints.
+    std::vector<std::string> fileNames() const;
 };
 
 struct Options {

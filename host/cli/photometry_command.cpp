@@ -3,6 +3,7 @@
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
 #include "photometry/photometry.h"
+#include "util/messages.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -76,7 +77,7 @@ int photometryCommand(const PhotometryOptions& options) {
     if (!options.svg.empty()) checkOutputPath(options.svg, "--svg", ".svg");
     const Goniogram goniogram = readGoniogram(options.file, {}, options.lampSet);
     for (const std::string& warning : goniogram.warnings)
-        if (!options.quiet) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+        if (!options.quiet) printWarning(warning);
     const Photometry figures = photometryOf(goniogram);
     if (!options.svg.empty()) writeText(options.svg, svgOf(polarCurve(goniogram)));
     if (options.json) {

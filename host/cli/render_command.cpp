@@ -1,11 +1,12 @@
 // The stages of a render: check the outputs, load, prepare, render, write, summarise.
-#include "cli/commands.h"
+#include "cli/render_command.h"
 
 #include "cli/interrupt.h"
 #include "cli/render_report.h"
 #include "cli/render_scene.h"
 #include "cli/render_warnings.h"
 #include "cli/started_render.h"
+#include "cli/terminal_picture.h"
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
 #include "output/exr.h"
@@ -15,8 +16,10 @@
 #include "output/statistics.h"
 #include "ranks/job.h"
 #include "util/error.h"
+#include "util/messages.h"
 #include "util/stopwatch.h"
 #include "view/live_view.h"
+#include "view/tev_client.h"
 
 #include <cmath>
 #include <filesystem>
@@ -31,17 +34,17 @@ struct WrittenFiles {
     std::optional<ToneCurve> curve; ///< of the PNG
 };
 
-void checkOutputs(const RenderOptions& options) {
-    if (!options.outputPath().empty()) checkOutputPath(options.outputPath(), "--output", ".exr");
-    if (!options.grid.empty()) checkOutputPath(options.grid, "--grid", ".csv");
-    if (!options.png.empty()) checkOutputPath(options.png, "--png", ".png");
-    if (!options.stats.empty()) checkOutputPath(options.stats, "--stats", ".json");
-    checkCheckpointOptions(options);
-}
+// When warnings are said: those before the first pass end a strict render, those after it only its exit code.
+enum class Moment { beforePasses, whenWritten };
 
-void warn(const RenderOptions& options, const std::vector<std::string>& messages) {
-    if (options.quiet) return;
-    for (const auto& message : messages) fmt::print(stderr, "quasilux: warning: {}\n", message);
+void warn(const RenderOptions& options, const std::vector<std::string>& messages,
+          Moment moment = Moment::beforePasses) {
+    if (!options.quiet || options.strict)
+        for (const auto& message : messages) printWarning(message);
+    if (!options.strict || messages.empty()) return;
+    const char* which = messages.size() == 1 ? "the warning above is an error" : "the warnings above are errors";
+    if (moment == Moment::beforePasses) throw InputError(fmt::format("--strict: {}, nothing is rendered", which));
+    throw std::runtime_error(fmt::format("--strict: {}; the files have been written", which));
 }
 
 WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
@@ -92,7 +95,7 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
 }
 
 // After the passes: the estimated error, then a table by component. Docs: docs/method/accuracy.md.
-void printError(const ErrorEstimate& error) {
+void printErrorTable(const ErrorEstimate& error) {
     if (!std::isfinite(error.sum())) { // after one pass nothing is known
         fmt::print("\n");
         return;
@@ -111,6 +114,11 @@ void printError(const ErrorEstimate& error) {
     fmt::print("{}", table.text());
 }
 
+std::string nameOfShown(const RenderOptions& options) {
+    const std::string path = options.outputPath().empty() ? options.scene : options.outputPath();
+    return std::filesystem::path(path).filename().string();
+}
+
 void printWorkers(const std::vector<WorkerRecord>& workers) {
     if (workers.empty()) return;
     TextTable table({"passes rendered by", "passes", "passes/s", "dropped since"});
@@ -125,7 +133,7 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
                record.counters.renderSeconds);
     if (record.interrupted) fmt::print(", interrupted");
     if (!record.failure.empty()) fmt::print(", ended by a failure");
-    printError(record.error);
+    printErrorTable(record.error);
     printWorkers(record.workers);
     if (record.meter != MeterKind::none) fmt::print("{}", meterText(record, image));
     for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
@@ -140,12 +148,15 @@ struct Finished {
     std::shared_ptr<Device> device; ///< one that has not failed
     std::unique_ptr<StartedRender> started;
     AutoRender render;
-    bool isStopped = false; ///< by the page of the live view
+    bool isStopped = false;  ///< by the page of the live view
+    bool isOutdated = false; ///< given up, as its scene has changed
+    std::vector<std::string> warnings; ///< of the passes, to be said when the files are written
 };
 
 class SensorRender {
 public:
-    explicit SensorRender(const RenderOptions& options) : options_(options), progress_(stderr, !options.quiet) {}
+    SensorRender(const RenderOptions& options, const RenderSurroundings& around)
+        : options_(options), around_(around), progress_(stderr, !options.quiet && around.drawsProgress, around.label) {}
     int run();
 
 private:
@@ -160,6 +171,7 @@ private:
     int finish();
 
     const RenderOptions& options_;
+    const RenderSurroundings& around_;
     ProgressLine progress_;
     Finished done_;
 };
@@ -195,21 +207,34 @@ void SensorRender::render(const std::vector<DeviceChoice>& devices) {
         view->begin(*done_.device, scene, options_.settings(scene), started.stop(), false);
         fmt::print(stderr, "quasilux: live view at {}\n", view->address());
     }
+    std::optional<TevClient> tev;
+    if (options_.tev) {
+        tev.emplace(*options_.tev, nameOfShown(options_), *done_.device);
+        warn(options_, tev->takeWarnings());
+    }
+    std::atomic<bool> isOver{false}; // where the scene is watched
     const auto onProgress = [&](const Progress& now) {
         catchInterrupt();
         progress_.update(now);
         if (view) view->onProgress(now);
+        done_.isOutdated = done_.isOutdated || (around_.isOutdated && around_.isOutdated());
+        isOver = done_.isOutdated || interruptFlag();
     };
     const auto afterPass = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
         if (view) view->afterPass(soFar, now, seconds, isLast);
+        if (tev) tev->afterPass(now, isLast);
     };
+    const std::atomic<bool>& interrupted =
+        view ? view->interrupted() : around_.isOutdated ? isOver : interruptFlag();
     const SharedDevices shared{done_.device, devices, done_.loaded.scene};
     if (isShared(devices)) started.share(shared);
     done_.render = started.render(
-        onProgress, [&](const SearchReport& search) { onChosen(search); }, view ? view->interrupted() : interruptFlag(),
-        afterPass);
+        onProgress, [&](const SearchReport& search) { onChosen(search); }, interrupted, afterPass);
     done_.isStopped = view && view->isStopped();
     if (isShared(devices)) done_.device = livingDevice(options_, shared, done_.render);
+    if (!tev) return;
+    tev->finish();
+    done_.warnings = tev->takeWarnings();
 }
 
 // One that cannot learn what all need is dropped like one that fails later. What fails on all of them, as a wrong option does, is said once.
@@ -243,6 +268,7 @@ int SensorRender::run() {
     checkOutputs(options_);
     load();
     renderOnFirstThatCan();
+    if (done_.isOutdated && !interruptFlag()) return exitCodeOutdated;
     if (done_.render.image.passes > 0) return finish();
     if (interruptFlag()) return exitCodeWithoutResult();
     throw std::runtime_error("no pass was rendered before the stop rule was reached");
@@ -257,22 +283,27 @@ int SensorRender::finish() {
     record.loadSeconds = done_.loaded.seconds;
     record.unobstructedIlluminance = done_.loaded.daylight;
     record.interrupted |= done_.isStopped;
-    const WrittenFiles written = writeFiles(options_, *done_.loaded.scene, image, layers(), record);
+    const WrittenFiles written = writeFiles(options_.named(namePartsOf(record.settings.seed, image.passes)),
+                                            *done_.loaded.scene, image, layers(), record);
     progress_.clear();
-    warn(options_, renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height));
     if (options_.json)
         printJsonSummary(record, image, written);
     else if (!options_.quiet)
         printSummary(record, image, written);
-    // What there is has been written.
+    if (!options_.show.empty()) showImage(options_.show, image, options_.exposure);
+    std::vector<std::string> warnings =
+        renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height);
+    warnings.insert(warnings.end(), done_.warnings.begin(), done_.warnings.end());
+    // What there is has been written. Warnings come last: there they are seen.
     if (render.failure) std::rethrow_exception(render.failure);
     if (const auto why = done_.started->checkpointFailure(); !why.empty())
         throw std::runtime_error("no checkpoint of the last passes could be written: " + why);
+    warn(options_, warnings, Moment::whenWritten);
     return exitCodeWhenWritten();
 }
 
-int renderSensors(const RenderOptions& options) {
-    if (options.sensor != "all") return SensorRender(options).run();
+int renderSensors(const RenderOptions& options, const RenderSurroundings& around) {
+    if (options.sensor != "all") return SensorRender(options, around).run();
     if (!options.grid.empty())
         throw InputError({options.scene}, "--grid measures the illuminance-grid instead of a sensor; give it without "
                                           "--sensor all.");
@@ -282,17 +313,27 @@ int renderSensors(const RenderOptions& options) {
     const size_t count =
         loadScene(options.scene, options.parameters(), {"0", options.unknown(), options.loadLimits()}).sensorCount;
     for (size_t index = 0; index < count; ++index)
-        if (const int code = SensorRender(options.forSensor(index)).run(); code != 0 || interruptFlag()) return code;
+        if (const int code = SensorRender(options.forSensor(index), around).run(); code != 0 || interruptFlag()) return code;
     return 0;
 }
 
 } // namespace
 
-int renderCommand(const RenderOptions& options) {
+void checkOutputs(const RenderOptions& options) {
+    const NameParts any = namePartsOf(0, 0); // the names are not known yet, their folders are
+    const RenderOptions named = options.named(any);
+    if (!named.outputPath().empty()) checkOutputPath(named.outputPath(), "--output", ".exr");
+    if (!named.grid.empty()) checkOutputPath(named.grid, "--grid", ".csv");
+    if (!named.png.empty()) checkOutputPath(named.png, "--png", ".png");
+    if (!named.stats.empty()) checkOutputPath(named.stats, "--stats", ".json");
+    checkCheckpointOptions(options);
+}
+
+int renderCommand(const RenderOptions& options, const RenderSurroundings& around) {
     Job& job = Job::current();
     if (options.isViewed && (job.size() > 1 || ownDevices(options).size() > 1))
         throw InputError("--view shows the passes of one device, and several are named: leave one of both out");
-    if (job.rank() == 0) return renderSensors(options);
+    if (job.rank() == 0) return renderSensors(options, around);
     assistJob(options);
     return 0;
 }

@@ -8,6 +8,7 @@
 #include "output/progress_line.h"
 #include "report/figure_text.h"
 #include "report/report_page.h"
+#include "util/messages.h"
 #include "util/stopwatch.h"
 
 #include <algorithm>
@@ -66,7 +67,7 @@ private:
 
     void warn(const std::string& message) {
         progress_.clear();
-        if (!options_.quiet) fmt::print(stderr, "quasilux: warning: {}\n", message);
+        if (!options_.quiet) printWarning(message);
         if (std::find(content_.warnings.begin(), content_.warnings.end(), message) == content_.warnings.end())
             content_.warnings.push_back(message);
     }

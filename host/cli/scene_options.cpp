@@ -156,8 +156,11 @@ void declareDevice(CLI::App& command, SceneOptions& options) {
         ->group(group);
 }
 
-void declareScene(CLI::App& command, SceneOptions& options, const std::string& moreSensors) {
+void declareSceneFile(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene, "Scene file, Mitsuba 3 XML")->required()->type_name("FILE");
+}
+
+void declareScene(CLI::App& command, SceneOptions& options, const std::string& moreSensors) {
     command
         .add_option("--sensor", options.sensor,
                     "Sensor of the scene, by its number in the order of the file, from 0, or by its id" + moreSensors +

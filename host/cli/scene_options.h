@@ -43,6 +43,7 @@ struct SceneOptions {
     Freedom freedom(const Scene& loaded) const;
 };
 
+void declareSceneFile(CLI::App& command, SceneOptions& options);
 /// `moreSensors` is said of --sensor.
 void declareScene(CLI::App& command, SceneOptions& options, const std::string& moreSensors);
 void declareSettings(CLI::App& command, SceneOptions& options);

@@ -3,10 +3,11 @@
 #include "cli/interrupt.h"
 #include "cli/started_render.h"
 #include "output/progress_line.h"
+#include "scene/xml/read_files.h"
 #include "util/error.h"
+#include "util/messages.h"
 #include "view/live_view.h"
 
-#include <filesystem>
 #include <fmt/format.h>
 #include <thread>
 
@@ -14,18 +15,16 @@ namespace quasilux {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 // A search needs a time to choose for.
 constexpr double secondsOfSearched = 600;
 // Without a stop rule it goes on until somebody ends it.
 constexpr unsigned endless = 1u << 30;
 
-// Renders until the page or a signal ends the program, and anew whenever the page or the scene's file changes.
+// Renders until the page or a signal ends the program, and anew whenever the page or a file of the scene changes.
 class ViewSession {
 public:
     explicit ViewSession(const RenderOptions& options)
-        : options_(options), progress_(stderr, !options.quiet), savedAt_(timeOfFile()), scene_(load()),
+        : options_(options), progress_(stderr, !options.quiet), scene_(load()),
           device_(options.device, options.workGroupSize, options.deviceMemory), view_(options.view, interruptFlag()) {
         options_.fixed = !options_.autoAll;
         StopRule& stop = options_.stop;
@@ -54,13 +53,10 @@ public:
     }
 
 private:
-    std::unique_ptr<EditedScene> load() const {
+    std::unique_ptr<EditedScene> load() {
+        files_ = {};
+        const ReadFilesNoted noted(files_);
         return std::make_unique<EditedScene>(loadScene(options_.scene, options_.parameters(), options_.choice()));
-    }
-
-    fs::file_time_type timeOfFile() const {
-        std::error_code isGone; // for a moment, while an editor replaces it
-        return fs::last_write_time(options_.scene, isGone);
     }
 
     void tellEditable() { view_.state().setEditable(scene_->lamps(), scene_->hasCamera()); }
@@ -81,7 +77,7 @@ private:
     void warn(const std::vector<std::string>& warnings) {
         progress_.clear();
         for (const auto& warning : warnings)
-            if (!options_.quiet) fmt::print(stderr, "quasilux: warning: {}\n", warning);
+            if (!options_.quiet) printWarning(warning);
     }
 
     void renderOnce() {
@@ -127,11 +123,9 @@ private:
         options_.radiusScale = chosen.radiusScale;
     }
 
-    // The scene anew where its file has been saved. One that is wrong is said so, and the one before stays.
+    // The scene anew where a file of it has been saved. One that is wrong is said so, and the one before stays.
     bool reloadIfSaved() {
-        const auto time = timeOfFile();
-        if (time == savedAt_ || time == fs::file_time_type::min()) return false;
-        savedAt_ = time;
+        if (!files_.haveChanged()) return false;
         const auto why = failureOf([&] { reloaded_ = load(); });
         view_.state().setProblem(why.value_or(""));
         return !why;
@@ -160,7 +154,7 @@ private:
     std::optional<std::string> caustics_ =
         options_.caustics; ///< as given: what a search found is of its method and scene
     ProgressLine progress_;
-    fs::file_time_type savedAt_; ///< of what was loaded, or saved while it was
+    ReadFiles files_; ///< of what was loaded last, or failed to be
     std::unique_ptr<EditedScene> scene_, reloaded_;
     bool isEndless_ = false;
     Device device_;

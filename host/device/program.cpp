@@ -113,6 +113,7 @@ void Kernel::enqueue(size_t count, size_t asked) {
             lastCount_ = pace_.next(global - first, group, device_->longestLaunch());
             last_ = enqueuePart(first, lastCount_, group);
             if (lastCount_ < global) last_.wait();
+            if (afterPart_ && first + lastCount_ < count) afterPart_(first + lastCount_);
         }
     } catch (const cl::Error& error) {
         throw DeviceError(

@@ -4,8 +4,10 @@
 #include "device/buffer.h"
 #include "device/launch_pace.h"
 
+#include <functional>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace quasilux {
 
@@ -36,6 +38,9 @@ public:
     void launchFew(size_t count, const Args&... args) {
         launchInGroupsOf(1, count, args...);
     }
+
+    /// Called when a part of the work-items is done, with the number so far, where launches are split; empty: no more.
+    void watchParts(std::function<void(size_t)> afterPart) { afterPart_ = std::move(afterPart); }
 
     /// The launches so far were of no work, made so that the runtime compiles the kernel.
     void forgetPace() { lastCount_ = 0; }
@@ -71,6 +76,7 @@ private:
     LaunchPace pace_;
     cl::Event last_; ///< the last launch
     size_t lastCount_ = 0;
+    std::function<void(size_t)> afterPart_;
 };
 
 class Program {

@@ -1,10 +1,12 @@
 // Text of the progress line and when to redraw it.
 #include "output/progress_line.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <utility>
 
 namespace quasilux {
 
@@ -47,16 +49,31 @@ std::string progressText(const Progress& progress) {
     return text;
 }
 
-ProgressLine::ProgressLine(std::FILE* stream, bool enabled)
-    : stream_(stream), enabled_(enabled && isatty(fileno(stream)) == 1) {}
+ProgressLine::ProgressLine(std::FILE* stream, bool enabled, std::string label, std::chrono::milliseconds betweenLines)
+    : stream_(stream), enabled_(enabled), isTerminal_(isatty(fileno(stream)) == 1), label_(std::move(label)),
+      betweenLines_(betweenLines), nextLine_(begun_ + betweenLines) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
 void ProgressLine::update(const Progress& progress) {
+    if (!enabled_) return;
+    if (isTerminal_)
+        redraw(progress, Clock::now());
+    else
+        append(progress, Clock::now());
+}
+
+void ProgressLine::append(const Progress& progress, Clock::time_point now) {
+    if (now < nextLine_) return;
+    fmt::print(stream_, "quasilux: {}{}\n", label_, progressText(progress));
+    std::fflush(stream_);
+    nextLine_ = now + std::max<Clock::duration>(betweenLines_, (now - begun_) / 10);
+}
+
+void ProgressLine::redraw(const Progress& progress, Clock::time_point now) {
     using namespace std::chrono_literals;
-    const auto now = std::chrono::steady_clock::now();
-    if (!enabled_ || (drawn_ && progress.phase == phase_ && now - last_ < 500ms)) return;
-    fmt::print(stream_, "\r{}\033[K", progressText(progress).substr(0, terminalColumns(stream_) - 1));
+    if (drawn_ && progress.phase == phase_ && now - last_ < 500ms) return;
+    fmt::print(stream_, "\r{}\033[K", (label_ + progressText(progress)).substr(0, terminalColumns(stream_) - 1));
     std::fflush(stream_);
     drawn_ = true;
     phase_ = progress.phase;

@@ -12,11 +12,14 @@ namespace quasilux {
 /// Such as "rendering: pass 12, 1.25 M photons/s, 310 k paths/s, error 2.31 %, 0:24 left"; unknown values are left out.
 std::string progressText(const Progress& progress);
 
-/// Redraws the line at most every 0.5 s; a new phase is shown at once. Clears it at the end of the scope.
+/// On a terminal the line is redrawn at most every 0.5 s, a new phase is shown at once, and it is cleared at the end of the scope.
+/// Elsewhere, as in a log, lines follow each other: after `betweenLines`, and then whenever a tenth of the time so far has passed again,
+/// though not sooner than that.
 class ProgressLine {
 public:
-    /// Draws only if `enabled` and `stream` is a terminal.
-    ProgressLine(std::FILE* stream, bool enabled);
+    /// Nothing is shown unless `enabled`. `label` goes before all it says.
+    ProgressLine(std::FILE* stream, bool enabled, std::string label = "",
+                 std::chrono::milliseconds betweenLines = std::chrono::seconds(10));
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
@@ -26,11 +29,16 @@ public:
     void clear();
 
 private:
+    using Clock = std::chrono::steady_clock;
+    void redraw(const Progress& progress, Clock::time_point now);
+    void append(const Progress& progress, Clock::time_point now);
+
     std::FILE* stream_;
-    bool enabled_;
+    bool enabled_, isTerminal_;
     bool drawn_ = false;
-    std::string phase_;
-    std::chrono::steady_clock::time_point last_;
+    std::string label_, phase_;
+    std::chrono::milliseconds betweenLines_;
+    Clock::time_point last_, begun_ = Clock::now(), nextLine_;
 };
 
 } // namespace quasilux

@@ -55,7 +55,12 @@ void CameraStage::runOn(Film& film, const Buffer<float>* radiusScales, const Pho
     if (shared_)
         shared_->addPass(film, params_, geometry_, tracer(film, radiusScales, photons));
     else
-        for (Film::Part& part : film.parts()) tracePart(film, part, part.pixels, radiusScales, photons);
+        for (Film::Part& part : film.parts()) {
+            traceCameraPaths_.watchParts([&](size_t pixels) { film.noteAhead(part.firstPixel + pixels); });
+            tracePart(film, part, part.pixels, radiusScales, photons);
+            film.noteAhead(part.firstPixel + part.pixels);
+        }
+    traceCameraPaths_.watchParts({});
 }
 
 const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage& photons) {

@@ -70,7 +70,18 @@ public:
     };
     /// To be called once before each pass is added, and after it.
     Pass beginPass(unsigned pass);
-    void endPass() { isWhole_ = true; }
+    void endPass() {
+        isWhole_ = true;
+        pixelsAhead_ = 0;
+    }
+    /// The first pixels, so many, have all of the pass that has begun.
+    void noteAhead(size_t pixels) {
+        pixelsAhead_ = pixels;
+        if (onRows_) onRows_();
+    }
+    size_t pixelsAhead() const { return pixelsAhead_; }
+    /// Called whenever more pixels have all of a pass, by the thread that renders; empty: no more. Who looks on changes nothing.
+    void watchRows(std::function<void()> onRows) const { onRows_ = std::move(onRows); }
     /// All passes that have begun have ended; or else a part of one may be in the sums.
     bool isWhole() const { return isWhole_; }
 
@@ -105,6 +116,8 @@ private:
     unsigned width_, height_;
     FilmLayout layout_;
     bool isWhole_ = true;
+    size_t pixelsAhead_ = 0;
+    mutable std::function<void()> onRows_;
     FilmCounts counts_;
     std::vector<Part> parts_;
     Buffer<shared::CameraCounters> counters_;

@@ -13,17 +13,19 @@ FilmLayout layoutOf(const FilmLayout& film, Content content) {
     return {film.bias, film.components && content == Content::all};
 }
 
-shared::FilmCut cutOf(const Film& film, const FilmCutChoice& choice) {
+shared::FilmCut cutOf(const Film& film, unsigned passes, const FilmCutChoice& choice) {
     shared::FilmCut cut{};
     cut.x = choice.x;
     cut.y = choice.y;
     cut.step = choice.step;
     cut.columns = (choice.width + choice.step - 1) / choice.step;
     cut.rows = (choice.height + choice.step - 1) / choice.step;
-    cut.isMean = choice.isMean;
+    cut.sampling = choice.sampling;
     cut.filmWidth = film.width();
     cut.filmHeight = film.height();
     cut.filmFloats = static_cast<unsigned>(film.layout().floatsPerPixel());
+    cut.pixelsAhead = static_cast<unsigned>(film.pixelsAhead());
+    cut.aheadWeight = passes > 0 ? static_cast<float>(passes) / static_cast<float>(passes + 1) : 1.f;
     if (choice.component)
         cut.firstFloat = FILM_COMPONENT_SUMS(film.layout().bits()) + *choice.component * FILM_SUM_FLOATS;
     cut.floats = choice.content == Content::values
@@ -43,7 +45,7 @@ void developValues(const std::vector<float>& sums, unsigned passes, FilmImage& i
 } // namespace
 
 FilmImage FilmCutter::develop(const Film& film, unsigned passes, const FilmCutChoice& choice) {
-    shared::FilmCut cut = cutOf(film, choice);
+    shared::FilmCut cut = cutOf(film, passes, choice);
     const size_t pixels = size_t(cut.columns) * cut.rows;
     auto timings = device_.timings(); // of passes alone
     if (!program_) program_.emplace(device_, "film_cut.cl", "");

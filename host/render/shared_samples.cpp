@@ -65,6 +65,7 @@ void SharedSamples::addPass(Film& film, const shared::CameraParams& params, cons
         if (part.pixels > 0) trace(samples_, part);
         traced = needed;
         filterRows(film, part, geometry, first, end - first);
+        film.noteAhead(end * params.camera.width);
     }
 }
 

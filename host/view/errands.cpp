@@ -21,6 +21,7 @@ void Errands::doDue(const RenderMoment& moment) {
     const auto now = Clock::now();
     entries_.remove_if([&](Entry* entry) {
         if (moment.number <= entry->due.after || now < entry->due.notBefore) return false;
+        if (moment.inPass && !entry->due.inPasses) return false;
         try {
             entry->errand(moment);
         } catch (...) {

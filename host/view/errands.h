@@ -18,7 +18,9 @@ namespace quasilux {
 struct RenderMoment {
     const Renderer& renderer;
     const AutoRender& soFar; ///< settings and search
-    uint64_t number;         ///< of the moment: one more after each pass, whatever the render
+    uint64_t number;         ///< of the moment: one more after each pass, or more rows of it, whatever the render
+    bool goesOn = true;      ///< or else no pass follows, so that time does not matter
+    bool inPass = false;     ///< in the middle of one
 };
 
 class Errands {
@@ -30,6 +32,7 @@ public:
     struct Due {
         uint64_t after = 0;            ///< at a moment with a larger number
         Clock::time_point notBefore{}; ///< not earlier
+        bool inPasses = false; ///< or in the middle of a pass, when some rows of the film have it and others not
     };
 
     /// Waits until the errand is done: true. Or until `patience` ends or close() is called: false, and it is not done any more.

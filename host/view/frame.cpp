@@ -11,11 +11,21 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned mostPixels = 1u << 21;      // of a frame
+constexpr unsigned mostPixels = 1u << 21;  // of a frame
+constexpr unsigned mostThinned = 1u << 19; // of one of a film that is thinned, while the render goes on
+constexpr unsigned mostPixelsRead =
+    1u << 20; // of the film, for a frame of a render that goes on, where that is thinned
 constexpr size_t pixelsForExposure = 1u << 14; // looked at for the automatic exposure
 constexpr float largestHalf = 65504;
 
 const std::string imageLayer = "image", noiseLayer = "stderr", biasLayer = "bias", ratioLayer = "relative_error";
+
+// As many pixels of the film as may be read.
+unsigned samplingOf(const FilmCutChoice& choice, bool goesOn) {
+    const uint64_t all = uint64_t{choice.width} * choice.height;
+    if (!goesOn || all <= mostPixelsRead) return CUT_ALL;
+    return all / choice.step <= mostPixelsRead ? CUT_DIAGONAL : CUT_MIDDLE;
+}
 
 // Of the component with this name; FILM_COMPONENTS: it is none.
 unsigned componentOf(const std::string& layer) {
@@ -69,7 +79,9 @@ std::vector<std::string> layersOf(const FilmLayout& film) {
     return layers;
 }
 
-FilmCutChoice cutFor(const FrameWish& wish, const Film& film) {
+bool isValueLayer(const std::string& layer) { return layer == imageLayer || componentOf(layer) < FILM_COMPONENTS; }
+
+FilmCutChoice cutFor(const FrameWish& wish, const Film& film, bool goesOn) {
     const auto layers = layersOf(film.layout());
     if (std::find(layers.begin(), layers.end(), wish.layer) == layers.end())
         throw InputError("layer '" + wish.layer + "' is not there, " + expectedNames(wish.layer, layers));
@@ -79,11 +91,15 @@ FilmCutChoice cutFor(const FrameWish& wish, const Film& film) {
     choice.width = std::clamp(wish.width, 1u, film.width() - choice.x);
     choice.height = std::clamp(wish.height, 1u, film.height() - choice.y);
     choice.step = std::clamp(wish.step, 1u, std::max(choice.width, choice.height));
-    while (uint64_t(choice.width / choice.step) * (choice.height / choice.step) > mostPixels) ++choice.step;
+    const auto exceeds = [&](unsigned most) {
+        return uint64_t(choice.width / choice.step) * (choice.height / choice.step) > most;
+    };
+    while (exceeds(mostPixels) || (goesOn && choice.step > 1 && exceeds(mostThinned))) ++choice.step;
     const unsigned component = componentOf(wish.layer);
     if (component < FILM_COMPONENTS) choice.component = component;
-    choice.isMean = wish.layer == imageLayer || choice.component;
-    if (!choice.isMean) choice.content = FilmCutChoice::Content::errors;
+    const bool isValue = isValueLayer(wish.layer);
+    if (!isValue) choice.content = FilmCutChoice::Content::errors;
+    choice.sampling = isValue ? samplingOf(choice, goesOn) : CUT_MIDDLE;
     return choice;
 }
 

@@ -19,8 +19,12 @@ struct FrameWish {
 /// "image", components, "stderr", "bias", "relative_error", as far as the film has them.
 std::vector<std::string> layersOf(const FilmLayout& film);
 
-/// The wish as far as the film goes, thinned to what a screen shows. Throws InputError where the film has no such layer.
-FilmCutChoice cutFor(const FrameWish& wish, const Film& film);
+/// Whether a layer is of values, as image and components are; or else of errors.
+bool isValueLayer(const std::string& layer);
+
+/// The wish as far as the film goes, thinned to what a screen shows. While the render goes on large films are looked at in some of
+/// their pixels alone. Throws InputError where the film has no such layer.
+FilmCutChoice cutFor(const FrameWish& wish, const Film& film, bool goesOn);
 
 struct Frame {
     unsigned x = 0, y = 0, step = 1; ///< where it lies in the film

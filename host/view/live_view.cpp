@@ -58,6 +58,9 @@ void LiveView::onProgress(const Progress& progress) {
 void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
     syncSignal();
     const auto passes = static_cast<unsigned>(renderer.counters().passes);
+    renderer.film().watchRows(isLast ? std::function<void()>() : [this, &renderer, &soFar] {
+        errands_.doDue({renderer, soFar, ++moment_, true, true});
+    });
     const char* over = isStopped_ ? "stopped" : "done";
     if (passes == 0) { // the method has been chosen
         state_.setSettings(soFar.settings);
@@ -67,12 +70,12 @@ void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, doub
     }
     state_.setPasses(passes, seconds);
     if (isLast) state_.setPhase(over);
-    errands_.doDue({renderer, soFar, ++moment_});
+    errands_.doDue({renderer, soFar, ++moment_, !isLast});
 }
 
 void LiveView::waitWith(const AutoRender& soFar, const Renderer& renderer, const std::function<bool()>& isOver) {
     while (!signalled_ && !hasEdits_ && !isOver()) {
-        errands_.doDue({renderer, soFar, moment_});
+        errands_.doDue({renderer, soFar, moment_, false});
         std::this_thread::sleep_for(whileWaiting);
     }
 }

@@ -25,7 +25,7 @@ using httplib::Response;
 constexpr size_t serverThreads = 24;
 constexpr std::chrono::milliseconds patience{3000}, patienceOfSaving{600000};
 // Pictures of a render that goes on come no more often than this, and take at most this share of its time.
-constexpr double secondsBetweenFrames = 0.4, mostOfTime = 0.02;
+constexpr double secondsBetweenFrames = 0.4, mostOfTime = 0.03;
 
 constexpr int badRequest = 400, forbidden = 403, notFound = 404, noContent = 204, unsupportedType = 415;
 
@@ -185,13 +185,13 @@ struct ViewServer::Http {
             [&](const RenderMoment& now) {
                 const auto start = Clock::now();
                 const Film& film = now.renderer.film();
-                choice = cutFor(wish, film);
+                choice = cutFor(wish, film, now.goesOn);
                 isWhole = choice.width == film.width() && choice.height == film.height();
                 cut = view.cutter().develop(film, static_cast<unsigned>(now.renderer.counters().passes), choice);
                 moment = now.number;
                 noteCost(start);
             },
-            {after, after > 0 ? nextFrame() : Clock::time_point{}}, patience);
+            {after, after > 0 ? nextFrame() : Clock::time_point{}, isValueLayer(wish.layer)}, patience);
         if (!isDone) {
             response.status = noContent;
             return;

@@ -147,11 +147,26 @@ class DoneRender(unittest.TestCase):
         self.view.scene.write_text(good)
         self.view.wait(lambda state: state["render"] > before and state["phase"] == "done" and not state["problem"])
 
+    def test_a_file_of_the_scene_that_is_saved_is_loaded_again(self):
+        scene, good, before = self.view.scene, self.view.scene.read_text(), self.view.state()["render"]
+        part = self.view.folder / "part.xml"
+        part.write_text('<texture version="3.0.0" type="checkerboard" id="unused"/>')
+        scene.write_text(good.replace("</scene>", '<include filename="part.xml"/></scene>'))
+        done = lambda state: state["render"] > before and state["phase"] == "done" and not state["problem"]
+        before = self.view.wait(done)["render"]
+        part.write_text('<texture version="3.0.0" type="checkerbord" id="unused"/>')
+        self.assertIn("part.xml:1:", self.view.wait(lambda state: state["problem"])["problem"])
+        part.write_text('<texture version="3.0.0" type="checkerboard" id="mended"/>')
+        before = self.view.wait(done)["render"]
+        scene.write_text(good)
+        self.view.wait(done)
+
 
 class RunningRender(unittest.TestCase):
     def test_it_sharpens_and_stops(self):
         with Viewed(PROGRAM, SCENE, *SMALL) as view:
-            early, noise_early = view.frame(layer="relative_error", after=1)
+            view.wait(lambda state: state["passes"] >= 2)  # after one no error is known
+            early, noise_early = view.frame(layer="relative_error")
             view.wait(lambda state: state["passes"] >= 16 * early["passes"])
             late, noise_late = view.frame(layer="relative_error")
             # The noise falls by the root of the passes, to a quarter; less as radii shrink meanwhile.

@@ -4,6 +4,7 @@
 //                        in 16 KiB and more, as films are, holds one;
 //                        memory: its buffers cannot be created; build: its programs do not build
 //   QUASILUX_BAD_AT      of its launches the first that is lost or silent, of its reads the first with a NaN, from 1
+//   QUASILUX_BAD_SINCE   instead: those from when this file is there
 #include <CL/cl.h>
 #include <atomic>
 #include <cstdlib>
@@ -50,6 +51,7 @@ bool isBadContext(cl_context context) {
 }
 
 bool isDue() {
+    if (const char* file = variable("QUASILUX_BAD_SINCE"); *file != 0) return access(file, F_OK) == 0;
     static std::atomic<long> calls{0};
     static const long at = std::atol(variable("QUASILUX_BAD_AT"));
     return ++calls >= at;

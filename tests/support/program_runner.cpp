@@ -3,11 +3,13 @@
 #include "util/stopwatch.h"
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <pty.h>
 #include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,6 +24,17 @@ namespace {
 void redirect(const fs::path& file, int descriptor) {
     const int target = open(file.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
     if (target < 0 || dup2(target, descriptor) < 0) _exit(122);
+}
+
+// In a process that was made for it.
+[[noreturn]] void becomeProgram(std::vector<std::string>& arguments, const fs::path& folder) {
+    if (chdir(folder.c_str()) != 0) _exit(120);
+    arguments.insert(arguments.begin(), QUASILUX_PROGRAM);
+    std::vector<char*> argv;
+    for (auto& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    execv(argv[0], argv.data());
+    _exit(121);
 }
 
 } // namespace
@@ -45,35 +58,13 @@ CommandLineTest::CommandLineTest() {
 )";
 }
 
-pid_t CommandLineTest::start(std::vector<std::string> arguments) const {
-    const pid_t child = fork();
-    if (child == 0) {
-        if (chdir(folder.c_str()) != 0) _exit(120);
-        redirect(root / "stdout", STDOUT_FILENO);
-        redirect(root / "stderr", STDERR_FILENO);
-        arguments.insert(arguments.begin(), QUASILUX_PROGRAM);
-        std::vector<char*> argv;
-        for (auto& argument : arguments) argv.push_back(argument.data());
-        argv.push_back(nullptr);
-        execv(argv[0], argv.data());
-        _exit(121);
-    }
-    return child;
-}
-
-Outcome CommandLineTest::outcomeOf(pid_t child) const {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(root / "stdout"), readText(root / "stderr")};
-}
-
 Outcome CommandLineTest::run(const std::vector<std::string>& arguments, unsigned interruptAfter, int signal) const {
     const pid_t child = start(arguments);
     if (interruptAfter > 0) {
         sleep(interruptAfter);
         kill(child, signal);
     }
-    return outcomeOf(child);
+    return end(child);
 }
 
 Outcome CommandLineTest::runUntil(const std::vector<std::string>& arguments, const std::function<bool()>& isTime,
@@ -82,7 +73,36 @@ Outcome CommandLineTest::runUntil(const std::vector<std::string>& arguments, con
     const Stopwatch watch;
     while (!isTime() && watch.seconds() < 120) usleep(20000);
     kill(child, signal);
-    return outcomeOf(child);
+    return end(child);
+}
+
+pid_t CommandLineTest::start(std::vector<std::string> arguments) const {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    redirect(root / "stdout", STDOUT_FILENO);
+    redirect(root / "stderr", STDERR_FILENO);
+    becomeProgram(arguments, folder);
+}
+
+Outcome CommandLineTest::end(pid_t process) const {
+    int status = 0;
+    waitpid(process, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(root / "stdout"), readText(root / "stderr")};
+}
+
+Outcome CommandLineTest::runOnTerminal(std::vector<std::string> arguments) const {
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child == 0) becomeProgram(arguments, folder);
+    Outcome outcome;
+    std::array<char, 4096> piece{};
+    for (ssize_t count = 0; (count = read(terminal, piece.data(), piece.size())) > 0;)
+        outcome.output.append(piece.data(), static_cast<size_t>(count));
+    close(terminal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
 }
 
 std::vector<std::string> CommandLineTest::filesInFolder() const {

@@ -8,7 +8,6 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <string>
-#include <sys/types.h>
 #include <vector>
 
 namespace quasilux {
@@ -29,6 +28,11 @@ protected:
     Outcome run(const std::vector<std::string>& arguments, unsigned interruptAfter = 0, int signal = SIGINT) const;
     /// It gets the signal once `isTime`, which is asked every few milliseconds.
     Outcome runUntil(const std::vector<std::string>& arguments, const std::function<bool()>& isTime, int signal) const;
+    /// The same in two steps: what runs meanwhile, and how it ends.
+    pid_t start(std::vector<std::string> arguments) const;
+    Outcome end(pid_t process) const;
+    /// Runs it on a terminal of its own; all that it writes there.
+    Outcome runOnTerminal(std::vector<std::string> arguments) const;
 
     /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file that was not there before.
     void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;
@@ -36,9 +40,6 @@ protected:
     TemporaryFolder temporary;
     std::filesystem::path root = temporary.path(), folder = root / "work";
 
-private:
-    pid_t start(std::vector<std::string> arguments) const;
-    Outcome outcomeOf(pid_t child) const;
     std::vector<std::string> filesInFolder() const;
 };
 

@@ -2,6 +2,7 @@
 #include "scene/xml/xml_document.h"
 
 #include "scene/xml/names.h"
+#include "scene/xml/read_files.h"
 #include "scene/xml/tags.h"
 #include "scene/xml/upgrade.h"
 
@@ -279,6 +280,7 @@ Instruction parseInstruction(std::string_view text, const SourceLocation& where)
 }
 
 std::string readFile(const std::string& path, const SourceLocation& where, std::string_view what) {
+    noteReadFile(path);
     const auto fail = [&](const std::string& why) {
         throw InputError(where, fmt::format("cannot read the {} file '{}': {}. Check the name; it is relative to the "
                                             "folder of the file that mentions it.",

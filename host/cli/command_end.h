@@ -1,0 +1,19 @@
+// How a command ends: its exit code, and what was thrown as a message.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace quasilux {
+
+constexpr int exitFailed = 1, exitBadInput = 2;
+
+struct CommandEnd {
+    int exitCode = 0;
+    std::string error; ///< what was thrown; empty: nothing
+};
+
+/// Runs it; exceptions become messages and the exit codes of docs/reference/command-line.md.
+CommandEnd endOf(const std::function<int()>& command);
+
+} // namespace quasilux
