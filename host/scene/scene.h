@@ -3,8 +3,8 @@
 
 #include "bsdf/lobe_list.h"
 #include "scene/goniograms/goniogram.h"
-#include "scene/setting_choices.h"
 #include "scene/load_limits.h"
+#include "scene/setting_choices.h"
 #include "shared_types.h"
 #include "util/error.h"
 
