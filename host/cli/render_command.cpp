@@ -148,8 +148,8 @@ struct Finished {
     std::shared_ptr<Device> device; ///< one that has not failed
     std::unique_ptr<StartedRender> started;
     AutoRender render;
-    bool isStopped = false;  ///< by the page of the live view
-    bool isOutdated = false; ///< given up, as its scene has changed
+    bool isStopped = false;            ///< by the page of the live view
+    bool isOutdated = false;           ///< given up, as its scene has changed
     std::vector<std::string> warnings; ///< of the passes, to be said when the files are written
 };
 
@@ -224,8 +224,7 @@ void SensorRender::render(const std::vector<DeviceChoice>& devices) {
         if (view) view->afterPass(soFar, now, seconds, isLast);
         if (tev) tev->afterPass(now, isLast);
     };
-    const std::atomic<bool>& interrupted =
-        view ? view->interrupted() : around_.isOutdated ? isOver : interruptFlag();
+    const std::atomic<bool>& interrupted = view ? view->interrupted() : around_.isOutdated ? isOver : interruptFlag();
     const SharedDevices shared{done_.device, devices, done_.loaded.scene};
     if (isShared(devices)) started.share(shared);
     done_.render = started.render(
@@ -313,7 +312,8 @@ int renderSensors(const RenderOptions& options, const RenderSurroundings& around
     const size_t count =
         loadScene(options.scene, options.parameters(), {"0", options.unknown(), options.loadLimits()}).sensorCount;
     for (size_t index = 0; index < count; ++index)
-        if (const int code = SensorRender(options.forSensor(index), around).run(); code != 0 || interruptFlag()) return code;
+        if (const int code = SensorRender(options.forSensor(index), around).run(); code != 0 || interruptFlag())
+            return code;
     return 0;
 }
 

@@ -54,9 +54,7 @@ std::optional<GatheredCount> PhotonMapPass::countGathered(unsigned pass) {
                                    radii_ ? &radii_->scales(pass) : nullptr);
 }
 
-bool PhotonMapPass::radiiAreChosen() const {
-    return !radii_ || !photons_->areTaken() || radii_->pilotHasEnded();
-}
+bool PhotonMapPass::radiiAreChosen() const { return !radii_ || !photons_->areTaken() || radii_->pilotHasEnded(); }
 
 void PhotonMapPass::saveRadii(StateSink& sink) const {
     if (radii_) radii_->save(sink);
