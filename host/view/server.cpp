@@ -308,7 +308,9 @@ struct ViewServer::Http {
 
     // Both are called with errands' lock or without; a torn order would only shift a picture.
     void noteCost(Clock::time_point start) {
-        const double cost = std::chrono::duration<double>(Clock::now() - start).count();
+        // The very first one has compiled its kernel.
+        const bool isFirst = framedRender == 0;
+        const double cost = isFirst ? 0 : std::chrono::duration<double>(Clock::now() - start).count();
         const double pause = std::max(secondsBetweenFrames, cost / mostOfTime);
         framedRender = view.renders();
         next = start.time_since_epoch() +
