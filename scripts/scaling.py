@@ -174,7 +174,8 @@ def main():
         again = Simulation(options, nodes, rng)
         seconds = again.restarts()
         cells += [seconds, work / (options.pass_seconds / again.seconds).sum() / seconds]
-        print(f"{nodes:6d} {reduction_seconds(options, nodes):12.2f} {cells[0]:13.1f} {cells[1]:11.3f} {cells[2]:13.1f} {cells[3]:11.3f} {cells[4]:15.1f} {cells[5]:11.3f}")
+        figures = " ".join(f"{value:{width}}" for value, width in zip(cells, ("13.1f", "11.3f", "13.1f", "11.3f", "15.1f", "11.3f")))
+        print(f"{nodes:6d} {reduction_seconds(options, nodes):12.2f} {figures}")
 
 
 if __name__ == "__main__":
