@@ -1,8 +1,7 @@
 #include "render/photon_map_pass.h"
 
 #include "render/method.h"
-
-#include <chrono>
+#include "util/stopwatch.h"
 
 namespace quasilux {
 
@@ -38,11 +37,10 @@ void PhotonMapPass::catchUpRadii(unsigned pass, RenderCounters& counters) {
 }
 
 void PhotonMapPass::chooseRadii(unsigned pass, RenderCounters& counters) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     counters.radiusPaths += camera_->chooseRadius(pass, photons_->stage());
     context_.device.finish();
-    counters.radiusSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+    counters.radiusSeconds += watch.seconds();
 }
 
 std::optional<GatheredCount> PhotonMapPass::countGathered(unsigned pass) {

@@ -6,15 +6,11 @@
 #include "render/pass.h"
 #include "render/pass_params.h"
 #include "render/radius_field.h"
-
-#include <chrono>
+#include "util/stopwatch.h"
 
 namespace quasilux {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Points of the camera map hold no plain normal.
 void refuseRelief(const Scene& scene) {
@@ -56,13 +52,13 @@ struct Renderer::Stages {
         program.emplace(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                         kernelOptions(flat, settings));
         geometry.emplace(device, flat);
-        const auto start = Clock::now();
+        const Stopwatch watch;
         auto timingsBefore = device.timings();
         learned =
             known
                 ? std::move(known)
                 : std::make_shared<const LearnedScene>(learnScene(device, *program, scene, settings, flat, *geometry));
-        const double learnSeconds = since(start);
+        const double learnSeconds = watch.seconds();
         film.emplace(device, flat.camera.width, flat.camera.height, filmLayout(flat.features, settings),
                      largestFilmBuffer(flat.features, settings, device.info()));
         report = describeScene(scene, flat, settings);
@@ -116,7 +112,7 @@ struct Renderer::Stages {
 
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
                    std::shared_ptr<const LearnedScene> known, const SceneChecksums& expected) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     DeviceScene flat = flattenFor(scene, settings);
     if (settings.map == MapOrder::camera) refuseRelief(scene);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
@@ -124,19 +120,19 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     auto checksums = checksumsOf(flat, scene.maxDepth);
     if (!expected.empty()) requireSame(expected, checksums);
     if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
-    const double prepareSeconds = since(start);
+    const double prepareSeconds = watch.seconds();
     checkFits(planScene(flat, settings, device.info()), device.info(), flat, settings);
     stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), std::move(known));
     stages_->report.checksums = std::move(checksums);
     stages_->counters.prepareSeconds = prepareSeconds;
-    stages_->counters.compileSeconds = since(start) - prepareSeconds;
+    stages_->counters.compileSeconds = watch.seconds() - prepareSeconds;
 }
 
 Renderer::~Renderer() = default;
 
 void Renderer::renderPass(unsigned pass) {
     auto& s = *stages_;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const AllocationNotes noting(s.device, s.buffers);
     s.passes->run(pass, s.counters);
     s.device.timings(); // waits; and events, one for each launch, must not pile up
@@ -149,7 +145,7 @@ void Renderer::renderPass(unsigned pass) {
     s.dropped = dropped;
     counters.cameraPaths += s.film->pixels() * s.passes->pathsPerPixel();
     counters.fluxEmitted += s.flat.emittedFlux;
-    const double seconds = since(start);
+    const double seconds = watch.seconds();
     if (counters.passes++ == 0) counters.firstPassSeconds = seconds;
     counters.renderSeconds += seconds;
     s.nextPass = pass + 1;
