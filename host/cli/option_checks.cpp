@@ -159,6 +159,7 @@ CLI::Validator loadLimit() {
         [](const std::string& text) {
             const auto equals = std::min(text.find('='), text.size());
             std::vector<std::string> names;
+            names.reserve(std::size(namedLimits));
             for (const NamedLimit& limit : namedLimits) names.emplace_back(limit.name);
             const std::string name = text.substr(0, equals);
             if (std::find(names.begin(), names.end(), name) == names.end())

@@ -96,7 +96,7 @@ struct Watched {
         isDue = false;
         files = {};
         const ReadFilesNoted noted(files);
-        const CommandEnd end = endOf([&] { return renderCommand(options, around); });
+        CommandEnd end = endOf([&] { return renderCommand(options, around); });
         std::fflush(stdout); // who reads a log is to see it now
         return end;
     }
