@@ -8,6 +8,7 @@ namespace quasilux {
 void declareReport(CLI::App& app, ReportOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "report", "Write a page on a scene's lighting: luminaires, illuminance with isolux lines, UGR, false colours");
+    declareSceneFile(command, options);
     declareScene(command, options, "");
     command.add_option("-o,--output", options.output, "Page that needs nothing besides itself, .html")
         ->type_name("FILE")
