@@ -156,17 +156,19 @@ class BadDevices : public SharedRenderTest, public testing::WithParamInterface<B
 
 TEST_P(BadDevices, AreDroppedAndTheirPassesRenderedByOthers) {
     const BadDevice bad = GetParam();
+    // The second must have failed before the first has rendered all.
+    const std::string passes = std::string(bad.queue) == "2" ? "2400" : "400";
     const Outcome outcome =
-        runBad(shared({"-o", "a.exr", "--passes", "400", "--device-timeout", "3", "--stats", "a.json"}),
+        runBad(shared({"-o", "a.exr", "--passes", passes, "--device-timeout", "3", "--stats", "a.json"}),
                {{"QUASILUX_BAD_QUEUE", bad.queue}, {"QUASILUX_BAD_HOW", bad.how}, {"QUASILUX_BAD_AT", bad.at}});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
     EXPECT_THAT(outcome.errors, HasSubstr(" is dropped"));
     EXPECT_THAT(outcome.errors, HasSubstr(bad.message));
     const auto summary = nlohmann::json::parse(outcome.output);
-    EXPECT_EQ(summary.at("passes"), 400);
+    EXPECT_EQ(std::to_string(summary.at("passes").get<unsigned>()), passes);
     EXPECT_EQ(summary.at("failure"), nullptr);
     EXPECT_EQ(nlohmann::json::parse(readText(folder / "a.json")).at("stop").at("failure"), nullptr);
-    expectPassesOf("a.exr", "400");
+    expectPassesOf("a.exr", passes);
 }
 
 INSTANTIATE_TEST_SUITE_P(
