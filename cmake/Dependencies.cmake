@@ -12,3 +12,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(OpenCL REQUIRED)
 find_package(Threads REQUIRED)
+if(QUASILUX_MPI)
+    set(MPI_CXX_SKIP_MPICXX ON) # the functions of C alone
+    find_package(MPI REQUIRED COMPONENTS CXX)
+endif()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What tests reach, by lines and branches of host/ and by functions and blocks of kernels/: coverage.sh [TEST...], by default the quick tests. In a
 # build of its own, build/coverage; the report goes to stdout and build/coverage/coverage.md. Needs gcovr (Debian: gcovr) and a device that
-# runs in the program's memory, such as PoCL on a CPU. Figures: docs/notes/coverage.md.
+# runs in the program's memory, such as PoCL on a CPU. What is measured: docs/notes/coverage.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

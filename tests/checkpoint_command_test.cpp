@@ -1,5 +1,6 @@
 // Checkpoints by the program from outside: killed at any moment, ended by a scheduler, on a disk that is full; farms whose passes are
 // merged (docs/reference/reliability.md).
+#include "support/image_difference.h"
 #include "support/lit_plate.h"
 #include "support/program_runner.h"
 
@@ -15,9 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
 
 namespace quasilux {
 namespace {
@@ -58,26 +57,13 @@ protected:
 
     /// Ends the program after so many milliseconds as no program can know, of its start or of its first checkpoint; false where it ended before.
     bool runAndKill(const Arguments& arguments, unsigned milliseconds, bool sinceCheckpoint) const {
-        const pid_t child = fork();
-        if (child == 0) {
-            if (chdir(folder.c_str()) != 0) _exit(120);
-            if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)) _exit(122);
-            Arguments all = arguments;
-            all.insert(all.begin(), QUASILUX_PROGRAM);
-            std::vector<char*> argv;
-            for (auto& argument : all) argv.push_back(argument.data());
-            argv.push_back(nullptr);
-            execv(argv[0], argv.data());
-            _exit(121);
-        }
+        const pid_t child = start(arguments);
         const Stopwatch watch;
         while (sinceCheckpoint && !isThere("a.ckpt") && watch.seconds() < 120)
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         kill(child, SIGKILL);
-        int status = 0;
-        waitpid(child, &status, 0);
-        return WIFSIGNALED(status);
+        return end(child).exitCode == -1;
     }
 };
 
@@ -230,7 +216,7 @@ TEST_F(CheckpointCommand, OtherKindsResumeToTheSameBits) {
     EXPECT_NE(table("a.csv"), table("whole.csv")); // control
 }
 
-// Nothing is finished yet while settings are searched: there is no checkpoint then, and the code says so.
+// A render that searches its settings for minutes is ended early, in the search or before it: nothing half written is left.
 TEST_F(CheckpointCommand, SearchThatIsKilledLeavesNoHalfCheckpoint) {
     const Arguments searched{"render", "scene.xml", "-o", "a.exr", "--time", "1000", "--checkpoint", "a.ckpt"};
     const Outcome outcome = run(searched, 5, SIGTERM);
@@ -239,13 +225,6 @@ TEST_F(CheckpointCommand, SearchThatIsKilledLeavesNoHalfCheckpoint) {
     if (isThere("a.ckpt")) checkpoint("a.ckpt"); // throws where it is damaged
     EXPECT_EQ(isThere("a.exr"), isThere("a.ckpt"));
     for (const auto& entry : fs::directory_iterator(folder)) EXPECT_NE(entry.path().extension(), ".tmp");
-}
-
-double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
-    double largest = 0;
-    for (size_t k = 0; k < a.size(); ++k)
-        largest = std::max(largest, std::abs(double(a[k]) - b[k]) / std::max(1e-30, std::abs(double(b[k]))));
-    return largest;
 }
 
 TEST_F(CheckpointCommand, MergesPassesOfAFarm) {

@@ -78,10 +78,12 @@ TEST(Determinism, WorkDividedAsForAGpuGivesTheSameImage) {
         if (asForGpu) device.divideAsForGpu();
         Renderer renderer(device, smallCornell(), settings);
         for (unsigned pass = 0; pass < 3; ++pass) renderer.renderPass(pass);
-        return renderer.develop();
+        return std::pair{renderer.develop(), renderer.report().bufferBytes.at("photon regions")};
     };
     for (const MapOrder map : {MapOrder::photons, MapOrder::camera}) {
-        const auto expected = render(map, false), found = render(map, true);
+        const auto [expected, regions] = render(map, false);
+        const auto [found, regionsForGpu] = render(map, true);
+        EXPECT_GT(regionsForGpu, 4 * regions) << "control: it was divided in the same way";
         double difference = 0, sum = 0;
         for (size_t k = 0; k < expected.radiance.size(); ++k) {
             difference += std::abs(double(found.radiance[k]) - double(expected.radiance[k]));

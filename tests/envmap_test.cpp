@@ -11,12 +11,10 @@
 #include "support/stored_photons.h"
 #include "support/wrong_learning.h"
 
-#include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <numbers>
 
 namespace quasilux {

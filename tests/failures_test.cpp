@@ -20,20 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-using Variables = std::vector<std::pair<std::string, std::string>>;
-
 class FailuresTest : public CommandLineTest {
 protected:
     FailuresTest() { std::ofstream(folder / "scene.xml") << test::litPlate(); }
 
     Outcome runFailing(const std::vector<std::string>& arguments, const Variables& variables) const {
-        Variables all = variables;
-        all.emplace_back("LD_PRELOAD", QUASILUX_FAILING_OPENCL);
-        all.emplace_back("ASAN_OPTIONS", "verify_asan_link_order=0");
-        for (const auto& [name, value] : all) setenv(name.c_str(), value.c_str(), 1);
-        const Outcome outcome = run(arguments);
-        for (const auto& [name, value] : all) unsetenv(name.c_str());
-        return outcome;
+        return runWith(QUASILUX_FAILING_OPENCL, arguments, variables);
     }
 
     /// A render that a failure ends has written the image of as many whole passes as it says.

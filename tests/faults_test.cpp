@@ -23,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Arguments = std::vector<std::string>;
-using Variables = std::vector<std::pair<std::string, std::string>>;
 
 constexpr unsigned passes = 3;
 // A mesh from a file; what photons serve; little to compile.
@@ -73,12 +72,7 @@ protected:
     }
 
     Outcome runFailing(const Arguments& arguments, const Variables& variables) const {
-        Variables all = variables;
-        all.emplace_back("LD_PRELOAD", QUASILUX_FAILING_CALLS);
-        for (const auto& [name, value] : all) setenv(name.c_str(), value.c_str(), 1);
-        Outcome outcome = run(arguments);
-        for (const auto& [name, value] : all) unsetenv(name.c_str());
-        return outcome;
+        return runWith(QUASILUX_FAILING_CALLS, arguments, variables);
     }
 
     /// Of a run without a fault.

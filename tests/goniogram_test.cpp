@@ -4,7 +4,7 @@
 #include "support/scene_files.h"
 
 #include <cmath>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <numbers>
 
 namespace quasilux {

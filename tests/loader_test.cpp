@@ -10,21 +10,14 @@ namespace quasilux {
 namespace {
 
 using test::expectNear;
+using test::loadBody;
+using test::loadSensor;
 using test::loadShape;
 using test::placed;
 using test::SceneFiles;
 using test::sceneWith;
 
 constexpr double degree = 3.14159265358979324 / 180;
-
-Scene load(const std::string& body) { return test::loadBody(body); }
-
-Sensor loadSensor(const std::string& content) {
-    SceneFiles files;
-    return loadScene(files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\">" + content +
-                                                  "</sensor><emitter type=\"point\"/></scene>"))
-        .sensor;
-}
 
 void expectRgb(Rgb value, float r, float g, float b, float tolerance = 1e-6f) {
     expectNear({value.r, value.g, value.b}, {r, g, b}, tolerance);
@@ -104,7 +97,7 @@ TEST(Transform, LookAtSendsZToTheTargetAndXToTheLeft) {
 // ---- emitters
 
 TEST(PointEmitter, PositionOrTransform) {
-    const Scene scene = load(
+    const Scene scene = loadBody(
         R"(<emitter type="point" id="lamp"><point name="position" value="1,2,3"/><rgb name="intensity" value="5,6,7"/></emitter>
         <emitter type="point"><transform name="to_world"><translate y="4"/></transform></emitter>)");
     ASSERT_EQ(scene.pointEmitters.size(), 3u);
@@ -115,7 +108,7 @@ TEST(PointEmitter, PositionOrTransform) {
 }
 
 TEST(DirectionalEmitter, DirectionOrTransform) {
-    const Scene scene = load(
+    const Scene scene = loadBody(
         R"(<emitter type="directional" id="sun"><vector name="direction" value="0,3,-4"/><rgb name="irradiance" value="5,6,7"/></emitter>
         <emitter type="directional"><transform name="to_world"><scale value="9"/><rotate y="1" angle="90"/><translate y="4"/></transform></emitter>)");
     ASSERT_EQ(scene.directionalEmitters.size(), 2u);
@@ -129,7 +122,8 @@ TEST(DirectionalEmitter, DirectionOrTransform) {
 // ---- files, parameters, references, settings
 
 TEST(References, MayPointForwardsAndAreReadOnce) {
-    const Scene scene = load(R"(<shape type="cube"><ref id="paint"/></shape><shape type="cube"><ref id="paint"/></shape>
+    const Scene scene =
+        loadBody(R"(<shape type="cube"><ref id="paint"/></shape><shape type="cube"><ref id="paint"/></shape>
         <bsdf type="twosided" id="paint"><ref id="inner"/></bsdf><bsdf type="diffuse" id="inner"/>)");
     ASSERT_EQ(scene.bsdfs.size(), 1u);
     EXPECT_EQ(scene.bsdfs[0].id, "paint");
@@ -138,7 +132,7 @@ TEST(References, MayPointForwardsAndAreReadOnce) {
 }
 
 TEST(References, UnusedBsdfsAreReportedAndLeftOut) {
-    const Scene scene = load(R"(<bsdf type="diffuse" id="spare"/>)");
+    const Scene scene = loadBody(R"(<bsdf type="diffuse" id="spare"/>)");
     EXPECT_TRUE(scene.bsdfs.empty());
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_THAT(scene.warnings[0], testing::HasSubstr("scene.xml:4:1: bsdf 'spare' is used by no shape"));
@@ -252,11 +246,11 @@ TEST(Documents, CommentsOtherInstructionsAndByteOrderMarkAreNoMatter) {
 }
 
 TEST(Settings, OfTheScene) {
-    const SceneSettings none = load("").settings;
+    const SceneSettings none = loadBody("").settings;
     EXPECT_FALSE(none.bdd || none.variant || none.quasiSpecular || none.direct || none.photons || none.seed);
-    const SceneSettings all = load("<?quasilux bdd=\"2\" variant='alternative' quasi-specular=\"a,b\"\n "
-                                   "direct=\"photons\" map=\"camera\" photons=\"1000\"?>"
-                                   "<?quasilux seed=\"18446744073709551615\"?>")
+    const SceneSettings all = loadBody("<?quasilux bdd=\"2\" variant='alternative' quasi-specular=\"a,b\"\n "
+                                       "direct=\"photons\" map=\"camera\" photons=\"1000\"?>"
+                                       "<?quasilux seed=\"18446744073709551615\"?>")
                                   .settings;
     EXPECT_EQ(all.bdd, 2u);
     EXPECT_EQ(all.variant, Variant::alternative);

@@ -9,18 +9,11 @@
 namespace quasilux {
 namespace {
 
+using test::loadBody;
+using test::loadSensor;
 using test::SceneFiles;
 
 constexpr double degree = 3.14159265358979324 / 180;
-
-Scene load(const std::string& body) { return test::loadBody(body); }
-
-Sensor loadSensor(const std::string& content) {
-    SceneFiles files;
-    return loadScene(files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\">" + content +
-                                                  "</sensor><emitter type=\"point\"/></scene>"))
-        .sensor;
-}
 
 TEST(PerspectiveSensor, FieldOfViewIsHorizontalForEveryAxis) {
     const std::string film =
@@ -101,7 +94,7 @@ TEST(Film, CropWindowAndFormats) {
 }
 
 TEST(Sensors, TheFirstOfSeveralIsTakenWithAWarning) {
-    const Scene scene = load("<sensor type=\"perspective\"><float name=\"fov\" value=\"10\"/></sensor>");
+    const Scene scene = loadBody("<sensor type=\"perspective\"><float name=\"fov\" value=\"10\"/></sensor>");
     EXPECT_NEAR(scene.sensor.fovX, 38.18484 * degree, 1e-6);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_THAT(scene.warnings[0], testing::HasSubstr("scene.xml:4:1: a further <sensor>"));
@@ -156,7 +149,7 @@ TEST(Sensors, OfABatchHaveEqualPartsOfItsFilm) {
 }
 
 TEST(Integrator, DepthLimit) {
-    const auto depth = [](const std::string& integrator) { return load(integrator).maxDepth; };
+    const auto depth = [](const std::string& integrator) { return loadBody(integrator).maxDepth; };
     const auto path = [&](const std::string& value) {
         return depth(R"(<integrator type="path"><integer name="max_depth" value=")" + value + R"("/></integrator>)");
     };
@@ -167,17 +160,17 @@ TEST(Integrator, DepthLimit) {
     const std::string aov =
         R"(<integrator type="aov"><string name="aovs" value="dd.y:depth"/><integrator type="direct"/></integrator>)";
     EXPECT_EQ(depth(aov), 2);
-    const Scene scene = load(aov);
+    const Scene scene = loadBody(aov);
     ASSERT_EQ(scene.aovs.size(), 1u);
     EXPECT_EQ(scene.aovs[0].name, "dd.y");
     EXPECT_EQ(scene.aovs[0].quantity, AovQuantity::depth);
     EXPECT_TRUE(scene.warnings.empty());
-    EXPECT_THAT(load(R"(<integrator type="moment"><integrator type="path"/></integrator>)").warnings[0],
+    EXPECT_THAT(loadBody(R"(<integrator type="moment"><integrator type="path"/></integrator>)").warnings[0],
                 testing::HasSubstr("stderr.R"));
 }
 
 TEST(Integrator, WhatHasNoEffectIsListed) {
-    const Scene scene = load(R"(<integrator type="path"><integer name="rr_depth" value="3"/></integrator>)");
+    const Scene scene = loadBody(R"(<integrator type="path"><integer name="rr_depth" value="3"/></integrator>)");
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_THAT(scene.withoutEffect, testing::ElementsAre("rr_depth"));
 }

@@ -1,5 +1,6 @@
 // One render on several devices: the sum of the same passes, whichever fail (docs/reference/reliability.md). The halves of one device are
 // two; a library between the program and OpenCL makes one of them bad (shims/bad_device.cpp).
+#include "support/image_difference.h"
 #include "support/lit_plate.h"
 #include "support/program_runner.h"
 
@@ -13,22 +14,12 @@
 #include <gmock/gmock.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 namespace quasilux {
 namespace {
 
 using testing::HasSubstr;
 using Arguments = std::vector<std::string>;
-using Variables = std::vector<std::pair<std::string, std::string>>;
-
-double largestDifference(const std::vector<float>& a, const std::vector<float>& b) {
-    if (a.size() != b.size()) return INFINITY;
-    double largest = 0;
-    for (size_t k = 0; k < a.size(); ++k)
-        largest = std::max(largest, std::abs(double(a[k]) - b[k]) / std::max(1e-30, std::abs(double(b[k]))));
-    return largest;
-}
 
 class SharedRenderTest : public CommandLineTest {
 protected:
@@ -51,13 +42,7 @@ protected:
         return nlohmann::json::parse(outcome.output);
     }
     Outcome runBad(const Arguments& arguments, const Variables& variables) const {
-        Variables all = variables;
-        all.emplace_back("LD_PRELOAD", QUASILUX_BAD_DEVICE);
-        all.emplace_back("ASAN_OPTIONS", "verify_asan_link_order=0");
-        for (const auto& [name, value] : all) setenv(name.c_str(), value.c_str(), 1);
-        Outcome outcome = run(arguments);
-        for (const auto& [name, value] : all) unsetenv(name.c_str());
-        return outcome;
+        return runWith(QUASILUX_BAD_DEVICE, arguments, variables);
     }
     struct Image {
         std::vector<float> radiance, standardError;
@@ -119,20 +104,11 @@ TEST_F(SharedRenderTest, StopsByTimeAndByError) {
     EXPECT_LT(byError.at("seconds"), 55);
 }
 
-/// Gets SIGTERM once it has written a checkpoint with passes.
-Outcome runToSecondCheckpoint(const std::filesystem::path& folder, const Arguments& arguments) {
-    std::string command = "cd '" + folder.string() + "'; '" QUASILUX_PROGRAM "'";
-    for (const auto& argument : arguments) command += " '" + argument + "'";
-    command += " >out.txt 2>err.txt & while [ ! -f a.ckpt.previous ] && kill -0 $!; do sleep 0.1; done; kill -TERM $!; "
-               "wait $!";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), readText(folder / "out.txt"), readText(folder / "err.txt")};
-}
-
 // Checkpoints hold for one device and for several, either way, also those that SIGTERM has written.
 TEST_F(SharedRenderTest, CheckpointsAreThoseOfOneDevice) {
-    const Outcome ended = runToSecondCheckpoint(
-        folder, shared({"-o", "a.exr", "--time", "500", "--checkpoint", "a.ckpt", "--every", "0"}));
+    const auto hasPasses = [&] { return std::filesystem::exists(folder / "a.ckpt.previous"); };
+    const Outcome ended = runUntil(shared({"-o", "a.exr", "--time", "500", "--checkpoint", "a.ckpt", "--every", "0"}),
+                                   hasPasses, SIGTERM);
     ASSERT_EQ(ended.exitCode, 128 + SIGTERM) << ended.errors;
     const auto passes = nlohmann::json::parse(ended.output).at("passes").get<unsigned>();
     ASSERT_GT(passes, 16u);

@@ -188,6 +188,33 @@ TEST_F(Untrusted, LimitsAreNamed) {
                 HasSubstr("--limit seconds=N"));
 }
 
+// Where a scene cannot be read about the origin of its file it is read about its sensor; one that is refused is not, and one whose sensor is far off
+// counts each image once.
+TEST_F(Untrusted, LimitsHoldWhereTheSensorIsFarOff) {
+    const auto loadFrom = [&](const std::string& x, const std::string& body, const LoadLimits& limits) {
+        put("scene/scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"><transform name=\"to_world\">"
+                               "<translate x=\"" +
+                                   x + "\"/></transform></sensor><emitter type=\"point\"/>\n" + body + "</scene>");
+        return refusal([&] {
+                   loadScene((inside / "scene.xml").string(), {}, {{}, Unknown::refused, limits});
+               })
+            .value_or("");
+    };
+    put("scene/large.obj", std::string((2 << 20) + 1, '#') + '\n' + triangle);
+    for (const char* x : {"0", "5"}) {
+        EXPECT_THAT(loadFrom(x, obj("large.obj"), limitedTo([](LoadLimits& limits) { limits.mebibytes = 2; })),
+                    names("scene.xml:2:19", "mebibytes"));
+        EXPECT_THAT(loadFrom(x, obj("near.obj"), limitedTo([](LoadLimits& limits) { limits.files = 1; })),
+                    names("scene.xml:2:19", "files"));
+    }
+    put("scene/plain.pfm", "PF\n2 1\n-1.0\n" + std::string(24, '\0'));
+    const std::string textured =
+        "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\">"
+        "<string name=\"filename\" value=\"plain.pfm\"/></texture></bsdf></shape>";
+    for (const char* x : {"0", "100000"})
+        EXPECT_EQ(loadFrom(x, textured, limitedTo([](LoadLimits& limits) { limits.pixels = 2; })), "") << x;
+}
+
 // A file of a thousandth of what it says it holds.
 TEST_F(Untrusted, MemoryIsLimited) {
     if (dataBytes() == 0) GTEST_SKIP() << "the system has no such limit";

@@ -135,6 +135,15 @@ cl::Buffer bufferOfHugePages(cl::Context& context, size_t bytes) {
 
 } // namespace
 
+void addTimings(std::map<std::string, KernelTiming>& all, const std::map<std::string, KernelTiming>& part) {
+    for (const auto& [kernel, timing] : part) {
+        KernelTiming& sum = all[kernel];
+        sum.launches += timing.launches;
+        sum.seconds += timing.seconds;
+        sum.privateBytes = timing.privateBytes;
+    }
+}
+
 std::vector<DeviceInfo> listDevices() {
     std::vector<DeviceInfo> list;
     for (const auto& device : ask(allDevices)) list.push_back(ask([&] { return describe(device); }));

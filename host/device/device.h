@@ -33,6 +33,9 @@ struct KernelTiming {
     uint64_t privateBytes = 0; ///< private memory of a work-item, as the runtime reports; 0 where it does not
 };
 
+/// Of other launches.
+void addTimings(std::map<std::string, KernelTiming>& all, const std::map<std::string, KernelTiming>& part);
+
 /// Device memory; its bytes count as in use until the last copy is gone.
 struct Allocation {
     cl::Buffer memory;

@@ -1,7 +1,7 @@
 #include "output/merge_checkpoints.h"
 
-#include "render/counter_sums.h"
 #include "render/film_merge.h"
+#include "render/render_counters.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 
 namespace quasilux {
 
-/// What ranks are told of a render before its passes.
+/// What ranks receive of a render before its passes.
 struct RankPlan {
     std::string sensor;
     RenderSettings settings;

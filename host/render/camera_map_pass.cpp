@@ -29,6 +29,4 @@ void CameraMapPass::run(unsigned pass, RenderCounters& counters) {
     counters.throughputCut += count.throughputCut;
 }
 
-unsigned CameraMapPass::pathsPerPixel() const { return context_.flat.offsets.meter.samples; }
-
 } // namespace quasilux

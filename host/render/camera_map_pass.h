@@ -11,7 +11,6 @@ public:
     explicit CameraMapPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
-    unsigned pathsPerPixel() const override;
 
 private:
     const PassContext& context_;

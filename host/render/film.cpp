@@ -117,7 +117,7 @@ void Film::clear() {
     for (Part& part : parts_) part.sums.fill(0);
     counters_.write({shared::CameraCounters{0, 0, 0}});
     counts_ = {};
-    isWhole_ = true;
+    endPass();
 }
 
 std::map<std::string, uint64_t> Film::plan(size_t pixels, FilmLayout layout, uint64_t largestBuffer,

@@ -12,10 +12,8 @@ public:
     explicit MeterPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
-    unsigned pathsPerPixel() const override;
 
 private:
-    const PassContext& context_;
     MeterStage meter_;
     PassPhotons photons_;
 };

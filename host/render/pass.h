@@ -37,8 +37,6 @@ public:
 
     /// Adds the estimate of this number to the film, and to the counters what it counted; passes and seconds are the caller's.
     virtual void run(unsigned pass, RenderCounters& counters) = 0;
-    /// Camera paths of a pixel.
-    virtual unsigned pathsPerPixel() const = 0;
     /// Memory that all passes will take, known once the pass is made.
     const MemoryForecast& forecast() const { return forecast_; }
 

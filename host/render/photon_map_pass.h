@@ -11,7 +11,6 @@ public:
     explicit PhotonMapPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
-    unsigned pathsPerPixel() const override { return context_.camera.cameraPaths; }
     std::optional<GatheredCount> countGathered(unsigned pass) override;
     bool radiiAreChosen() const override;
     void saveRadii(StateSink& sink) const override;

@@ -21,6 +21,32 @@ void RenderCounters::noteMapSize(uint64_t points, uint64_t bytes) {
     storedBytes = std::max(storedBytes, bytes);
 }
 
+void addCounts(RenderCounters& all, const RenderCounters& part) {
+    const auto addMap = [](auto& to, const auto& from) {
+        for (const auto& [key, value] : from) to[key] += value;
+    };
+    all.passes += part.passes;
+    all.photonsEmitted += part.photonsEmitted;
+    addMap(all.photonsStored, part.photonsStored);
+    addMap(all.cameraPointsStored, part.cameraPointsStored);
+    all.noteMapSize(part.storedPoints, part.storedBytes);
+    all.cameraPaths += part.cameraPaths;
+    all.nonFinite += part.nonFinite;
+    all.cutPaths += part.cutPaths;
+    all.overflows += part.overflows;
+    all.clipped += part.clipped;
+    if (part.meterCaustics) all.meterCaustics = all.meterCaustics.value_or(0) + *part.meterCaustics;
+    all.fluxEmitted += part.fluxEmitted;
+    all.fluxCut += part.fluxCut;
+    if (part.energy) *(all.energy ? &*all.energy : &all.energy.emplace()) += *part.energy;
+    all.throughputCut += part.throughputCut;
+    all.prepareSeconds += part.prepareSeconds;
+    all.compileSeconds += part.compileSeconds;
+    all.renderSeconds += part.renderSeconds;
+    all.radiusSeconds += part.radiusSeconds;
+    all.radiusPaths += part.radiusPaths;
+}
+
 uint64_t addBySlot(std::map<std::string, uint64_t>& total, const std::array<uint64_t, PHOTON_SLOTS>& ofPass) {
     uint64_t sum = 0;
     for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot) {

@@ -38,6 +38,9 @@ struct RenderCounters {
     void noteMapSize(uint64_t points, uint64_t bytes);
 };
 
+/// Of other passes; firstPassSeconds stay those of `all`.
+void addCounts(RenderCounters& all, const RenderCounters& part);
+
 /// Adds to photonsStored or cameraPointsStored what a pass stored, by slot of its map. Returns the sum.
 uint64_t addBySlot(std::map<std::string, uint64_t>& total, const std::array<uint64_t, PHOTON_SLOTS>& ofPass);
 

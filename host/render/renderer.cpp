@@ -143,7 +143,8 @@ void Renderer::renderPass(unsigned pass) {
     counters.cutPaths += dropped.cutPaths - s.dropped.cutPaths;
     counters.throughputCut += double(dropped.cutThroughput - s.dropped.cutThroughput) / CUT_THROUGHPUT_STEPS;
     s.dropped = dropped;
-    counters.cameraPaths += s.film->pixels() * s.passes->pathsPerPixel();
+    counters.cameraPaths +=
+        s.film->pixels() * s.context->camera.cameraPaths * s.flat.offsets.meter.samples; // one of both is 1
     counters.fluxEmitted += s.flat.emittedFlux;
     const double seconds = watch.seconds();
     if (counters.passes++ == 0) counters.firstPassSeconds = seconds;

@@ -54,7 +54,7 @@ void LoadContext::warn(const SourceLocation& where, const std::string& message) 
 
 void LoadContext::refuseUnknown(const SourceLocation& where, const std::string& message, const std::string& instead) {
     if (unknown == Unknown::refused) throw InputError(where, message);
-    forgiven.push_back(fmt::format("{}: {} It is {}.", where.text(), message, instead));
+    forgiven.push_back(asMessage(fmt::format("{}: {} It is {}.", where.text(), message, instead)));
 }
 
 // Each reference is read where it stands: a sum of two references to a sum of two references … doubles at each level.

@@ -12,18 +12,26 @@
 
 namespace quasilux {
 
+/// A limit of a scene that is not trusted: nothing is to be tried once more.
+class LimitError : public InputError {
+public:
+    using InputError::InputError;
+};
+
 class LoadGuard {
 public:
     explicit LoadGuard(const std::string& scene, const std::optional<LoadLimits>& limits = std::nullopt);
 
     bool isTrusted() const { return !limits_; }
 
-    // All throw InputError at `where` beyond a limit.
+    // All throw LimitError at `where` beyond a limit.
     /// A file that is to be read.
     void admit(const std::string& path, const SourceLocation& where);
     /// A folder in which files are to be looked for.
     void admitFolder(const std::string& path, const SourceLocation& where);
     void addPixels(uint64_t count, const SourceLocation& where);
+    /// Images are read anew: those so far are gone.
+    void forgetPixels() { pixels_ = 0; }
     void addElement(const SourceLocation& where);
     /// So many files are open, one by the <include> of the other.
     void checkNesting(uint64_t files, const SourceLocation& where);

@@ -226,6 +226,7 @@ void readMeasurement(const Instruction& instruction, Scene& scene) {
 Scene readScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice,
                 const glm::dvec3& origin) {
     const Element& root = document.root;
+    document.files.guard().forgetPixels();
     Scene scene;
     scene.path = path;
     scene.origin = origin;
@@ -267,6 +268,8 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
 Scene readSceneAnywhere(const SceneDocument& document, const std::string& path, const LoadChoice& choice) {
     try {
         return readScene(document, path, choice, glm::dvec3(0));
+    } catch (const LimitError&) {
+        throw;
     } catch (const InputError&) {
         const glm::dvec3 place = placeOfSensor(document.root);
         if (place == glm::dvec3(0)) throw;

@@ -5,9 +5,12 @@
 #include "util/error.h"
 #include "util/nearest.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace quasilux {
@@ -21,67 +24,55 @@ enum class MapOrder { photons, camera };       ///< what is stored and indexed, 
 enum class Units { radiometric, photometric }; ///< of radiance and intensity: W sr^-1 m^-2, or cd/m^2
 
 /// What a choice is called where a name is not known, and the names of its values in their order.
+struct ChoiceWords {
+    const char* what = nullptr;
+    std::array<const char*, 2> names{};
+};
 template <typename Choice>
-struct ChoiceTable {};
+inline constexpr ChoiceWords choiceWords{};
 template <>
-struct ChoiceTable<Variant> {
-    static constexpr const char* what = "variant";
-    static constexpr std::array names{"main", "alternative"};
-};
+inline constexpr ChoiceWords choiceWords<Variant>{"variant", {"main", "alternative"}};
 template <>
-struct ChoiceTable<DirectLight> {
-    static constexpr const char* what = "way to estimate direct light";
-    static constexpr std::array names{"emitters", "photons"};
-};
+inline constexpr ChoiceWords choiceWords<DirectLight>{"way to estimate direct light", {"emitters", "photons"}};
 template <>
-struct ChoiceTable<CausticLight> {
-    static constexpr const char* what = "way to estimate caustic light";
-    static constexpr std::array names{"photons", "paths"};
-};
+inline constexpr ChoiceWords choiceWords<CausticLight>{"way to estimate caustic light", {"photons", "paths"}};
 template <>
-struct ChoiceTable<RadiusChoice> {
-    static constexpr const char* what = "choice of the radius";
-    static constexpr std::array names{"adaptive", "fixed"};
-};
+inline constexpr ChoiceWords choiceWords<RadiusChoice>{"choice of the radius", {"adaptive", "fixed"}};
 template <>
-struct ChoiceTable<Emission> {
-    static constexpr const char* what = "emission";
-    static constexpr std::array names{"guided", "plain"};
-};
+inline constexpr ChoiceWords choiceWords<Emission>{"emission", {"guided", "plain"}};
 template <>
-struct ChoiceTable<MapOrder> {
-    static constexpr const char* what = "map";
-    static constexpr std::array names{"photons", "camera"};
-};
+inline constexpr ChoiceWords choiceWords<MapOrder>{"map", {"photons", "camera"}};
 template <>
-struct ChoiceTable<Units> {
-    static constexpr const char* what = "units";
-    static constexpr std::array names{"radiometric", "photometric"};
-};
+inline constexpr ChoiceWords choiceWords<Units>{"units", {"radiometric", "photometric"}};
 
 template <typename Choice>
-concept NamedChoice = requires {
-    ChoiceTable<Choice>::names;
-};
+concept NamedChoice = choiceWords<Choice>
+.what != nullptr;
 
 template <NamedChoice Choice>
 const char* name(Choice choice) {
-    return ChoiceTable<Choice>::names.at(static_cast<size_t>(choice));
+    return choiceWords<Choice>.names.at(static_cast<size_t>(choice));
 }
 
 template <NamedChoice Choice>
 std::vector<std::string> choiceNames() {
-    return {ChoiceTable<Choice>::names.begin(), ChoiceTable<Choice>::names.end()};
+    return {choiceWords<Choice>.names.begin(), choiceWords<Choice>.names.end()};
+}
+
+template <NamedChoice Choice>
+std::optional<Choice> findChoice(std::string_view text) {
+    const auto& names = choiceWords<Choice>.names;
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<Choice>(found - names.begin());
 }
 
 /// Throws InputError that lists the known names.
 template <NamedChoice Choice>
 Choice parseChoice(const std::string& text) {
-    const auto names = choiceNames<Choice>();
-    for (size_t k = 0; k < names.size(); ++k)
-        if (names[k] == text) return static_cast<Choice>(k);
-    throw InputError("unknown " + std::string(ChoiceTable<Choice>::what) + " '" + text + "', " +
-                     expectedNames(text, names));
+    if (const auto found = findChoice<Choice>(text)) return *found;
+    throw InputError("unknown " + std::string(choiceWords<Choice>.what) + " '" + text + "', " +
+                     expectedNames(text, choiceNames<Choice>()));
 }
 
 constexpr unsigned bddLimit = 1000, photonsLimit = 1000000000, cameraPathsLimit = 1024;

@@ -19,12 +19,10 @@ const Names settingNames = {"bdd", "variant", "quasi-specular", "direct", "caust
 
 template <NamedChoice Choice>
 Choice choiceOf(const Attribute& entry, const SourceLocation& where) {
-    const auto& names = ChoiceTable<Choice>::names;
-    const auto found = std::find(names.begin(), names.end(), entry.value);
-    if (found == names.end())
-        throw InputError(where, fmt::format("{}: unknown value '{}'.{}", entry.name, entry.value,
-                                            knownNames(entry.value, Names(names.begin(), names.end()))));
-    return static_cast<Choice>(found - names.begin());
+    if (const auto found = findChoice<Choice>(entry.value)) return *found;
+    const auto& names = choiceWords<Choice>.names;
+    throw InputError(where, fmt::format("{}: unknown value '{}'.{}", entry.name, entry.value,
+                                        knownNames(entry.value, Names(names.begin(), names.end()))));
 }
 
 std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& where) {

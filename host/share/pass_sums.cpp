@@ -1,7 +1,7 @@
 #include "share/pass_sums.h"
 
-#include "render/counter_sums.h"
 #include "render/film_merge.h"
+#include "render/render_counters.h"
 #include "util/error.h"
 
 #include <algorithm>

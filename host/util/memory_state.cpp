@@ -18,11 +18,14 @@ void appendSized(std::vector<char>& to, const void* data, uint64_t bytes) {
 
 /// What appendSized() left at `at`, which goes on behind it.
 std::vector<char> takeSized(const std::vector<char>& from, size_t& at) {
+    const auto require = [&](uint64_t bytes) {
+        if (from.size() - at < bytes) throw InputError("a state that was sent is truncated");
+    };
     uint64_t bytes = 0;
-    if (from.size() - at < sizeof bytes) throw InputError("a state that was sent is truncated");
+    require(sizeof bytes);
     std::memcpy(&bytes, from.data() + at, sizeof bytes);
     at += sizeof bytes;
-    if (from.size() - at < bytes) throw InputError("a state that was sent is truncated");
+    require(bytes);
     const auto first = from.begin() + static_cast<std::ptrdiff_t>(at);
     at += bytes;
     return {first, first + static_cast<std::ptrdiff_t>(bytes)};

@@ -17,7 +17,6 @@ public:
     uint64_t bytes(const std::string& name) const override { return array(name).size(); }
     void read(const std::string& name, uint64_t offset, void* into, size_t bytes) const override;
 
-    bool isEmpty() const { return arrays_.empty(); }
     void copyTo(StateSink& sink) const;
     std::vector<char> packed() const;
     /// Throws InputError where it was not packed().

@@ -6,10 +6,7 @@
 namespace quasilux::fuzz {
 
 void readEdits(std::string_view input) {
-    try {
-        parseEdits(std::string(input));
-    } catch (const InputError&) { // what bad input is to end with
-    }
+    expectInputErrors([&] { parseEdits(std::string(input)); });
 }
 
 } // namespace quasilux::fuzz

@@ -17,15 +17,14 @@ void readImageFile(std::string_view input) {
     limits.pixels = 1 << 20;
     for (const bool emits : {false, true}) {
         LoadGuard guard((folder() / "scene.xml").string(), limits);
-        try {
+        expectInputErrors([&] {
             guard.withinMemory([&] {
                 if (emits)
                     readRadianceImage(path, true, {path}, guard);
                 else
                     readImage(path, false, {path}, guard);
             });
-        } catch (const InputError&) { // what bad input is to end with
-        }
+        });
     }
 }
 

@@ -12,14 +12,6 @@ namespace quasilux::fuzz {
 
 namespace {
 
-template <typename Read>
-void expectInputErrors(const Read& read) {
-    try {
-        read();
-    } catch (const InputError&) { // what bad input is to end with
-    }
-}
-
 const SourceLocation mention{"scene.xml", 1, 1};
 
 } // namespace

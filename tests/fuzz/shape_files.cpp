@@ -22,10 +22,7 @@ public:
 
     void read(std::string_view content) const {
         write(file_, content);
-        try {
-            loadScene(document_, path_, {});
-        } catch (const InputError&) { // what bad input is to end with
-        }
+        expectInputErrors([&] { loadScene(document_, path_, {}); });
     }
 
 private:

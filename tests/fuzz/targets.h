@@ -1,11 +1,22 @@
 // Readers of files as functions of bytes: for libFuzzer (scripts/fuzz.sh), and for the test that reads the seeds.
 #pragma once
 
+#include "util/error.h"
+
 #include <map>
 #include <string>
 #include <string_view>
 
 namespace quasilux::fuzz {
+
+/// Bad input is to end with an InputError; what else `read` throws is passed on.
+template <typename Read>
+void expectInputErrors(const Read& read) {
+    try {
+        read();
+    } catch (const InputError&) {
+    }
+}
 
 /// Reads `input`. Bad input throws InputError; whatever else is thrown is a finding.
 using Target = void (*)(std::string_view input);

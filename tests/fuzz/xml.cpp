@@ -37,10 +37,7 @@ void readXml(std::string_view input) {
     choice.limits->elements = 2000;
     choice.limits->pixels = 1 << 20;
     choice.limits->seconds = 20;
-    try {
-        loadScene(write("scene.xml", scene), {}, choice);
-    } catch (const InputError&) { // what bad input is to end with
-    }
+    expectInputErrors([&] { loadScene(write("scene.xml", scene), {}, choice); });
     for (const std::string& file : files) std::filesystem::remove(file);
 }
 

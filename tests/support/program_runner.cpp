@@ -67,6 +67,17 @@ Outcome CommandLineTest::run(const std::vector<std::string>& arguments, unsigned
     return end(child);
 }
 
+Outcome CommandLineTest::runWith(const std::string& library, const std::vector<std::string>& arguments,
+                                 const Variables& variables) const {
+    Variables all = variables;
+    all.emplace_back("LD_PRELOAD", library);
+    all.emplace_back("ASAN_OPTIONS", "verify_asan_link_order=0");
+    for (const auto& [name, value] : all) setenv(name.c_str(), value.c_str(), 1);
+    Outcome outcome = run(arguments);
+    for (const auto& [name, value] : all) unsetenv(name.c_str());
+    return outcome;
+}
+
 Outcome CommandLineTest::runUntil(const std::vector<std::string>& arguments, const std::function<bool()>& isTime,
                                   int signal) const {
     const pid_t child = start(arguments);

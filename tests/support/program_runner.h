@@ -8,6 +8,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quasilux {
@@ -26,6 +27,10 @@ protected:
 
     /// `interruptAfter` seconds, if above 0, the program gets a Ctrl-C, or another signal.
     Outcome run(const std::vector<std::string>& arguments, unsigned interruptAfter = 0, int signal = SIGINT) const;
+    using Variables = std::vector<std::pair<std::string, std::string>>;
+    /// `library` stands before all others (tests/shims), with these variables of the environment.
+    Outcome runWith(const std::string& library, const std::vector<std::string>& arguments,
+                    const Variables& variables) const;
     /// It gets the signal once `isTime`, which is asked every few milliseconds.
     Outcome runUntil(const std::vector<std::string>& arguments, const std::function<bool()>& isTime, int signal) const;
     /// The same in two steps: what runs meanwhile, and how it ends.

@@ -76,6 +76,13 @@ inline Scene loadBody(const std::string& body) {
     return loadScene(files.write("scene.xml", sceneWith(body)));
 }
 
+/// Of a perspective sensor with this content.
+inline Sensor loadSensor(const std::string& content) {
+    SceneFiles files;
+    return loadScene(files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\">" + content +
+                                                  "</sensor><emitter type=\"point\"/></scene>"))
+        .sensor;
+}
 inline ShapeDescription loadShape(const std::string& shape) { return loadBody(shape).shapes.at(0); }
 
 /// A shape under a transform.

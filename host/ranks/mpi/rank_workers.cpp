@@ -1,8 +1,8 @@
 #include "ranks/mpi/rank_workers.h"
 
 #include "ranks/mpi/wire.h"
-#include "render/counter_sums.h"
 #include "render/film_merge.h"
+#include "render/render_counters.h"
 #include "util/steady_seconds.h"
 
 #include <algorithm>

@@ -108,7 +108,8 @@ private:
         if (openFiles_.size() >= maximumNesting)
             throw InputError(
                 mention, fmt::format("more than {} files that include each other; join some of them.", maximumNesting));
-        const std::string canonical = std::filesystem::weakly_canonical(path).string();
+        std::error_code ignored; // readFile says what is wrong with the name
+        const std::string canonical = std::filesystem::weakly_canonical(path, ignored).string();
         if (std::find(openFiles_.begin(), openFiles_.end(), canonical) != openFiles_.end())
             throw InputError(mention, fmt::format("include loop: '{}' includes itself; remove one <include>.", path));
     }
