@@ -158,6 +158,16 @@ INSTANTIATE_TEST_SUITE_P(
                     BadDevice{"1", "silent", "1500", "no answer for"}),
     [](const auto& test) { return std::string(test.param.how) + "_" + test.param.queue + "_" + test.param.at; });
 
+// With --strict that is an error, but only once the image is there.
+TEST_F(SharedRenderTest, StrictOnesAreWrittenFirst) {
+    const Outcome outcome =
+        runBad(shared({"-o", "a.exr", "--passes", "50", "--strict"}),
+               {{"QUASILUX_BAD_QUEUE", "1"}, {"QUASILUX_BAD_HOW", "build"}, {"QUASILUX_BAD_AT", "1"}});
+    EXPECT_EQ(outcome.exitCode, 1) << outcome.errors;
+    EXPECT_THAT(outcome.errors, HasSubstr("--strict: the warning above is an error; the files have been written"));
+    expectPassesOf("a.exr", "50");
+}
+
 // The image is that of the passes that are there.
 TEST_F(SharedRenderTest, WhereAllFailWhatThereIsIsWritten) {
     const Outcome outcome =
@@ -177,6 +187,7 @@ TEST_F(SharedRenderTest, WrongDevicesAreRefused) {
     expectRefused(render({"--device", "0,77"}), "--device 77: no such device");
     expectRefused(render({"--device", "0/900"}), "it cannot be divided into 900 parts");
     expectRefused(shared({"--view"}), "--view shows the passes of one device");
+    expectRefused(shared({"--tev"}), "--tev shows the passes of one device");
 }
 
 } // namespace

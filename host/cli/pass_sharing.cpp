@@ -6,6 +6,7 @@
 #include "ranks/job.h"
 #include "share/device_workers.h"
 #include "util/error.h"
+#include "util/messages.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -86,8 +87,9 @@ SharedHooks PassSharing::hooks(const ChosenRender& chosen) {
         keep(chosen, soFar, seconds, isLast);
     };
     hooks.onDropped = [this](const std::string& name, const std::string& why) {
-        if (!options_.quiet)
-            fmt::print(stderr, "\nquasilux: warning: {} is dropped, others render its passes: {}\n", name, why);
+        if (options_.quiet) return;
+        fmt::print(stderr, "\n"); // below the progress line
+        printWarning(fmt::format("{} is dropped, others render its passes: {}", name, why));
     };
     hooks.secondsToNextSums = [this] { return keeper_.secondsToNext(); };
     return hooks;

@@ -37,14 +37,21 @@ struct WrittenFiles {
 // When warnings are said: those before the first pass end a strict render, those after it only its exit code.
 enum class Moment { beforePasses, whenWritten };
 
-void warn(const RenderOptions& options, const std::vector<std::string>& messages,
-          Moment moment = Moment::beforePasses) {
+void say(const RenderOptions& options, const std::vector<std::string>& warnings) {
     if (!options.quiet || options.strict)
-        for (const auto& message : messages) printWarning(message);
+        for (const auto& warning : warnings) printWarning(warning);
+}
+
+void endIfStrict(const RenderOptions& options, const std::vector<std::string>& messages, Moment moment) {
     if (!options.strict || messages.empty()) return;
     const char* which = messages.size() == 1 ? "the warning above is an error" : "the warnings above are errors";
     if (moment == Moment::beforePasses) throw InputError(fmt::format("--strict: {}, nothing is rendered", which));
     throw std::runtime_error(fmt::format("--strict: {}; the files have been written", which));
+}
+
+void warn(const RenderOptions& options, const std::vector<std::string>& warnings) {
+    say(options, warnings);
+    endIfStrict(options, warnings, Moment::beforePasses);
 }
 
 WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
@@ -167,7 +174,7 @@ private:
         return devices.size() > 1 || Job::current().size() > 1;
     }
     void onChosen(const SearchReport& search);
-    std::vector<AovImage> layers() const;
+    std::vector<AovImage> layers();
     int finish();
 
     const RenderOptions& options_;
@@ -230,35 +237,34 @@ void SensorRender::render(const std::vector<DeviceChoice>& devices) {
     done_.render = started.render(
         onProgress, [&](const SearchReport& search) { onChosen(search); }, interrupted, afterPass);
     done_.isStopped = view && view->isStopped();
-    if (isShared(devices)) done_.device = livingDevice(options_, shared, done_.render);
+    // The image is there, whether a device that lives can be opened once more or not.
+    if (isShared(devices)) failureOf([&] { done_.device = livingDevice(options_, shared, done_.render); });
     if (!tev) return;
     tev->finish();
-    done_.warnings = tev->takeWarnings();
+    for (std::string& warning : tev->takeWarnings()) done_.warnings.push_back(std::move(warning));
 }
 
 // One that cannot learn what all need is dropped like one that fails later. What fails on all of them, as a wrong option does, is said once.
 void SensorRender::renderOnFirstThatCan() {
-    std::vector<std::string> dropped;
     for (auto devices = ownDevices(options_);; devices.erase(devices.begin())) {
         if (devices.size() == 1)
             render(devices);
         else if (const auto why = refusal([&] { render(devices); })) {
-            dropped.push_back(fmt::format("{} is dropped: {}", text(devices.front()), *why));
+            done_.warnings.push_back(fmt::format("{} is dropped: {}", text(devices.front()), *why));
             continue;
         }
-        progress_.clear();
-        return warn(options_, dropped);
+        return progress_.clear();
     }
 }
 
 // Of a device that has failed there may be none: the image is there all the same.
-std::vector<AovImage> SensorRender::layers() const {
+std::vector<AovImage> SensorRender::layers() {
     std::vector<AovImage> found;
     const auto make = [&] { found = renderLayers(*done_.device, *done_.loaded.scene, done_.render); };
     if (done_.render.workers.empty())
         make();
     else if (const auto why = failureOf(make))
-        warn(options_, {"the layers of what is met first are left out: " + *why});
+        done_.warnings.push_back("the layers of what is met first are left out: " + *why);
     return found;
 }
 
@@ -289,15 +295,17 @@ int SensorRender::finish() {
         printJsonSummary(record, image, written);
     else if (!options_.quiet)
         printSummary(record, image, written);
-    if (!options_.show.empty()) showImage(options_.show, image, options_.exposure);
     std::vector<std::string> warnings =
         renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height);
     warnings.insert(warnings.end(), done_.warnings.begin(), done_.warnings.end());
+    if (!options_.show.empty())
+        if (const auto why = showImage(options_.show, image, options_.exposure)) warnings.push_back(*why);
     // What there is has been written. Warnings come last: there they are seen.
+    say(options_, warnings);
     if (render.failure) std::rethrow_exception(render.failure);
     if (const auto why = done_.started->checkpointFailure(); !why.empty())
         throw std::runtime_error("no checkpoint of the last passes could be written: " + why);
-    warn(options_, warnings, Moment::whenWritten);
+    endIfStrict(options_, warnings, Moment::whenWritten);
     return exitCodeWhenWritten();
 }
 
@@ -331,8 +339,9 @@ void checkOutputs(const RenderOptions& options) {
 
 int renderCommand(const RenderOptions& options, const RenderSurroundings& around) {
     Job& job = Job::current();
-    if (options.isViewed && (job.size() > 1 || ownDevices(options).size() > 1))
-        throw InputError("--view shows the passes of one device, and several are named: leave one of both out");
+    if ((options.isViewed || options.tev) && (job.size() > 1 || ownDevices(options).size() > 1))
+        throw InputError(fmt::format("{} shows the passes of one device, and several are named: leave one of both out",
+                                     options.isViewed ? "--view" : "--tev"));
     if (job.rank() == 0) return renderSensors(options, around);
     assistJob(options);
     return 0;

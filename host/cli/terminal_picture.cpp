@@ -1,7 +1,6 @@
 #include "cli/terminal_picture.h"
 
 #include "compare/error_picture.h"
-#include "util/messages.h"
 
 #include <algorithm>
 #include <array>
@@ -103,15 +102,13 @@ ShownPicture smallPicture(const FilmImage& image, const ExposureChoice& exposure
     return {small.width, small.height, toneMap(small, chooseToneCurve(image, exposure))};
 }
 
-void showImage(const std::string& how, const FilmImage& image, const ExposureChoice& exposure) {
-    if (isatty(STDOUT_FILENO) != 1) {
-        printWarning("--show: stdout is no terminal, so that no picture is shown");
-        return;
-    }
+std::optional<std::string> showImage(const std::string& how, const FilmImage& image, const ExposureChoice& exposure) {
+    if (isatty(STDOUT_FILENO) != 1) return "--show: stdout is no terminal, so that no picture is shown";
     const ShownPicture picture = smallPicture(image, exposure, longestShown);
-    if (picture.pixels.empty()) return; // such as one line of a meter
+    if (picture.pixels.empty()) return std::nullopt; // such as one line of a meter
     fmt::print("{}", how == "kitty" ? kittyText(picture) : sixelText(picture));
     std::fflush(stdout);
+    return std::nullopt;
 }
 
 } // namespace quasilux

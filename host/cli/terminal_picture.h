@@ -4,6 +4,7 @@
 #include "output/png.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ std::string sixelText(const ShownPicture& picture);
 /// Tone-mapped as the PNG would be, of blocks of pixels so large that neither side is longer than `longest`.
 ShownPicture smallPicture(const FilmImage& image, const ExposureChoice& exposure, unsigned longest);
 
-/// On stdout, by "kitty" or "sixel". A warning where that is no terminal.
-void showImage(const std::string& how, const FilmImage& image, const ExposureChoice& exposure);
+/// On stdout, by "kitty" or "sixel". Returns a warning where that is no terminal.
+std::optional<std::string> showImage(const std::string& how, const FilmImage& image, const ExposureChoice& exposure);
 
 } // namespace quasilux

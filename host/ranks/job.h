@@ -51,7 +51,6 @@ private:
 /// As what mpirun or srun has started this program, before MPI begins: also of one that is built without MPI.
 struct LaunchedAs {
     unsigned rank = 0, size = 1;
-    bool isJob = false;
 };
 LaunchedAs launchedAs();
 

@@ -14,7 +14,6 @@ LaunchedAs launchedAs() {
                                      Names("PMI_RANK", "PMI_SIZE"), Names("PMIX_RANK", "SLURM_NTASKS")}) {
         const char *number = std::getenv(rank), *count = std::getenv(size);
         if (!number || !count) continue;
-        launched.isJob = true;
         launched.rank = static_cast<unsigned>(std::strtoul(number, nullptr, 10));
         launched.size = static_cast<unsigned>(std::strtoul(count, nullptr, 10));
         break;

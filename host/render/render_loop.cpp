@@ -1,6 +1,6 @@
 // Passes until the stop rule, with progress.
 #include "render/error_estimate.h"
-#include "render/renderer.h"
+#include "render/stop_rule.h"
 #include "util/stopwatch.h"
 
 #include <algorithm>
@@ -8,26 +8,6 @@
 namespace quasilux {
 
 namespace {
-
-constexpr unsigned firstErrorCheck = 4; // passes before the error estimate means anything
-
-// The film is read back for its error at most this share of the time.
-bool isErrorDue(double sinceLastCheck, double lastCheckCost) {
-    return sinceLastCheck > std::max(1.0, 50 * lastCheckCost);
-}
-
-double secondsLeft(const StopRule& stop, const Progress& now) {
-    double left = -1;
-    const auto earlier = [&](double candidate) { left = left < 0 ? candidate : std::min(left, candidate); };
-    if (stop.seconds) earlier(*stop.seconds - now.seconds);
-    if (stop.passes && now.passes > 0) earlier(now.seconds / now.passes * (*stop.passes - stop.firstPass - now.passes));
-    // The standard error falls with the square root of the passes.
-    if (stop.relativeError && now.relativeError > 0) {
-        const double factor = now.relativeError / *stop.relativeError;
-        earlier(now.seconds * std::max(0.0, factor * factor - 1));
-    }
-    return left;
-}
 
 // The image as it was last read back: what is left where the film is lost in the middle of a pass.
 struct LastKnown {
@@ -57,7 +37,7 @@ void renderPasses(Renderer& renderer, const StopRule& stop, const std::function<
         progress.passes = static_cast<unsigned>(renderer.counters().passes);
         progress.seconds = elapsed();
         if (afterPass) afterPass(renderer, progress.seconds, false);
-        if (progress.passes >= firstErrorCheck && isErrorDue(progress.seconds - lastCheck, checkCost)) {
+        if (progress.passes >= fewestPassesForError && isErrorDue(progress.seconds - lastCheck, checkCost)) {
             progress.relativeError = estimateError(known.note(renderer)).sum();
             lastCheck = elapsed();
             checkCost = lastCheck - progress.seconds;
@@ -77,8 +57,7 @@ RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stopAt,
                                   const std::function<void(const Progress&)>& onProgress,
                                   const std::atomic<bool>& interrupted, const RenderedBefore& before,
                                   const AfterPass& afterPass) {
-    StopRule stop = stopAt;
-    if (!stop.seconds && !stop.passes && !stop.relativeError) stop.seconds = defaultSeconds;
+    const StopRule stop = withDefault(stopAt);
     LastKnown known;
     std::exception_ptr failure;
     const Stopwatch watch;

@@ -1,6 +1,7 @@
 #include "share/shared_render.h"
 
 #include "render/error_estimate.h"
+#include "render/stop_rule.h"
 #include "util/steady_seconds.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned fewestForError = 4; // passes before the estimate means anything
 constexpr double secondsToWait = 0.02; // for what workers say, until a signal is looked for again
 
 /// In order, those that touch as one.
@@ -31,11 +31,10 @@ std::vector<PassRange> joined(std::vector<PassRange> ranges) {
 
 SharedRender::SharedRender(PassWorkers& workers, SharedStart start, const StopRule& stop, SharedHooks hooks,
                            const std::atomic<bool>& interrupted)
-    : workers_(workers), stop_(stop), hooks_(std::move(hooks)), interrupted_(interrupted),
+    : workers_(workers), stop_(withDefault(stop)), hooks_(std::move(hooks)), interrupted_(interrupted),
       dealer_(start.passes.end, stop.passes), sums_(std::move(start.sums)), first_(start.passes.first),
       radii_(std::move(start.radii.state)), rendered_(sums_.counters.passes), begun_(steadySeconds()),
       secondsBefore_(start.seconds) {
-    if (!stop_.seconds && !stop_.passes && !stop_.relativeError) stop_.seconds = defaultSeconds;
     if (!sums_.isEmpty()) added_ = {start.passes};
     renderedBefore_ = sums_.counters.renderSeconds;
     progress_.phase = "rendering";
@@ -167,7 +166,7 @@ void SharedRender::noteSummed() {
 void SharedRender::publish(bool isLast) {
     if (sums_.isEmpty() || (added_.size() != 1 && !isLast)) return;
     sums_.counters.renderSeconds = renderedBefore_ + steadySeconds() - begun_;
-    if (!isLast && sums_.counters.passes >= fewestForError)
+    if (!isLast && sums_.counters.passes >= fewestPassesForError)
         progress_.relativeError = estimateError(sums_.develop()).sum();
     if (added_.size() == 1 && hooks_.onSums)
         hooks_.onSums({sums_, {first_, added_.front().end}, radii_}, elapsed(), isLast);
@@ -180,6 +179,7 @@ void SharedRender::report() {
     const double seconds = std::max(1e-9, steadySeconds() - begun_);
     progress_.photonsPerSecond = static_cast<double>(photons_) / seconds;
     progress_.pathsPerSecond = static_cast<double>(paths_) / seconds;
+    progress_.secondsLeft = secondsLeft(stop_, progress_);
     if (hooks_.onProgress) hooks_.onProgress(progress_);
 }
 
@@ -243,7 +243,7 @@ bool SharedRender::hasLoose() const {
 void SharedRender::askWhereDue() {
     if (isSumming_ || !hasLoose()) return;
     const double since = elapsed() - lastSums_;
-    const bool isDue = since > std::max(1.0, 50 * costOfSums_) ||
+    const bool isDue = isErrorDue(since, costOfSums_) ||
                        (hooks_.secondsToNextSums && since > costOfSums_ && hooks_.secondsToNextSums() <= 0);
     if (!isDue && !isIdle()) return;
     for (Member& one : members_)

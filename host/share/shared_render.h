@@ -89,7 +89,7 @@ private:
     std::vector<PassRange> arriving_, added_; ///< in sums that are on their way; in sums_
     MemoryState radii_;
     bool radiiAreChosen_ = false;
-    bool isSumming_ = false, wasPublished_ = false;
+    bool isSumming_ = false;
     std::vector<Member> members_;
     std::vector<WorkerRecord> records_;
     std::string lastFailure_;

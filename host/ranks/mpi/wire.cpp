@@ -66,8 +66,7 @@ WorkerEvent eventOf(const Message& message) {
 
 Json toJson(const PassSums& sums) {
     const FilmCounts& n = sums.counts;
-    return {{"isEmpty", sums.isEmpty()},
-            {"counts", {n.batches, n.openPasses, n.biasPasses, n.openBiasPasses, n.biasSquares}},
+    return {{"counts", {n.batches, n.openPasses, n.biasPasses, n.openBiasPasses, n.biasSquares}},
             {"counters", toJson(sums.counters)},
             {"timings", toJson(sums.timings)}};
 }
