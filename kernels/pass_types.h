@@ -116,15 +116,23 @@ typedef struct {
     float volumeScale;     /* of this pass's kernels in media to those of pass 0 (Medium) */
     unsigned int media;    /* SceneTables::media */
     unsigned int cellMask; /* cells of one class - 1, a power of two - 1 */
-    unsigned int chunks;   /* stable counting sort: each chunk counts and scatters in order */
     unsigned int regions;
     unsigned int regionCapacity; /* of camera points */
     unsigned int photonStride;   /* of the sorted arrays: records from one field to the next */
-    unsigned int scanBlocks;
     float fluxUnit;               /* of photons' flux as stored, W */
     float perKept[LIGHT_CLASSES]; /* of photons in media, by class: 1 / PhotonParams::keepProbability */
     float biasWeight;             /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
 } MapParams;
+
+/* A digit of the cells by which records are sorted, lowest first, and the layout of its counts (kernels/cell_sort.clh). */
+typedef struct {
+    unsigned int shift, mask, bins;  /* the bin of a cell: cell >> shift & mask */
+    unsigned int chunks;             /* each counts and places a run of the records, in order */
+    unsigned int binSide, chunkSide; /* the count of a bin and a chunk stands at bin * binSide + chunk * chunkSide */
+    unsigned int blockCounts;        /* summed by one work-item */
+    unsigned int groupBlocks;        /* blocks whose sums are summed by one work-item */
+    unsigned int keySide;            /* words from the cell of one record to that of the next */
+} SortDigit;
 
 typedef struct {
     unsigned int seedLow, seedHigh;
@@ -174,6 +182,7 @@ typedef struct {
 /* A place where light of one class is taken by density estimation, by all Lambert lobes together, by one other lobe, or
  * by a medium. */
 typedef struct {
+    unsigned int cell; /* of the index, once it is known; the first, as for photons (SortDigit::keySide) */
     Packed3 position;
     Rgb weight;             /* of (flux * kernel * f) in the pixel; f of Lambert lobes and tints of others included */
     unsigned int place;     /* PHOTON_PATCH_SIDE of the photons that it takes */

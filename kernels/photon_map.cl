@@ -1,8 +1,5 @@
-/* Stage 2 of a pass: index the photons by class and cell, in the arrays that they were traced into (photon_store.clh). A
- * stable counting sort: each of `chunks` work-items counts, and later places, the photons of its own run of regions in order.
- * Within a cell they then stand in the order of their regions whatever the number of chunks, so sums over them are
- * reproducible. */
-#include "cell_scan.clh"
+/* Stage 2 of a pass: index the photons by class and cell, in the arrays that they were traced into (photon_store.clh). */
+#include "cell_sort.clh"
 #include "photon_store.clh"
 
 inline uint cellOfTraced(__global const uint* photon, size_t stride, __global const uint* tables,
@@ -13,38 +10,41 @@ inline uint cellOfTraced(__global const uint* photon, size_t stride, __global co
     return cellOf(photon[PHOTON_CELL * stride], position, photon[TRACED(PHOTON_PATCH_SIDE) * stride], tables, params);
 }
 
-/* counts[chunk * cells + cell]; each photon's cell becomes known. */
+/* Each photon's cell becomes known, and its first digit is counted. */
 __kernel void countPhotons(__global uint* photons, __global const uint* blocks, __global const RegionCount* regions,
-                           __global const uint* tables, __global uint* counts, const MapParams params) {
+                           __global const uint* tables, __global uint* counts, const SortDigit digit,
+                           const MapParams params) {
     const uint chunk = get_global_id(0);
-    if (chunk >= params.chunks) return;
-    const uint cells = cellCount(&params);
+    if (chunk >= digit.chunks) return;
     const size_t stride = params.photonStride;
-    __global uint* own = counts + (size_t)chunk * cells;
-    for (uint cell = 0; cell < cells; ++cell) own[cell] = 0;
-    for (uint region = chunkRegion(chunk, &params); region < chunkRegion(chunk + 1, &params); ++region)
+    __global uint* own = countsOf(chunk, counts, &digit);
+    clearCounts(own, &digit);
+    const uint end = firstOfChunk(chunk + 1, params.regions, &digit);
+    for (uint region = firstOfChunk(chunk, params.regions, &digit); region < end; ++region)
         for (BlockWalk walk = blocksOf(regions + region); walk.left > 0; toNextBlock(&walk, blocks)) {
             __global uint* block = photons + walk.block * PHOTON_BLOCK;
             for (uint k = 0; k < photonsInBlock(&walk); ++k) {
                 const uint cell = cellOfTraced(block + k, stride, tables, &params);
-                ++own[cell];
+                ++*countOf(cell, own, &digit);
                 block[PHOTON_CELL * stride + k] = cell;
             }
         }
 }
 
-/* From the photons' cells to which photon goes where. */
-__kernel void placePhotons(__global uint* photons, __global const uint* blocks, __global const RegionCount* regions,
-                           __global uint* counts, const MapParams params) {
+/* From the photons' cells to their order by the first digit. */
+__kernel void placePhotons(__global const uint* photons, __global const uint* blocks,
+                           __global const RegionCount* regions, __global uint* counts, __global uint* to,
+                           const ulong toAt, const SortDigit digit, const MapParams params) {
     const uint chunk = get_global_id(0);
-    if (chunk >= params.chunks) return;
-    __global uint* own = counts + (size_t)chunk * cellCount(&params);
+    if (chunk >= digit.chunks) return;
+    __global uint* own = countsOf(chunk, counts, &digit);
     __global const uint* cells = photons + (size_t)PHOTON_CELL * params.photonStride;
-    __global uint* sources = photons + (size_t)PHOTON_SOURCE * params.photonStride;
-    for (uint region = chunkRegion(chunk, &params); region < chunkRegion(chunk + 1, &params); ++region)
+    const uint end = firstOfChunk(chunk + 1, params.regions, &digit);
+    for (uint region = firstOfChunk(chunk, params.regions, &digit); region < end; ++region)
         for (BlockWalk walk = blocksOf(regions + region); walk.left > 0; toNextBlock(&walk, blocks)) {
             const uint first = walk.block * PHOTON_BLOCK;
-            for (uint k = first; k < first + photonsInBlock(&walk); ++k) sources[own[cells[k]]++] = k;
+            for (uint k = first; k < first + photonsInBlock(&walk); ++k)
+                to[toAt + (*countOf(cells[k], own, &digit))++] = k;
         }
 }
 

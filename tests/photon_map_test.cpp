@@ -1,4 +1,4 @@
-// The photon index: a stable counting sort whatever the number of chunks.
+// The photon index: a stable sort whatever the number of chunks and digits.
 //
 // No test here is statistical: photons are random but seeded, and what they are compared with is exact.
 #include "support/awkward_photons.h"
@@ -94,19 +94,22 @@ TEST(PhotonMap, EveryClassHasItsRun) {
     expectSorted(awkwardPhotons(5003, 1, 0.5f, {LIGHT_CAUSTIC, LIGHT_DIFFUSE}), settings);
 }
 
-TEST(PhotonMap, ChunksAndBlocksDoNotChangeABit) {
+TEST(PhotonMap, ChunksAndDigitsDoNotChangeABit) {
     const auto photons = awkwardPhotons(10007, -10, 0.25f, {LIGHT_DIFFUSE});
     PhotonIndexSettings settings = settingsOfFlux();
     settings.radius[LIGHT_DIFFUSE] = 0.25f;
     settings.regions = 61;
-    settings.chunks = settings.scanBlocks = 1;
-    const PhotonIndex once = indexPhotons(photons, settings);
-    for (const unsigned parts : {2u, 7u, 61u}) {
-        settings.chunks = parts;
-        settings.scanBlocks = parts;
-        const PhotonIndex again = indexPhotons(photons, settings);
-        EXPECT_EQ(again.cellStart.read(), once.cellStart.read());
-        for (unsigned f = 0; f < fieldCount; ++f) EXPECT_EQ(again.field(f), once.field(f));
+    for (const unsigned cells : {1024u, 1u << 18, 1u << 23}) { // of one, two and three digits
+        settings.cells = cells;
+        settings.parts = {1, true};
+        const PhotonIndex once = indexPhotons(photons, settings);
+        for (const SortParts& parts :
+             {SortParts{3, true}, SortParts{1, false}, SortParts{7, false}, SortParts{61, false}}) {
+            settings.parts = parts;
+            const PhotonIndex again = indexPhotons(photons, settings);
+            EXPECT_EQ(again.cellStart.read(), once.cellStart.read());
+            for (unsigned f = 0; f < fieldCount; ++f) EXPECT_EQ(again.field(f), once.field(f));
+        }
     }
 }
 

@@ -35,7 +35,8 @@ void PassPhotons::trace(unsigned pass, RenderCounters& counters) {
     counters.addTraced(count, meterCountsCaustics(context_.flat.features, context_.settings),
                        context_.settings.energyBalance);
     const uint64_t stored = addBySlot(counters.photonsStored, count.stored);
-    counters.noteMapSize(stored, stored * PhotonArrays::photonBytes(storesDepth(context_.flat, context_.settings)));
+    counters.noteMapSize(stored, stored * PhotonArrays::photonBytes(storesDepth(context_.flat, context_.settings),
+                                                                    context_.device.info()));
 }
 
 void PassPhotons::traceUncounted(unsigned pass) { run(pass); }

@@ -10,8 +10,11 @@ namespace quasilux {
 namespace {
 
 constexpr unsigned photonFields(bool storesDepth) { return PHOTON_FIELDS_WITHOUT_DEPTH + (storesDepth ? 1 : 0); }
-// One array is free, so that the next field has where to go; one says where each photon goes.
-constexpr unsigned arrayCount(bool storesDepth) { return photonFields(storesDepth) + 2; }
+// One array is free, so that the next field has where to go; one says where each photon goes; on GPUs, which sort by several
+// digits, one more.
+unsigned arrayCount(bool storesDepth, const DeviceInfo& device) {
+    return photonFields(storesDepth) + (device.isCpu ? 2 : 3);
+}
 
 constexpr uint64_t divideUp(uint64_t count, uint64_t by) { return (count + by - 1) / by; }
 
@@ -33,7 +36,7 @@ const std::string noun = "photon";
 } // namespace
 
 PhotonArrays::PhotonArrays(Device& device, const Program& pass, unsigned slots, bool storesDepth)
-    : device_(device), table_(device, pass, slots, noun), countPhotons_(pass.kernel("countPhotons")),
+    : device_(device), table_(device, pass, slots, 1, noun), countPhotons_(pass.kernel("countPhotons")),
       placePhotons_(pass.kernel("placePhotons")), movePhotons_(pass.kernel("movePhotons")), storesDepth_(storesDepth) {}
 
 void PhotonArrays::make(uint64_t photons, unsigned regions) {
@@ -45,7 +48,7 @@ BufferSizes PhotonArrays::plan(unsigned slots, uint64_t photons, unsigned region
                                const DeviceInfo& device) {
     BufferSizes sizes = CellTable::plan(slots, photons, regions, noun, device);
     const uint64_t blocks = blocksFor(photons, regions);
-    sizes["photons"] = strideOf(blocks) * photonBytes(storesDepth);
+    sizes["photons"] = strideOf(blocks) * photonBytes(storesDepth, device);
     sizes["photon blocks"] = (1 + blocks) * sizeof(uint32_t);
     return sizes;
 }
@@ -58,7 +61,7 @@ void PhotonArrays::makeBlocks(uint64_t count) {
     table_.map().photonStride = static_cast<unsigned>(strideOf(count));
     arrays_ = {};
     blocks_ = {};
-    arrays_ = Buffer<uint32_t>(device_, arrayCount(storesDepth_) * strideOf(count), "photons");
+    arrays_ = Buffer<uint32_t>(device_, arrayCount(storesDepth_, device_.info()) * strideOf(count), "photons");
     blocks_ = Buffer<uint32_t>(device_, 1 + count, "photon blocks");
 }
 
@@ -80,15 +83,23 @@ void PhotonArrays::sort(const Buffer<shared::RegionCount>& regionBuffer,
     uint64_t stored = 0;
     for (const auto& region : regions) stored += region.stored;
     const shared::MapParams& map = table_.map();
-    countPhotons_.launchFew(map.chunks, arrays_, blocks_, regionBuffer, geometry.tables, table_.counts(), map);
-    table_.scan();
-    placePhotons_.launchFew(map.chunks, arrays_, blocks_, regionBuffer, table_.counts(), map);
+    const auto countFirst = [&](const auto& digit, const auto& counts) {
+        countPhotons_.launchLong(digit.chunks, arrays_, blocks_, regionBuffer, geometry.tables, counts, digit, map);
+    };
+    const auto placeFirst = [&](const auto& digit, const auto& counts, const auto& to) {
+        placePhotons_.launchLong(digit.chunks, arrays_, blocks_, regionBuffer, counts, to.buffer, to.at, digit, map);
+    };
+    const uint64_t stride = map.photonStride, source = photonFields(storesDepth_) + 1;
+    table_.sort(static_cast<unsigned>(stored), {countFirst, placeFirst}, arrays_, {arrays_, source * stride},
+                {arrays_, (source + 1) * stride});
     for (unsigned field = 0; field < photonFields(storesDepth_); ++field)
         movePhotons_.launch(std::max<size_t>(stored, recordsRead), arrays_, field, static_cast<unsigned>(stored), map);
 }
 
 void PhotonArrays::compile() { movePhotons_.launch(manyWorkItems, arrays_, 0u, 0u, table_.map()); }
 
-size_t PhotonArrays::photonBytes(bool storesDepth) { return arrayCount(storesDepth) * sizeof(uint32_t); }
+size_t PhotonArrays::photonBytes(bool storesDepth, const DeviceInfo& device) {
+    return arrayCount(storesDepth, device) * sizeof(uint32_t);
+}
 
 } // namespace quasilux

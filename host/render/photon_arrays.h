@@ -39,7 +39,7 @@ public:
     Buffer<uint32_t>& arrays() { return arrays_; }
     const Buffer<uint32_t>& sorted() const { return arrays_; }
     /// Of a photon, traced and sorted together.
-    static size_t photonBytes(bool storesDepth);
+    static size_t photonBytes(bool storesDepth, const DeviceInfo& device);
 
 private:
     void makeBlocks(uint64_t count);

@@ -6,9 +6,16 @@
 
 namespace quasilux {
 
+namespace {
+
+constexpr unsigned keySide = sizeof(shared::CameraPoint) / sizeof(uint32_t);
+static_assert(offsetof(shared::CameraPoint, cell) == 0);
+
+} // namespace
+
 PointIndex::PointIndex(Device& device, const Program& pass, unsigned slots)
-    : device_(device), table_(device, pass, slots, "camera point"), countPoints_(pass.kernel("countPoints")),
-      scatterPoints_(pass.kernel("scatterPoints")) {}
+    : device_(device), table_(device, pass, slots, keySide, "camera point"), countPoints_(pass.kernel("countPoints")),
+      placePoints_(pass.kernel("placePoints")), gatherPoints_(pass.kernel("gatherPoints")) {}
 
 void PointIndex::make(uint64_t expected, unsigned regions) {
     table_.make(expected, regions);
@@ -33,9 +40,17 @@ void PointIndex::sort(const Buffer<shared::CameraPoint>& points, const Buffer<sh
                       const GeometryBuffers& geometry, uint64_t count) {
     reserve(count);
     const shared::MapParams& map = table_.map();
-    countPoints_.launchFew(map.chunks, points, regions, geometry.tables, table_.counts(), map);
-    table_.scan();
-    scatterPoints_.launchFew(map.chunks, points, regions, geometry.tables, table_.counts(), sorted_, map);
+    const auto countFirst = [&](const auto& digit, const auto& counts) {
+        countPoints_.launchLong(digit.chunks, points, regions, geometry.tables, counts, digit, map);
+    };
+    const auto placeFirst = [&](const auto& digit, const auto& counts, const auto& to) {
+        placePoints_.launchLong(digit.chunks, points, regions, counts, to.buffer, to.at, digit, map);
+    };
+    const auto records = static_cast<unsigned>(count);
+    // The first array, of coordinates, is filled last, so until then it is free (POINT_* of kernels/photon_grid.clh).
+    table_.sort(records, {countFirst, placeFirst}, points, {sorted_, uint64_t(POINT_FIELDS - 1) * map.photonStride},
+                {sorted_, 0});
+    gatherPoints_.launch(records, points, sorted_, records, map);
 }
 
 size_t PointIndex::pointBytes() { return POINT_FIELDS * sizeof(uint32_t); }

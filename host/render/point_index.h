@@ -27,7 +27,7 @@ public:
 private:
     Device& device_;
     CellTable table_;
-    Kernel countPoints_, scatterPoints_;
+    Kernel countPoints_, placePoints_, gatherPoints_;
     Buffer<uint32_t> sorted_;
 };
 

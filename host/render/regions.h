@@ -6,7 +6,7 @@
 
 namespace quasilux {
 
-inline unsigned photonsPerRegion(const DeviceInfo& device) { return device.isCpu ? 256 : 32; }
+inline unsigned photonsPerRegion(const DeviceInfo& device) { return device.isCpu ? 256 : 16; }
 /// Of the camera map.
 inline unsigned pixelsPerRegion(const DeviceInfo& device) { return device.isCpu ? 64 : 16; }
 

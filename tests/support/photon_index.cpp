@@ -1,6 +1,5 @@
 #include "support/photon_index.h"
 
-#include "render/cell_table.h"
 #include "support/test_kernels.h"
 
 #include <algorithm>
@@ -34,31 +33,34 @@ PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonI
     Device& device = testDevice();
     PhotonIndex index;
     index.photons = photons.size();
-    shared::MapParams& map = index.map;
+    Program program(device, "photon_map.cl", photonIndexOptions(settings));
+    CellTable table(device, program, settings.classes, 1, "photon");
+    table.make(settings.cells, settings.regions, settings.parts);
+    shared::MapParams& map = table.map();
     std::copy(settings.radius.begin(), settings.radius.end(), map.radius);
     map.field = settings.field;
-    map.cellMask = settings.cells - 1;
-    map.chunks = settings.chunks;
-    map.scanBlocks = settings.scanBlocks;
-    map.regions = settings.regions;
     map.fluxUnit = settings.fluxUnit;
     map.photonStride = unsigned(photons.size() + settings.regions * PHOTON_BLOCK + recordsRead);
+    index.map = map;
 
     const TracedLayout traced =
         layOutPhotons(photons, regionEnds(photons.size(), settings.regions), map.photonStride, settings.storesDepth);
-    Program program(device, "photon_map.cl", photonIndexOptions(settings));
-    const size_t cells = size_t(std::popcount(settings.classes)) * settings.cells;
     Buffer<uint32_t> blocks(device, traced.blocks, "photon blocks");
     Buffer<shared::RegionCount> regions(device, traced.regions, "photon regions");
-    Buffer<uint32_t> cellCounts(device, cells * map.chunks, "photon cell counts");
-    Buffer<uint32_t> blockSums(device, map.scanBlocks, "photon scan blocks");
-    index.cellStart = Buffer<uint32_t>(device, cells + 1, "photon cells");
     index.sorted = Buffer<uint32_t>(device, traced.arrays, "photons");
     Buffer<uint32_t> tables(device, 1, "scene tables"); // photons in media alone read them
-    program.kernel("countPhotons").launchFew(map.chunks, index.sorted, blocks, regions, tables, cellCounts, map);
-    program.kernel("sumBlocks").launchFew(map.scanBlocks, cellCounts, blockSums, map);
-    program.kernel("scanCells").launchFew(map.scanBlocks, cellCounts, blockSums, index.cellStart, map);
-    program.kernel("placePhotons").launchFew(map.chunks, index.sorted, blocks, regions, cellCounts, map);
+    Buffer<uint32_t> spare(device, photons.size(), "photon order");
+    Kernel count = program.kernel("countPhotons"), place = program.kernel("placePhotons");
+    const auto countFirst = [&](const auto& digit, const auto& counts) {
+        count.launchLong(digit.chunks, index.sorted, blocks, regions, tables, counts, digit, map);
+    };
+    const auto placeFirst = [&](const auto& digit, const auto& counts, const auto& to) {
+        place.launchLong(digit.chunks, index.sorted, blocks, regions, counts, to.buffer, to.at, digit, map);
+    };
+    const uint64_t source = settings.storesDepth ? 8 : 7; // PHOTON_SOURCE
+    table.sort(unsigned(photons.size()), {countFirst, placeFirst}, index.sorted,
+               {index.sorted, source * map.photonStride}, {spare, 0});
+    index.cellStart = table.cellStart();
     for (unsigned field = 0; field < (settings.storesDepth ? 7u : 6u); ++field)
         program.kernel("movePhotons")
             .launch(std::max(photons.size(), recordsRead), index.sorted, field, unsigned(photons.size()), map);

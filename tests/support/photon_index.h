@@ -3,6 +3,7 @@
 
 #include "bench/micro/traced_photons.h"
 #include "device/program.h"
+#include "render/cell_table.h"
 
 #include <array>
 #include <vector>
@@ -13,7 +14,7 @@ struct PhotonIndexSettings {
     unsigned classes = 1u << LIGHT_DIFFUSE; ///< bits 1 << LIGHT_* of the classes stored
     std::array<float, LIGHT_CLASSES> radius{1, 1, 1, 1};
     unsigned cells = 4096; ///< of one class, a power of two, at least 4
-    unsigned chunks = 3, scanBlocks = 5;
+    SortParts parts{3, true};
     unsigned regions = 7; ///< they hold unequal numbers of photons, some none
     bool storesDepth = false;
     float fluxUnit = 1; ///< shared::MapParams::fluxUnit
