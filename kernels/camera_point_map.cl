@@ -13,8 +13,8 @@ __kernel void countPoints(__global CameraPoint* points, __global const PointRegi
     for (uint region = firstOfChunk(chunk, params.regions, &digit); region < end; ++region) {
         __global CameraPoint* point = points + (size_t)region * params.regionCapacity;
         for (uint k = 0; k < regions[region].stored; ++k, ++point) {
-            point->cell = cellOf(point->slotDepth & (PHOTON_SLOTS - 1), load3(point->position), point->place, tables,
-                                 &params);
+            point->cell =
+                cellOf(point->slotDepth & (PHOTON_SLOTS - 1), load3(point->position), point->place, tables, &params);
             ++*countOf(point->cell, own, &digit);
         }
     }
