@@ -117,8 +117,8 @@ typedef struct {
     unsigned int media;    /* SceneTables::media */
     unsigned int cellMask; /* cells of one class - 1, a power of two - 1 */
     unsigned int regions;
-    unsigned int regionCapacity; /* of camera points */
-    unsigned int photonStride;   /* of the sorted arrays: records from one field to the next */
+    unsigned int regionCapacity;  /* of camera points */
+    unsigned int photonStride;    /* of the sorted arrays: records from one field to the next */
     float fluxUnit;               /* of photons' flux as stored, W */
     float perKept[LIGHT_CLASSES]; /* of photons in media, by class: 1 / PhotonParams::keepProbability */
     float biasWeight;             /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
