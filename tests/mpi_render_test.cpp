@@ -68,7 +68,11 @@ TEST_F(MpiRenderTest, IsTheSumOfTheSamePasses) {
 
 // As a scheduler does that asks first: mpirun waits as long before and after it passes SIGTERM on.
 TEST_F(MpiRenderTest, KeepsItsCheckpointOnAnEndingSignal) {
-    const Outcome ended = runRanks(2, "--time 500 --checkpoint a.ckpt -o a.exr --json", "timeout --signal TERM 4");
+    // Kernels may have to be compiled first: the signal is sent once a checkpoint is there, however long that takes.
+    const char* const endOnceKept = "endOnceKept() { \"$@\" & job=$!; "
+                                    "while [ ! -s a.ckpt ] && kill -0 $job; do sleep 0.1; done; "
+                                    "sleep 1; kill -TERM $job; wait $job; }; endOnceKept";
+    const Outcome ended = runRanks(2, "--time 500 --checkpoint a.ckpt --every 1 -o a.exr --json", endOnceKept);
     EXPECT_NE(ended.exitCode, 0);
     ASSERT_TRUE(std::filesystem::exists(folder / "a.exr")) << ended.errors;
     const auto passes = nlohmann::json::parse(ended.output).at("passes").get<unsigned>();
