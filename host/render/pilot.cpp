@@ -27,6 +27,10 @@ PilotResult tracePilot(const PassContext& context, const Program& photonMap,
     Device& device = context.device;
     shared::PhotonParams params = context.photons;
     params.paths = std::min(pilotPaths, params.paths);
+    // Fewer photons carry more each: by the worth of a whole pass's, weight windows would split all of them.
+    const float more = static_cast<float>(context.photons.paths) / static_cast<float>(params.paths);
+    params.usualWorth *= more;
+    params.perFluxUnit /= more;
     PhotonStage stage(device, photonMap, context.geometry, params, context.classes,
                       storesDepth(context.flat, context.settings));
     std::optional<MeterSums> uncounted;
