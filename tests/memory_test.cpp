@@ -93,6 +93,19 @@ TEST_F(MemoryTest, OfAnotherRenderDiffers) {
     EXPECT_FALSE(isClose(fewer.device, photons.device));
 }
 
+// Photons that weight windows split are forecast from a pilot of fewer paths, each of which carries more. A forecast that took these
+// for bright photons made room for over 30 times as many here.
+TEST_F(MemoryTest, RoomForSplitPhotonsIsNearTheirNumber) {
+    runJson({scene("real/daylight.xml"), "--json", "--quiet", "--passes", "2", "--photons", "400000", "--stats",
+             "stats.json"},
+            "render");
+    const auto statistics = nlohmann::json::parse(readText(folder / "stats.json"), nullptr, false);
+    const double stored = statistics.at("counters").at("storedBytes"); // of one pass
+    const double room = statistics.at("sceneReport").at("bufferBytes").at("photons");
+    EXPECT_GE(room, stored);
+    EXPECT_LT(room, 2 * stored);
+}
+
 // A render that just fits runs; with a byte less it ends before it starts, and says what it lacks.
 TEST_F(MemoryTest, RenderThatDoesNotFitDoesNotStart) {
     const Arguments arguments{scene("cornell_phong.xml"), "-D", "resolution=128"};
