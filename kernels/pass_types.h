@@ -32,11 +32,8 @@ typedef struct {
     unsigned int variant;         /* of the law: VARIANT_* */
     unsigned int directSharing;   /* DIRECT_SHARING_* */
     unsigned int emittersSampled; /* by genuine diffuse lobes, for direct light: all but those with directByPhotons */
-    unsigned int segments, borderCells, borderItems;
+    unsigned int segments, borderNodes, borderNodeCount;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
-    Packed3 borderLower;      /* corner of the border grid */
-    float borderCellSize;
-    unsigned int borderCellsX, borderCellsY, borderCellsZ;
     Meter meter;
     Learned learned;
 } SceneTables;

@@ -72,6 +72,14 @@ typedef struct {
     unsigned int patchA, patchB; /* the patches that it bounds; QL_NONE where there is only one */
 } BorderSegment;
 
+/* Node of the tree over the segments (border_tree.clh), in depth-first order. */
+typedef struct {
+    Packed3 center, halfExtent;         /* of its box */
+    unsigned int patchFirst, patchLast; /* all patches of its segments lie between */
+    unsigned int next;                  /* the first node that is not below it */
+    unsigned int first, count;          /* segments of a leaf; count 0: an inner node */
+} BorderNode;
+
 /* ---- scattering ---------------------------------------------------------------------------------------------- */
 
 /* Variants of the law (kernels/law.clh), and how a lobe scatters by it. */

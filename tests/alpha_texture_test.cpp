@@ -13,9 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-DeviceScene flattened(const Scene& scene) {
-    return flattenScene(scene, {"auto", 1000, false, [](double) { return 1.0; }});
-}
+DeviceScene flattened(const Scene& scene) { return flattenScene(scene, {"auto", 1000, false}); }
 
 template <typename T>
 const T* tableAt(const DeviceScene& scene, unsigned offset) {

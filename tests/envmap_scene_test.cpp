@@ -68,11 +68,9 @@ TEST(EnvmapRender, AFaceShowsTheIntegralByEmittersAndByPhotonsWhateverWasLearned
 
 /// Flux of direct photons on the cube over that by `learn`ed sources, in standard errors of the difference from plain emission.
 TEST(EnvmapPhotons, GoThroughOpeningsOnce) {
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 0.1; };
     const Scene scene = cubeUnder(images()[1].image);
     const auto fluxBy = [&](int apart) {
-        DeviceScene flat = flattenScene(scene, flattening);
+        DeviceScene flat = flattenScene(scene);
         LearnedTables learned;
         learned.guide = plainGuide(flat.emitters);
         if (apart >= 0) {

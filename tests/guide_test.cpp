@@ -140,9 +140,7 @@ Sources throughOpenings(const EmitterTables& emitters, bool apart) {
 
 // scenes/furnace_split.xml: flux by class is known (photon_trace_test.cpp). Difference in standard errors.
 double directFlux(PhotonRule rule, const std::function<Sources(const EmitterTables&)>& learn) {
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 0.1; };
-    DeviceScene flat = flattenScene(projectScene("furnace_split.xml"), flattening);
+    DeviceScene flat = flattenScene(projectScene("furnace_split.xml"));
     const Sources all = learn(flat.emitters);
     LearnedTables learned;
     learned.guide = makeGuideTables(flat.emitters, all.sources, all.boxes);
@@ -178,9 +176,7 @@ AimSet squaresAboutAPlace() {
 // Half of the scattered photons are aimed just above the floor of a cube with even light. Share of the light that was
 // scattered before which arrives on the floor there, over the square's share of the area; 10 or more standard errors separate 1 from 2.
 MeanAndError lightBelowAims(PhotonRule rule, const std::vector<AimSet>& aims) {
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 0.1; };
-    DeviceScene flat = flattenScene(projectScene("furnace_split.xml"), flattening);
+    DeviceScene flat = flattenScene(projectScene("furnace_split.xml"));
     LearnedTables learned;
     learned.guide = plainGuide(flat.emitters);
     learned.aims = aimTable(aims);

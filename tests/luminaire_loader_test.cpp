@@ -34,9 +34,7 @@ TEST(Luminaires, ATypeIsHeldOnceHoweverMany) {
                                      std::to_string(k % 40) + "," + std::to_string(k / 40) + ",3\"/></transform>");
         return loadScene(folder.write("scene.xml", test::sceneWith(text)));
     };
-    const auto flat = [](const Scene& scene) {
-        return flattenScene(scene, {"auto", 1000, false, [](double) { return 1.0; }});
-    };
+    const auto flat = [](const Scene& scene) { return flattenScene(scene, {"auto", 1000, false}); };
     const Scene few = sceneOf(20), many = sceneOf(1000);
     EXPECT_EQ(many.luminaireTypes.size(), 20u);
     EXPECT_EQ(many.pointEmitters.size(), 1001u);

@@ -37,7 +37,7 @@ struct Luminaire {
 
 /// The last emitter of `body`.
 Luminaire flattened(const Scene& scene) {
-    const DeviceScene flat = flattenScene(scene, {"auto", 1000, false, [](double) { return 1.0; }});
+    const DeviceScene flat = flattenScene(scene, {"auto", 1000, false});
     const PointEmitter& point = scene.pointEmitters.back();
     return {flat.emitters.emitters.back(), flat.emitters.goniograms,
             scene.luminaireTypes.at(point.luminaire->type).goniogram, point.luminaire->axes,

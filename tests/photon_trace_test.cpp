@@ -31,11 +31,7 @@ std::vector<FluxByClass> storedFlux(const DeviceScene& flat, const RenderSetting
     return flux;
 }
 
-DeviceScene flattenFurnace() {
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 0.1; };
-    return flattenScene(projectScene("furnace_split.xml"), flattening);
-}
+DeviceScene flattenFurnace() { return flattenScene(projectScene("furnace_split.xml")); }
 
 MeanAndError overPasses(const std::vector<FluxByClass>& flux, unsigned lightClass) {
     std::vector<double> ofClass;

@@ -24,7 +24,6 @@ StoredPasses trace(const PhotonTracing& tracing) {
     settings.quasiSpecularOverridesScene = true;
     settings.bdd = 0;
     FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 5.0; };
     flattening.quasiSpecular = settings.quasiSpecular;
     flattening.overridesScene = true;
     return tracePhotons(flattenScene(projectScene("plate_checker.xml"), flattening), settings, tracing);

@@ -65,9 +65,7 @@ DeviceScene prepare(const Fog& fog) {
         <medium name="interior" {}</medium></shape>
         <emitter type="constant"/></scene>)",
                                                                        fog.shape, fog.medium)));
-    FlattenSettings settings;
-    settings.largestRadius = [](double) { return 0.1; };
-    return flattenScene(scene, settings);
+    return flattenScene(scene);
 }
 
 std::vector<RegionWeights> regionsAt(const DeviceScene& flat, dvec3 p, const std::string& options) {

@@ -124,9 +124,7 @@ struct Returned {
     size_t rays = 0, hits = 0;
 };
 Returned countReturned(const Scene& scene, float extent, const KernelSources& replaced = {}) {
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 1e-3; };
-    const DeviceScene flat = flattenScene(scene, flattening);
+    const DeviceScene flat = flattenScene(scene);
     const GeometryBuffers geometry(testDevice(), flat);
     Program program = mutantProgram("leaving.cl", kernelOptions(flat, RenderSettings{}), replaced);
     const Rays rays = randomRays(20'000, 5, extent);

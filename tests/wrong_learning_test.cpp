@@ -86,9 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Away from what pilots gathered one photon in eight is stored, and stands for all.
 TEST(WrongLearning, PhotonsThatAreNotStoredAreMadeUpFor) {
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 0.1; };
-    DeviceScene flat = flattenScene(projectScene("furnace_split.xml"), flattening);
+    DeviceScene flat = flattenScene(projectScene("furnace_split.xml"));
     struct Stored {
         double count = 0;
         MeanAndError flux; // direct, of the emitters' flux
@@ -124,9 +122,7 @@ TEST(WrongLearning, PhotonsThatAreNotStoredAreMadeUpFor) {
 
 // A tenth of the photons begins evenly, so none has more than ten times the flux of a plain one, times the emitter's sources.
 TEST(GuideBounds, NoLeafOutweighsPlainEmission) {
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 0.1; };
-    const DeviceScene flat = flattenScene(projectScene("furnace_split.xml"), flattening);
+    const DeviceScene flat = flattenScene(projectScene("furnace_split.xml"));
     const auto heaviest = [&](const GuideTables& guide) {
         double most = 0;
         for (const auto& leaf : guide.leaves) {

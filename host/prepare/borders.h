@@ -4,7 +4,6 @@
 
 #include "scene/scene.h"
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,14 +21,6 @@ struct SurfaceBorders {
         glm::dvec3 place;       ///< within both
     };
     std::optional<Overlap> overlap; ///< of triangles that lie in one plane and face the same way: the first pair
-    struct Grid {                   ///< uniform grid over the segments: which may lie within `reach` of a cell
-        glm::vec3 lower{};
-        float cellSize = 1;
-        glm::uvec3 cells{1};
-        std::vector<unsigned>
-            cellStart; ///< cells.x*cells.y*cells.z + 1 offsets into `items`; cell (z*cells.y + y)*cells.x + x
-        std::vector<unsigned> items; ///< segment indices, rising within a cell
-    };
 };
 
 /// Finds them. Triangles, also of different shapes, join a patch across an edge that exactly two of them share, with
@@ -41,17 +32,5 @@ struct SurfaceBorders {
 /// matching vertex by vertex (T-junctions) stay segments, also inside a plane: the estimate there is right, only
 /// noisier. A shape of a `null` bsdf is one patch without segments, and cuts nothing. Positions must be finite.
 SurfaceBorders findBorders(const Scene& scene, double creaseAngle = 0.35);
-
-/// How far density estimates look (> 0, finite, scene units).
-struct BorderReach {
-    explicit BorderReach(double reach) : largest(reach), smallest(reach) {}
-    double largest, smallest;
-    /// Of points no farther than `radius` from `center`; empty: `largest` everywhere.
-    std::function<double(const glm::dvec3& center, double radius)> about;
-};
-
-/// Grid for points that look no further than `reach`: a point's own cell lists every segment within reach of it, and a point
-/// outside the grid has none. At most about 2e6 cells, of at least the smallest reach.
-SurfaceBorders::Grid indexBorders(const SurfaceBorders& borders, const BorderReach& reach);
 
 } // namespace quasilux

@@ -1,6 +1,7 @@
 #include "prepare/device_scene.h"
 
 #include "prepare/border_surface.h"
+#include "prepare/border_tree.h"
 #include "prepare/direct_sharing.h"
 #include "prepare/filter_table.h"
 #include "prepare/scene_tables.h"
@@ -88,18 +89,12 @@ std::vector<float> patchRadii(const SurfaceBorders& borders) {
     return radii;
 }
 
-void appendBorders(const SurfaceBorders& borders, const BorderReach& reach, SceneTableWriter& tables,
-                   shared::SceneTables& offsets) {
-    const auto grid = indexBorders(borders, reach);
-    offsets.segments = tables.append(borders.segments);
-    offsets.borderCells = tables.append(grid.cellStart);
-    offsets.borderItems = tables.append(grid.items);
+void appendBorders(const SurfaceBorders& borders, SceneTableWriter& tables, shared::SceneTables& offsets) {
+    const BorderTree tree = buildBorderTree(borders.segments);
+    offsets.segments = tables.append(tree.segments);
+    offsets.borderNodes = tables.append(tree.nodes);
+    offsets.borderNodeCount = static_cast<unsigned>(tree.nodes.size());
     offsets.patchRadius = tables.append(patchRadii(borders));
-    offsets.borderLower = {grid.lower.x, grid.lower.y, grid.lower.z};
-    offsets.borderCellSize = grid.cellSize;
-    offsets.borderCellsX = grid.cells.x;
-    offsets.borderCellsY = grid.cells.y;
-    offsets.borderCellsZ = grid.cells.z;
 }
 
 unsigned shapeOfPrimitive(const Scene& scene, unsigned primitive) {
@@ -139,16 +134,8 @@ void setDirectByPhotons(DeviceScene& scene, const std::vector<bool>& byPhotons) 
 
 } // namespace
 
-void setBorderReach(DeviceScene& scene, const BorderReach& reach) {
-    scene.tables.resize(scene.sceneWords);
-    SceneTableWriter tables(std::move(scene.tables));
-    appendBorders(scene.borders, reach, tables, scene.offsets);
-    scene.tables = tables.words();
-    scene.borderWords = scene.tables.size();
-}
-
 void setLearned(DeviceScene& scene, const LearnedTables& learned) {
-    scene.tables.resize(scene.borderWords);
+    scene.tables.resize(scene.sceneWords);
     SceneTableWriter tables(std::move(scene.tables));
     scene.offsets.learned.leaves = tables.append(learned.guide.leaves);
     scene.offsets.learned.leafCount = static_cast<unsigned>(learned.guide.leaves.size());
@@ -183,8 +170,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.emitters = flattenEmitters(scene, placement);
     auto materials = flattenMaterials(scene, out.split);
     const unsigned meterLobe = isIrradiance(scene.sensor.meter) ? appendWhite(materials.lobes) : QL_NONE;
-    out.borders = findBorders(scene);
-    const SurfaceBorders& borders = out.borders;
+    const SurfaceBorders borders = findBorders(scene);
     out.warnings = findWarnings(scene, borders);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
@@ -225,9 +211,9 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.meter.lobe = meterLobe;
     out.offsets.meter.primitives = tables.append(meter.primitives);
     const unsigned filterSteps = tables.append(filterTable(scene.sensor));
+    appendBorders(borders, tables, out.offsets);
     out.tables = tables.words();
     out.sceneWords = out.tables.size();
-    setBorderReach(out, BorderReach(settings.largestRadius(out.surfaceArea)));
     out.camera = flattenCamera(scene.sensor, placement.camera);
     out.camera.filterSteps = filterSteps;
     LearnedTables nothing;

@@ -9,8 +9,6 @@
 #include "prepare/media.h"
 #include "prepare/split.h"
 
-#include <functional>
-
 namespace quasilux {
 
 class SceneTableWriter;
@@ -40,9 +38,7 @@ struct DeviceScene {
     size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
     double surfaceArea = 0; ///< of everything that scatters, scene units squared
     double emittedFlux = 0; ///< W, mean of R, G, B
-    size_t sceneWords = 0;  ///< of the tables, before the index of borders and what was learned
-    size_t borderWords = 0; ///< and of both but what was learned
-    SurfaceBorders borders;
+    size_t sceneWords = 0;  ///< of the tables, before what was learned
     bool isGuided = false;  ///< GuideTables::isGuided
     double typicalFlux = 0; ///< GuideTables::typicalFlux
     EmitterTables emitters;
@@ -56,10 +52,8 @@ struct FlattenSettings {
     std::string quasiSpecular = "auto"; ///< as decideSplit takes it
     unsigned photons = 0;               ///< emitted in a pass
     bool overridesScene = false;
-    std::function<double(double area)>
-        largestRadius; ///< of the density estimate, from the surface area: indexes the borders
 };
-DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings);
+DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings = {});
 
 /// Takes what was learned of the scene into its tables, instead of what they had.
 struct LearnedTables {
@@ -73,8 +67,6 @@ struct LearnedTables {
     std::vector<uint32_t> seenCells;       ///< a power of two of words; none: nothing is known
 };
 void setLearned(DeviceScene& scene, const LearnedTables& learned);
-/// Indexes the borders for density estimates of these radii; what was learned is to be set again.
-void setBorderReach(DeviceScene& scene, const BorderReach& reach);
 
 /// Pieces of it, each a table.
 std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene);

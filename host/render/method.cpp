@@ -90,10 +90,6 @@ bool estimatesBias(bool isMeter, const RenderSettings& settings) {
     return settings.estimateBias && settings.map == MapOrder::photons && !isMeter;
 }
 
-bool mayAdaptRadius(bool isMeter, bool hasMedia, const RenderSettings& settings) {
-    return settings.radius == RadiusChoice::adaptive && estimatesBias(isMeter, settings) && !hasMedia;
-}
-
 std::string meterOptions(const Features& features, const RenderSettings& settings) {
     std::string options;
     if (isMeter(features)) options += " -DHAS_METER";
@@ -117,12 +113,9 @@ uint64_t largestFilmBuffer(const Features& features, const RenderSettings& setti
     return isInParts ? device.maximumAllocation : Film::inOneBuffer;
 }
 
-bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings) {
-    return mayAdaptRadius(scene.sensor.meter != MeterKind::none, !scene.media.empty(), settings);
-}
-
 bool adaptsRadius(const Features& features, const RenderSettings& settings) {
-    return mayAdaptRadius(isMeter(features), features.media, settings) && compiledClasses(features, settings) != 0;
+    return settings.radius == RadiusChoice::adaptive && estimatesBias(features, settings) && !features.media &&
+           compiledClasses(features, settings) != 0;
 }
 
 bool learns(const Features& features, const RenderSettings& settings) {

@@ -26,10 +26,7 @@ bool estimatesBias(const Features& features, const RenderSettings& settings);
 FilmLayout filmLayout(const Features& features, const RenderSettings& settings);
 /// Bytes that one of its buffers may have. Only camera paths of the photon map add to a part of the film at a time.
 uint64_t largestFilmBuffer(const Features& features, const RenderSettings& settings, const DeviceInfo& device);
-/// Whether the density radius may be chosen by pixel, so that borders must be known for the largest one: known before the
-/// scene is flattened.
-bool mayAdaptRadius(const Scene& scene, const RenderSettings& settings);
-/// Is it chosen by pixel? Only where mayAdaptRadius(), and kernels know photons.
+/// Is the density radius chosen by pixel?
 bool adaptsRadius(const Features& features, const RenderSettings& settings);
 /// Do pixels share samples, as their filter is wider than one (kernels/shared_samples.clh)?
 bool sharesSamples(const Features& features, const RenderSettings& settings);

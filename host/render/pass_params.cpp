@@ -29,10 +29,6 @@ DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings) {
     flattening.quasiSpecular = settings.quasiSpecular;
     flattening.photons = photons;
     flattening.overridesScene = settings.quasiSpecularOverridesScene;
-    flattening.largestRadius = [&](double area) {
-        return firstRadiusByArea(area, settings, photons) *
-               (mayAdaptRadius(scene, settings) ? largestAdaptiveRadius : 1);
-    };
     return flattenScene(scene, flattening);
 }
 

@@ -64,23 +64,6 @@ OctaveRadii octaveRadii(const LearnedScene& learned, double radius, double large
     return radii;
 }
 
-// Between two distances from the eye.
-double largestFactor(const shared::RadiusField& field, double from, double to) {
-    const auto factorAt = [&](double distance) {
-        const double ratio = std::max(distance / field.nearest, 1.0);
-        const double octave = std::min(std::floor(std::log2(ratio)), field.octaves - 1.0);
-        const double within = std::min(ratio / std::exp2(octave) - 1, 1.0);
-        const auto k = static_cast<size_t>(octave);
-        return (1 - within) * field.factor[k] + within * field.factor[k + 1];
-    };
-    double largest = std::max(factorAt(from), factorAt(to));
-    for (unsigned k = 0; k <= field.octaves; ++k) {
-        const double distance = field.nearest * std::exp2(k);
-        if (distance > from && distance < to) largest = std::max(largest, double(field.factor[k]));
-    }
-    return largest;
-}
-
 } // namespace
 
 shared::RadiusField radiusField(const LearnedScene& learned, double radius, double largest) {
@@ -101,18 +84,6 @@ shared::RadiusField radiusField(const LearnedScene& learned, double radius, doub
         field.factor[k] = static_cast<float>(before);
     }
     return field;
-}
-
-BorderReach borderReach(const shared::RadiusField& field, double radius) {
-    if (field.octaves == 0) return BorderReach(radius);
-    const auto [least, most] = std::minmax_element(field.factor, field.factor + field.octaves + 1);
-    BorderReach reach(radius * *most);
-    reach.smallest = radius * *least;
-    reach.about = [field, radius](const glm::dvec3& center, double extent) {
-        const double away = glm::distance(center, unpack(field.eye));
-        return radius * largestFactor(field, std::max(away - extent, 0.0), away + extent);
-    };
-    return reach;
 }
 
 } // namespace quasilux

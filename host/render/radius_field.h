@@ -9,7 +9,4 @@ namespace quasilux {
 /// as far from it; at most `largest`. None where photons lie evenly, or nothing is known of them.
 shared::RadiusField radiusField(const LearnedScene& learned, double radius, double largest);
 
-/// How far discs reach that have at most `radius` where the field's factor is 1.
-BorderReach borderReach(const shared::RadiusField& field, double radius);
-
 } // namespace quasilux

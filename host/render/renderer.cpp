@@ -25,20 +25,12 @@ void checkCaustics(const Scene& scene, const Features& features, const RenderSet
     if (!why.empty()) throw InputError("--caustics paths: " + why + '.');
 }
 
-// Borders are looked up no further than density estimates reach.
-shared::RadiusField limitBorders(DeviceScene& flat, const RenderSettings& settings, const RadiusSchedule& radii,
-                                 const LearnedScene& learned) {
-    double largest = 0, usual = radii.firstByArea();
+shared::RadiusField fieldOf(const DeviceScene& flat, const RenderSettings& settings, const RadiusSchedule& radii,
+                            const LearnedScene& learned) {
+    double usual = radii.firstByArea();
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
-        if (photonClasses(flat.features, settings) >> c & 1) {
-            largest = std::max(largest, radii.first(c));
-            usual = std::min(usual, radii.first(c));
-        }
-    const shared::RadiusField field = radiusField(learned, usual, radii.firstByArea() / usual);
-    if (adaptsRadius(flat.features, settings)) largest *= largestAdaptiveRadius;
-    setBorderReach(flat, borderReach(field, largest));
-    setLearned(flat, learned.tables);
-    return field;
+        if (photonClasses(flat.features, settings) >> c & 1) usual = std::min(usual, radii.first(c));
+    return radiusField(learned, usual, radii.firstByArea() / usual);
 }
 
 } // namespace
@@ -68,7 +60,6 @@ struct Renderer::Stages {
         device.resetTimings(std::move(timingsBefore)); // only those of passes count
         flat.bvh = {};                                 // on the device now
         flat.tables = {};
-        flat.borders = {};
     }
 
     void chooseRadii() {
@@ -76,7 +67,8 @@ struct Renderer::Stages {
         for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
             if (photonClasses(flat.features, settings) >> c & 1) report.initialRadius[slotName(c)] = radii->first(c);
         if (learned->density == decltype(learned->density){}) return;
-        field = limitBorders(flat, settings, *radii, *learned);
+        field = fieldOf(flat, settings, *radii, *learned);
+        setLearned(flat, learned->tables);
         geometry->tables = {};
         geometry->tables = Buffer<uint32_t>(device, flat.tables, "scene tables");
     }

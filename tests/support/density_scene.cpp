@@ -29,12 +29,6 @@ Scene withLambert(Scene scene) {
     return scene;
 }
 
-DeviceScene flatten(const Scene& scene, float radius) {
-    FlattenSettings settings;
-    settings.largestRadius = [radius](double) { return double(radius); };
-    return flattenScene(scene, settings);
-}
-
 PhotonIndexSettings indexSettings(float radius, unsigned photons) {
     PhotonIndexSettings settings;
     settings.radius[LIGHT_DIFFUSE] = radius;
@@ -77,7 +71,7 @@ std::vector<Piece> piecesOf(const Scene& scene) {
 } // namespace
 
 DensityScene::DensityScene(Scene scene, float radius)
-    : scene_(withLambert(std::move(scene))), radius_(radius), device_(flatten(scene_, radius)),
+    : scene_(withLambert(std::move(scene))), radius_(radius), device_(flattenScene(scene_)),
       tables_(testDevice(), device_.tables, "scene tables") {}
 
 unsigned DensityScene::patchOf(unsigned primitive) const {

@@ -18,9 +18,7 @@ struct RayFrom {
 /// The factor on the first lobe where rays hit, as the kernels have it.
 inline std::vector<glm::vec3> tintsAt(const Scene& scene, const std::vector<RayFrom>& rays,
                                       const std::string& options = "") {
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 0.1; };
-    const DeviceScene flat = flattenScene(scene, flattening);
+    const DeviceScene flat = flattenScene(scene);
     EXPECT_TRUE(flat.features.textures);
     Device& device = testDevice();
     Program program = testProgram("textures.cl", flat.features.options() + " " + bvhOptions(flat.bvh) + options);

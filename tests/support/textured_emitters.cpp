@@ -37,7 +37,7 @@ std::vector<float> launch(const char* kernel, const TexturedEmitter& emitter, co
 } // namespace
 
 TexturedEmitter lastEmitter(const Scene& scene) {
-    const FlattenSettings settings{"auto", 1000, false, [](double) { return 1.0; }};
+    const FlattenSettings settings{"auto", 1000, false};
     const DeviceScene flat = flattenScene(scene, settings);
     TexturedEmitter emitter;
     emitter.record = flat.emitters.emitters.back();

@@ -34,9 +34,7 @@ GuideTables cornerGuide(const EmitterTables& emitters) {
 
 std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSettings& settings) {
     auto learned = std::make_shared<LearnedScene>(*Renderer(testDevice(), scene, settings).learned());
-    FlattenSettings flattening;
-    flattening.largestRadius = [](double) { return 1; };
-    learned->tables.guide = cornerGuide(flattenScene(scene, flattening).emitters);
+    learned->tables.guide = cornerGuide(flattenScene(scene).emitters);
     learned->tables.aims.clear();
     learned->tables.seenCells = {0};
     learned->usualWorth = 0;

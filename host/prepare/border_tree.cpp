@@ -1,0 +1,107 @@
+#include "prepare/border_tree.h"
+
+#include "prepare/pack.h"
+#include "scene/box.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace quasilux {
+namespace {
+
+constexpr size_t largestLeaf = 4;
+/// Of the largest coordinate: what a kernel's distances in single precision may be off by.
+constexpr double rounding = 1e-6;
+
+/// A segment; `group`: the middle of all segments of its first patch, which keeps them together.
+struct Entry {
+    shared::BorderSegment segment;
+    glm::dvec3 middle, group;
+};
+
+using Entries = std::vector<Entry>::iterator;
+
+Box boxOf(const shared::BorderSegment& segment) {
+    Box box;
+    box.add(unpack(segment.a));
+    box.add(unpack(segment.b));
+    return box;
+}
+
+std::vector<Entry> entriesOf(const std::vector<shared::BorderSegment>& segments) {
+    std::unordered_map<unsigned, Box> boxes;
+    for (const auto& segment : segments) {
+        const auto [place, isNew] = boxes.try_emplace(segment.patchA);
+        place->second.add(unpack(segment.a));
+        place->second.add(unpack(segment.b));
+    }
+    std::vector<Entry> entries;
+    for (const auto& segment : segments)
+        entries.push_back({segment, boxOf(segment).center(), boxes.at(segment.patchA).center()});
+    return entries;
+}
+
+shared::BorderNode nodeOf(Entries first, Entries last) {
+    Box box;
+    shared::BorderNode node{};
+    node.patchFirst = QL_NONE;
+    for (auto entry = first; entry != last; ++entry) {
+        for (const auto& end : {entry->segment.a, entry->segment.b}) box.add(unpack(end));
+        for (const unsigned patch : {entry->segment.patchA, entry->segment.patchB}) {
+            if (patch == QL_NONE) continue;
+            node.patchFirst = std::min(node.patchFirst, patch);
+            node.patchLast = std::max(node.patchLast, patch);
+        }
+    }
+    const glm::dvec3 largest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+    node.center = pack(glm::vec3(box.center()));
+    node.halfExtent =
+        pack(glm::vec3(0.5 * (box.upper - box.lower) + rounding * std::max({largest.x, largest.y, largest.z})));
+    return node;
+}
+
+/// Where the range is parted: half way by `key` along its longest axis, and between two patches where there are several.
+Entries part(Entries first, Entries last, glm::dvec3 Entry::*key, bool betweenPatches) {
+    Box box;
+    for (auto entry = first; entry != last; ++entry) box.add((*entry).*key);
+    const int axis = longestAxis(box.upper - box.lower);
+    std::stable_sort(first, last, [&](const Entry& a, const Entry& b) {
+        const double x = (a.*key)[axis], y = (b.*key)[axis];
+        return x != y ? x < y : betweenPatches && a.segment.patchA < b.segment.patchA;
+    });
+    const Entries middle = first + (last - first) / 2;
+    if (!betweenPatches) return middle;
+    const auto patch = middle->segment.patchA;
+    Entries from = middle, to = middle;
+    while (from != first && (from - 1)->segment.patchA == patch) --from;
+    while (to != last && to->segment.patchA == patch) ++to;
+    return from != first && (to == last || middle - from <= to - middle) ? from : to;
+}
+
+void build(Entries first, Entries last, BorderTree& tree) {
+    const size_t index = tree.nodes.size();
+    tree.nodes.push_back(nodeOf(first, last));
+    const bool severalPatches =
+        std::any_of(first, last, [&](const Entry& entry) { return entry.segment.patchA != first->segment.patchA; });
+    if (static_cast<size_t>(last - first) <= largestLeaf) {
+        tree.nodes[index].first = static_cast<unsigned>(tree.segments.size());
+        tree.nodes[index].count = static_cast<unsigned>(last - first);
+        for (auto entry = first; entry != last; ++entry) tree.segments.push_back(entry->segment);
+    } else {
+        const Entries middle = part(first, last, severalPatches ? &Entry::group : &Entry::middle, severalPatches);
+        build(first, middle, tree);
+        build(middle, last, tree);
+    }
+    tree.nodes[index].next = static_cast<unsigned>(tree.nodes.size());
+}
+
+} // namespace
+
+BorderTree buildBorderTree(const std::vector<shared::BorderSegment>& segments) {
+    BorderTree tree;
+    std::vector<Entry> entries = entriesOf(segments);
+    if (!entries.empty()) build(entries.begin(), entries.end(), tree);
+    return tree;
+}
+
+} // namespace quasilux

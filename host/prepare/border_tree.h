@@ -1,0 +1,16 @@
+// Tree over the border segments, in which density estimates find those that cut their disc (kernels/border_tree.clh).
+#pragma once
+
+#include "prepare/borders.h"
+
+namespace quasilux {
+
+struct BorderTree {
+    std::vector<shared::BorderNode> nodes;       ///< depth first, node 0 the root; none where there is no segment
+    std::vector<shared::BorderSegment> segments; ///< in the order of the leaves
+};
+
+/// Binary tree: segments of different patches are parted first, those of one patch by their places.
+BorderTree buildBorderTree(const std::vector<shared::BorderSegment>& segments);
+
+} // namespace quasilux
