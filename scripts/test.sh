@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 # Tests that need no OpenCL device: they run under the sanitizers too.
 hostTests=(loader_test sensor_loader_test bsdf_loader_test luminaire_loader_test scene_errors_test plugin_errors_test document_errors_test mesh_errors_test shapes_test borders_test
-    border_cuts_test output_test statistics_test png_test medium_loader_test media_placement_test medium_split_test compare_test
+    border_cuts_test border_tree_test output_test statistics_test png_test medium_loader_test media_placement_test medium_split_test compare_test
     origin_test goniogram_test goniogram_errors_test sun_position_test perez_sky_test view_test fuzz_seeds_test)
 
 # Tests that take more than some five seconds; a new test is quick until it is listed here.

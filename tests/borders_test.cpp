@@ -1,4 +1,4 @@
-// Patches, border edges, curvature and the grid over them, on surfaces whose borders can be counted by hand.
+// Patches, border edges and curvature, on surfaces whose borders can be counted by hand.
 #include "prepare/borders.h"
 
 #include "support/border_scenes.h"
@@ -7,10 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <gtest/gtest.h>
-#include <random>
-#include <set>
 
 namespace quasilux {
 namespace {
@@ -201,104 +198,10 @@ TEST(Borders, NullShapesAreNoBorders) {
     }
 }
 
-double distanceToSegment(const dvec3& p, const shared::BorderSegment& s) {
-    const dvec3 a = point(s.a), along = point(s.b) - a;
-    const double t = std::clamp(glm::dot(p - a, along) / std::max(1e-300, glm::dot(along, along)), 0.0, 1.0);
-    return glm::distance(p, a + t * along);
-}
-
-/// Points near the segments for which the grid does not list a segment within `reach`; the cell is found as a kernel
-/// would.
-size_t countMissed(const SurfaceBorders& borders, const SurfaceBorders::Grid& grid,
-                   const std::function<double(const glm::dvec3&)>& reachAt, size_t& near) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> uniform(-1, 1), share(0, 1);
-    size_t missed = 0;
-    for (int trial = 0; trial < 5000; ++trial) {
-        const auto& s = borders.segments[random() % borders.segments.size()];
-        const glm::dvec3 about = glm::mix(point(s.a), point(s.b), share(random));
-        const glm::vec3 p = glm::vec3(about) + 1.5f * static_cast<float>(reachAt(about)) *
-                                                   glm::vec3(uniform(random), uniform(random), uniform(random));
-        const double reach = reachAt(p);
-        std::set<unsigned> listed;
-        const glm::vec3 cell = glm::floor((p - grid.lower) / grid.cellSize);
-        if (glm::all(glm::greaterThanEqual(cell, glm::vec3(0))) &&
-            glm::all(glm::lessThan(cell, glm::vec3(grid.cells)))) {
-            const size_t index = (size_t(cell.z) * grid.cells.y + size_t(cell.y)) * grid.cells.x + size_t(cell.x);
-            listed.insert(grid.items.begin() + grid.cellStart[index], grid.items.begin() + grid.cellStart[index + 1]);
-        }
-        for (unsigned i = 0; i < borders.segments.size(); ++i)
-            if (distanceToSegment(p, borders.segments[i]) <= reach) {
-                ++near;
-                missed += !listed.count(i);
-            }
-    }
-    return missed;
-}
-
-size_t countMissed(const SurfaceBorders& borders, const SurfaceBorders::Grid& grid, float reach, size_t& near) {
-    return countMissed(
-        borders, grid, [reach](const glm::dvec3&) { return reach; }, near);
-}
-
-// Density radii grow with the distance from an eye; control: what the cell's extent adds is left out, and half of the rest.
-TEST(Borders, GridListsAllSegmentsWithinAReachThatGrows) {
-    Scene scene = cornellBox();
-    addSphere(scene, {2, 0.3, 2}, 1);
-    const SurfaceBorders borders = findBorders(scene);
-    const auto reachAt = [](const glm::dvec3& p) { return 0.01 + 0.2 * glm::distance(p, {2, 0, 2}); };
-    BorderReach reach(3);
-    reach.smallest = 0.01;
-    reach.about = [&](const glm::dvec3& center, double radius) { return reachAt(center) + 0.2 * radius; };
-    size_t near = 0;
-    const auto grid = indexBorders(borders, reach);
-    EXPECT_EQ(countMissed(borders, grid, reachAt, near), 0u);
-    EXPECT_GT(near, 1000u);
-    const auto listed = [](const SurfaceBorders::Grid& g) {
-        return double(g.items.size()) / double(g.cellStart.size());
-    };
-    EXPECT_LT(listed(grid), listed(indexBorders(borders, BorderReach(3))) / 2) << "nothing is gained";
-    reach.about = [&](const glm::dvec3& center, double) { return reachAt(center) / 2; };
-    EXPECT_GT(countMissed(borders, indexBorders(borders, reach), reachAt, near), 0u) << "negative control";
-}
-
-TEST(Borders, GridListsAllSegmentsWithinReach) {
-    for (const double offset : {0.0, 1e4}) {
-        Scene scene = cornellBox();
-        addSphere(scene, {2, 0.3, 2}, 1);
-        addCube(scene, glm::rotate(glm::translate(glm::dmat4(1), {3, 3, 3}), 0.7, {1, 2, 3}));
-        transform(scene, 1, dvec3(offset));
-        const SurfaceBorders borders = findBorders(scene);
-        for (const float reach : {0.02f, 0.3f, 2.0f, 50.0f}) {
-            size_t near = 0, nearHalved = 0;
-            const SurfaceBorders::Grid grid = indexBorders(borders, BorderReach(reach));
-            EXPECT_EQ(countMissed(borders, grid, reach, near), 0u) << reach;
-            EXPECT_GT(near, 1000u);
-            EXPECT_LE(double(grid.cells.x) * grid.cells.y * grid.cells.z, 2e6);
-            if (reach == 0.3f) { // negative control: a grid for half the reach misses some
-                EXPECT_GT(countMissed(borders, indexBorders(borders, BorderReach(reach / 2)), reach, nearHalved), 0u)
-                    << reach;
-            }
-        }
-    }
-}
-
-TEST(Borders, EmptyGridIsOneCell) {
-    const SurfaceBorders::Grid grid = indexBorders(SurfaceBorders{}, BorderReach(1));
-    EXPECT_EQ(grid.cells, glm::uvec3(1));
-    EXPECT_EQ(grid.cellStart, (std::vector<unsigned>{0, 0}));
-    EXPECT_TRUE(grid.items.empty());
+TEST(Borders, EmptySceneHasNone) {
     const SurfaceBorders empty = findBorders(Scene{});
     EXPECT_EQ(empty.patchCount, 0u);
     EXPECT_TRUE(empty.segments.empty());
-}
-
-TEST(Borders, TinyReachKeepsTheGridSmall) {
-    const SurfaceBorders borders = findBorders(cornellBox());
-    const SurfaceBorders::Grid grid = indexBorders(borders, BorderReach(1e-5f));
-    EXPECT_LE(grid.cellStart.size(), 2000001u);
-    EXPECT_GT(grid.cellStart.size(), 500000u);
-    EXPECT_LT(grid.items.size(), 100000u); // 36 segments of about 130 cells, a few deep
 }
 
 TEST(Borders, LargeMesh) {
@@ -308,12 +211,8 @@ TEST(Borders, LargeMesh) {
     const auto start = std::chrono::steady_clock::now();
     const SurfaceBorders borders = findBorders(scene);
     const auto found = std::chrono::steady_clock::now();
-    const SurfaceBorders::Grid grid = indexBorders(borders, BorderReach(0.02f));
-    const auto indexed = std::chrono::steady_clock::now();
-    std::printf("%zu primitives, %zu segments: found in %.2f s, indexed in %.2f s (%zu items)\n",
-                borders.patchOfPrimitive.size(), borders.segments.size(),
-                std::chrono::duration<double>(found - start).count(),
-                std::chrono::duration<double>(indexed - found).count(), grid.items.size());
+    std::printf("%zu primitives, %zu segments: found in %.2f s\n", borders.patchOfPrimitive.size(),
+                borders.segments.size(), std::chrono::duration<double>(found - start).count());
     EXPECT_EQ(borders.patchCount, 2u);
     EXPECT_NEAR(totalLength(borders), 40 + 2 * pi * std::sqrt(1 - 0.81), 1e-3);
 }

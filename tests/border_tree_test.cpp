@@ -1,0 +1,114 @@
+// The tree over border segments: what a walk through it relies on. What kernels find in it: density_test.cpp.
+#include "prepare/border_tree.h"
+
+#include "prepare/pack.h"
+#include "support/border_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <tuple>
+
+namespace quasilux {
+namespace {
+
+using glm::dvec3;
+using Segments = std::vector<shared::BorderSegment>;
+
+/// Walks down from `index`; returns the first node that is not below it. `wrong` counts what breaks the tree's promises.
+unsigned checkBelow(const BorderTree& tree, unsigned index, std::vector<unsigned>& held, unsigned& wrong) {
+    const shared::BorderNode& node = tree.nodes[index];
+    unsigned next = index + 1;
+    std::vector<unsigned> below;
+    if (node.count > 0)
+        for (unsigned k = 0; k < node.count; ++k) below.push_back(node.first + k);
+    else
+        for (int child = 0; child < 2; ++child) next = checkBelow(tree, next, below, wrong);
+    wrong += node.next != next;
+    for (const unsigned k : below) {
+        const shared::BorderSegment& segment = tree.segments[k];
+        for (const auto& end : {segment.a, segment.b})
+            wrong += glm::any(glm::greaterThan(glm::abs(unpack(end) - unpack(node.center)), unpack(node.halfExtent)));
+        for (const unsigned patch : {segment.patchA, segment.patchB})
+            wrong += patch != QL_NONE && (patch < node.patchFirst || patch > node.patchLast);
+    }
+    held.insert(held.end(), below.begin(), below.end());
+    return next;
+}
+
+unsigned mistakesOf(const BorderTree& tree) {
+    std::vector<unsigned> held;
+    unsigned wrong = 0;
+    const unsigned end = checkBelow(tree, 0, held, wrong);
+    wrong += end != tree.nodes.size();
+    std::sort(held.begin(), held.end());
+    for (unsigned k = 0; k < tree.segments.size(); ++k) wrong += k >= held.size() || held[k] != k;
+    return wrong;
+}
+
+auto asTuple(const shared::BorderSegment& s) {
+    return std::tuple{s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z, s.patchA, s.patchB};
+}
+
+bool areTheSame(Segments a, Segments b) {
+    const auto less = [](const auto& x, const auto& y) { return asTuple(x) < asTuple(y); };
+    std::sort(a.begin(), a.end(), less);
+    std::sort(b.begin(), b.end(), less);
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const auto& x, const auto& y) { return asTuple(x) == asTuple(y); });
+}
+
+/// Rims of `count` round leaves, 64 segments each, one above the other.
+Segments leaves(unsigned count) {
+    Segments segments;
+    for (unsigned leaf = 0; leaf < count; ++leaf)
+        for (unsigned k = 0; k < 64; ++k) {
+            const auto at = [&](unsigned step) {
+                const double angle = 2 * pi * step / 64;
+                return pack(dvec3(std::cos(angle), std::sin(angle), 0.2 * leaf));
+            };
+            segments.push_back({at(k), at(k + 1), leaf, QL_NONE});
+        }
+    return segments;
+}
+
+TEST(BorderTree, HoldsEachSegmentInOneLeafAndInAllBoxesAbove) {
+    for (const double offset : {0.0, 1e4}) {
+        Scene scene = cornellBox();
+        addSphere(scene, {2, 0.3, 2}, 1);
+        addCube(scene, glm::rotate(glm::translate(glm::dmat4(1), {3, 3, 3}), 0.7, {1, 2, 3}));
+        transform(scene, 1, dvec3(offset));
+        for (const Segments& segments : {findBorders(scene).segments, leaves(30)}) {
+            BorderTree tree = buildBorderTree(segments);
+            EXPECT_TRUE(areTheSame(segments, tree.segments));
+            EXPECT_EQ(mistakesOf(tree), 0u);
+            // Negative controls: a box that is too small, a patch that is not named, a wrong next node.
+            BorderTree wrong = tree;
+            wrong.nodes[0].halfExtent.x *= 0.9f;
+            EXPECT_GT(mistakesOf(wrong), 0u);
+            wrong = tree;
+            --wrong.nodes[0].patchLast;
+            EXPECT_GT(mistakesOf(wrong), 0u);
+            wrong = tree;
+            ++wrong.nodes[1].next;
+            EXPECT_GT(mistakesOf(wrong), 0u);
+        }
+    }
+}
+
+// A walk that takes one patch only passes by the others, also where they lie in one place.
+TEST(BorderTree, PartsPatches) {
+    const BorderTree tree = buildBorderTree(leaves(100));
+    unsigned visited = 0;
+    for (unsigned n = 0; n < tree.nodes.size(); ++visited) {
+        const auto& node = tree.nodes[n];
+        n = node.patchFirst <= 42 && 42 <= node.patchLast ? n + 1 : node.next;
+    }
+    EXPECT_LT(visited, 80u); // of about 4,000: those of one rim, and two for each level above
+    EXPECT_GT(visited, 20u);
+}
+
+TEST(BorderTree, OfNothingIsEmpty) { EXPECT_TRUE(buildBorderTree({}).nodes.empty()); }
+
+} // namespace
+} // namespace quasilux
