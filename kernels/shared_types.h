@@ -75,6 +75,7 @@ typedef struct {
 /* Node of the tree over the segments (border_tree.clh), in depth-first order. */
 typedef struct {
     Packed3 center, halfExtent;         /* of its box */
+    float radius;                       /* of the ball about it */
     unsigned int patchFirst, patchLast; /* all patches of its segments lie between */
     unsigned int next;                  /* the first node that is not below it */
     unsigned int first, count;          /* segments of a leaf; count 0: an inner node */

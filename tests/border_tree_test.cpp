@@ -27,13 +27,21 @@ unsigned checkBelow(const BorderTree& tree, unsigned index, std::vector<unsigned
     wrong += node.next != next;
     for (const unsigned k : below) {
         const shared::BorderSegment& segment = tree.segments[k];
-        for (const auto& end : {segment.a, segment.b})
+        for (const auto& end : {segment.a, segment.b}) {
+            wrong += glm::distance(unpack(end), unpack(node.center)) > node.radius;
             wrong += glm::any(glm::greaterThan(glm::abs(unpack(end) - unpack(node.center)), unpack(node.halfExtent)));
+        }
         for (const unsigned patch : {segment.patchA, segment.patchB})
             wrong += patch != QL_NONE && (patch < node.patchFirst || patch > node.patchLast);
     }
     held.insert(held.end(), below.begin(), below.end());
     return next;
+}
+
+bool isBelow(const BorderTree& tree, unsigned segment, unsigned node) {
+    for (unsigned n = node; n < tree.nodes[node].next; ++n)
+        if (segment - tree.nodes[n].first < tree.nodes[n].count) return true;
+    return false;
 }
 
 unsigned mistakesOf(const BorderTree& tree) {
@@ -42,7 +50,11 @@ unsigned mistakesOf(const BorderTree& tree) {
     const unsigned end = checkBelow(tree, 0, held, wrong);
     wrong += end != tree.nodes.size();
     std::sort(held.begin(), held.end());
-    for (unsigned k = 0; k < tree.segments.size(); ++k) wrong += k >= held.size() || held[k] != k;
+    for (unsigned k = 0; k < tree.segments.size(); ++k) {
+        wrong += k >= held.size() || held[k] != k;
+        const unsigned node = tree.nodeOfPatch[tree.segments[k].patchA];
+        wrong += node == QL_NONE || !isBelow(tree, k, node);
+    }
     return wrong;
 }
 
@@ -79,7 +91,7 @@ TEST(BorderTree, HoldsEachSegmentInOneLeafAndInAllBoxesAbove) {
         addCube(scene, glm::rotate(glm::translate(glm::dmat4(1), {3, 3, 3}), 0.7, {1, 2, 3}));
         transform(scene, 1, dvec3(offset));
         for (const Segments& segments : {findBorders(scene).segments, leaves(30)}) {
-            BorderTree tree = buildBorderTree(segments);
+            BorderTree tree = buildBorderTree(segments, 200);
             EXPECT_TRUE(areTheSame(segments, tree.segments));
             EXPECT_EQ(mistakesOf(tree), 0u);
             // Negative controls: a box that is too small, a patch that is not named, a wrong next node.
@@ -92,13 +104,16 @@ TEST(BorderTree, HoldsEachSegmentInOneLeafAndInAllBoxesAbove) {
             wrong = tree;
             ++wrong.nodes[1].next;
             EXPECT_GT(mistakesOf(wrong), 0u);
+            wrong = tree;
+            wrong.nodeOfPatch[tree.segments[0].patchA] = tree.nodeOfPatch[tree.segments.back().patchA];
+            EXPECT_GT(mistakesOf(wrong), 0u);
         }
     }
 }
 
 // A walk that takes one patch only passes by the others, also where they lie in one place.
 TEST(BorderTree, PartsPatches) {
-    const BorderTree tree = buildBorderTree(leaves(100));
+    const BorderTree tree = buildBorderTree(leaves(100), 100);
     unsigned visited = 0;
     for (unsigned n = 0; n < tree.nodes.size(); ++visited) {
         const auto& node = tree.nodes[n];
@@ -108,7 +123,7 @@ TEST(BorderTree, PartsPatches) {
     EXPECT_GT(visited, 20u);
 }
 
-TEST(BorderTree, OfNothingIsEmpty) { EXPECT_TRUE(buildBorderTree({}).nodes.empty()); }
+TEST(BorderTree, OfNothingIsEmpty) { EXPECT_TRUE(buildBorderTree({}, 0).nodes.empty()); }
 
 } // namespace
 } // namespace quasilux

@@ -55,8 +55,9 @@ shared::BorderNode nodeOf(Entries first, Entries last) {
     }
     const glm::dvec3 largest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
     node.center = pack(glm::vec3(box.center()));
-    node.halfExtent =
-        pack(glm::vec3(0.5 * (box.upper - box.lower) + rounding * std::max({largest.x, largest.y, largest.z})));
+    const double slack = rounding * std::max({largest.x, largest.y, largest.z});
+    node.halfExtent = pack(0.5 * box.extent() + slack);
+    node.radius = static_cast<float>(0.5 * box.diagonal() * (1 + rounding) + slack);
     return node;
 }
 
@@ -83,7 +84,13 @@ void build(Entries first, Entries last, BorderTree& tree) {
     tree.nodes.push_back(nodeOf(first, last));
     const bool severalPatches =
         std::any_of(first, last, [&](const Entry& entry) { return entry.segment.patchA != first->segment.patchA; });
-    if (static_cast<size_t>(last - first) <= largestLeaf) {
+    const bool isLeaf = static_cast<size_t>(last - first) <= largestLeaf;
+    // From the root down: the first node that is not parted between patches.
+    if (isLeaf || !severalPatches)
+        for (auto entry = first; entry != last; ++entry)
+            if (auto& node = tree.nodeOfPatch[entry->segment.patchA]; node == QL_NONE)
+                node = static_cast<unsigned>(index);
+    if (isLeaf) {
         tree.nodes[index].first = static_cast<unsigned>(tree.segments.size());
         tree.nodes[index].count = static_cast<unsigned>(last - first);
         for (auto entry = first; entry != last; ++entry) tree.segments.push_back(entry->segment);
@@ -97,8 +104,9 @@ void build(Entries first, Entries last, BorderTree& tree) {
 
 } // namespace
 
-BorderTree buildBorderTree(const std::vector<shared::BorderSegment>& segments) {
+BorderTree buildBorderTree(const std::vector<shared::BorderSegment>& segments, unsigned patchCount) {
     BorderTree tree;
+    tree.nodeOfPatch.assign(patchCount, QL_NONE);
     std::vector<Entry> entries = entriesOf(segments);
     if (!entries.empty()) build(entries.begin(), entries.end(), tree);
     return tree;
