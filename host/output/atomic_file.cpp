@@ -62,8 +62,9 @@ void checkOutputPath(const std::string& path, const std::string& option, const s
     std::string found = file.extension().string();
     std::transform(found.begin(), found.end(), found.begin(), [](unsigned char c) { return std::tolower(c); });
     if (found != extension)
-        throw InputError(fmt::format("{} {}: {}, expected a name that ends in {}", option, path,
-                                     found.empty() ? "no extension" : "unknown extension '" + found + "'", extension));
+        throw InputError(fmt::format("{} {}: {}, expected a name that ends in {}{}", option, path,
+                                     found.empty() ? "no extension" : "unknown extension '" + found + "'", extension,
+                                     extension == ".exr" ? "; --png FILE writes a picture for the screen" : ""));
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     std::error_code status;
     if (!fs::is_directory(folder, status))
