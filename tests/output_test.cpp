@@ -240,7 +240,8 @@ TEST_F(OutputTest, OutputPathsAreCheckedWithoutATrace) {
         return "";
     };
     EXPECT_THAT(message(path("gone/a.exr")), HasSubstr("does not exist"));
-    EXPECT_THAT(message(path("a.jpg")), HasSubstr("unknown extension '.jpg', expected a name that ends in .exr; --png FILE writes"));
+    EXPECT_THAT(message(path("a.jpg")),
+                HasSubstr("unknown extension '.jpg', expected a name that ends in .exr; --png FILE writes"));
     EXPECT_THAT(message(path("a")), HasSubstr("no extension"));
     fs::create_directory(path("b.exr"));
     EXPECT_THAT(message(path("b.exr")), HasSubstr("is a folder"));
