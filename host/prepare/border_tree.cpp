@@ -36,6 +36,7 @@ std::vector<Entry> entriesOf(const std::vector<shared::BorderSegment>& segments)
         place->second.add(unpack(segment.b));
     }
     std::vector<Entry> entries;
+    entries.reserve(segments.size());
     for (const auto& segment : segments)
         entries.push_back({segment, boxOf(segment).center(), boxes.at(segment.patchA).center()});
     return entries;
