@@ -96,9 +96,9 @@ TEST_F(MemoryTest, OfAnotherRenderDiffers) {
 // Photons that weight windows split are forecast from a pilot of fewer paths, each of which carries more. A forecast that took these
 // for bright photons made room for over 30 times as many here.
 TEST_F(MemoryTest, RoomForSplitPhotonsIsNearTheirNumber) {
-    runJson({scene("real/daylight.xml"), "--json", "--quiet", "--passes", "2", "--photons", "400000", "--stats",
-             "stats.json"},
-            "render");
+    const Outcome outcome = CommandLineTest::run({"render", scene("real/daylight.xml"), "--quiet", "--passes", "2",
+                                                  "--photons", "400000", "--stats", "stats.json"}); // learned
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
     const auto statistics = nlohmann::json::parse(readText(folder / "stats.json"), nullptr, false);
     const double stored = statistics.at("counters").at("storedBytes"); // of one pass
     const double room = statistics.at("sceneReport").at("bufferBytes").at("photons");
