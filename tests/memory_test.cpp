@@ -94,7 +94,7 @@ TEST_F(MemoryTest, OfAnotherRenderDiffers) {
 }
 
 // Photons that weight windows split are forecast from a pilot of fewer paths, each of which carries more. A forecast that took these
-// for bright photons made room for over 30 times as many here.
+// for bright photons made room for 19 times as many here.
 TEST_F(MemoryTest, RoomForSplitPhotonsIsNearTheirNumber) {
     const Outcome outcome = CommandLineTest::run({"render", scene("real/daylight.xml"), "--quiet", "--passes", "2",
                                                   "--photons", "400000", "--stats", "stats.json"}); // learned
