@@ -30,11 +30,7 @@ Box boxOf(const shared::BorderSegment& segment) {
 
 std::vector<Entry> entriesOf(const std::vector<shared::BorderSegment>& segments) {
     std::unordered_map<unsigned, Box> boxes;
-    for (const auto& segment : segments) {
-        const auto [place, isNew] = boxes.try_emplace(segment.patchA);
-        place->second.add(unpack(segment.a));
-        place->second.add(unpack(segment.b));
-    }
+    for (const auto& segment : segments) boxes[segment.patchA].add(boxOf(segment));
     std::vector<Entry> entries;
     entries.reserve(segments.size());
     for (const auto& segment : segments)
@@ -47,7 +43,7 @@ shared::BorderNode nodeOf(Entries first, Entries last) {
     shared::BorderNode node{};
     node.patchFirst = QL_NONE;
     for (auto entry = first; entry != last; ++entry) {
-        for (const auto& end : {entry->segment.a, entry->segment.b}) box.add(unpack(end));
+        box.add(boxOf(entry->segment));
         for (const unsigned patch : {entry->segment.patchA, entry->segment.patchB}) {
             if (patch == QL_NONE) continue;
             node.patchFirst = std::min(node.patchFirst, patch);
@@ -55,7 +51,7 @@ shared::BorderNode nodeOf(Entries first, Entries last) {
         }
     }
     const glm::dvec3 largest = glm::max(glm::abs(box.lower), glm::abs(box.upper));
-    node.center = pack(glm::vec3(box.center()));
+    node.center = pack(box.center());
     const double slack = rounding * std::max({largest.x, largest.y, largest.z});
     node.halfExtent = pack(0.5 * box.extent() + slack);
     node.radius = static_cast<float>(0.5 * box.diagonal() * (1 + rounding) + slack);
@@ -66,7 +62,7 @@ shared::BorderNode nodeOf(Entries first, Entries last) {
 Entries part(Entries first, Entries last, glm::dvec3 Entry::*key, bool betweenPatches) {
     Box box;
     for (auto entry = first; entry != last; ++entry) box.add((*entry).*key);
-    const int axis = longestAxis(box.upper - box.lower);
+    const int axis = longestAxis(box.extent());
     std::stable_sort(first, last, [&](const Entry& a, const Entry& b) {
         const double x = (a.*key)[axis], y = (b.*key)[axis];
         return x != y ? x < y : betweenPatches && a.segment.patchA < b.segment.patchA;

@@ -68,9 +68,6 @@ struct Renderer::Stages {
             if (photonClasses(flat.features, settings) >> c & 1) report.initialRadius[slotName(c)] = radii->first(c);
         if (learned->density == decltype(learned->density){}) return;
         field = fieldOf(flat, settings, *radii, *learned);
-        setLearned(flat, learned->tables);
-        geometry->tables = {};
-        geometry->tables = Buffer<uint32_t>(device, flat.tables, "scene tables");
     }
 
     void preparePasses(const Scene& scene) {
