@@ -59,14 +59,17 @@ formatIsRight() {
 
 # Sources by the dozen, as preset ci joins them (CMAKE_UNITY_BUILD): most of the time goes into the headers of libraries. By the name of
 # UnifiedSource clang's analyzer knows that the sources which such a file includes are no headers. Headers of host/ are checked
-# with them (.clang-tidy). GCC's own flags are unknown to clang.
+# with them (.clang-tidy). GCC's own flags and precompiled headers are unknown to clang. The analyzer follows 20,000 states of a function, not 225,000,
+# which took four fifths of the time.
 analysisIsClean() {
     local log=$logs/clang-tidy.log commands=build/ci/analysis source
     mkdir -p "$commands"
-    sed 's,/Unity/unity_,/Unity/UnifiedSource_,g' build/ci/compile_commands.json >"$commands/compile_commands.json"
+    sed 's,/Unity/unity_,/Unity/UnifiedSource_,g; s,-Winvalid-pch -include [^ ]*/cmake_pch.hxx ,,g' build/ci/compile_commands.json \
+        >"$commands/compile_commands.json"
     while read -r source; do cp "$source" "${source/unity_/UnifiedSource_}"; done < <(find build/ci/CMakeFiles -name 'unity_*.cxx')
     sed -nE 's,^ *"file": "(.*/(Unity|host)/.*)".*,\1,p' "$commands/compile_commands.json" | sort |
         xargs --max-procs="$(nproc)" --max-args=1 clang-tidy -p "$commands" --quiet --extra-arg=-Wno-unknown-warning-option \
+            --extra-arg=-Xclang --extra-arg=-analyzer-config --extra-arg=-Xclang --extra-arg=max-nodes=20000 \
             >"$log" 2>&1 || { grep -v 'warnings\? generated' "$log"; return 1; }
 }
 

@@ -1,5 +1,6 @@
 // Same device, same seed: the same bits, whatever the scheduling. That parts of a render merge to the whole: checkpoint_test.
 #include "support/render_statistics.h"
+#include "support/test_kernels.h"
 
 #include "device/device.h"
 
@@ -23,8 +24,7 @@ RenderSettings smallSettings(DirectLight direct = DirectLight::emitters) {
 
 FilmImage renderThese(const std::vector<unsigned>& passes, const RenderSettings& settings,
                       unsigned workGroupSize = 64) {
-    Device device(0, workGroupSize);
-    Renderer renderer(device, smallCornell(), settings);
+    Renderer renderer(testDevice(workGroupSize), smallCornell(), settings);
     for (const unsigned pass : passes) renderer.renderPass(pass);
     return renderer.develop();
 }

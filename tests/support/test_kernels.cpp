@@ -1,14 +1,15 @@
 #include "support/test_kernels.h"
 
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
 namespace quasilux {
 
-Device& testDevice() {
-    static Device device(0);
-    return device;
+Device& testDevice(unsigned workGroupSize) {
+    static std::map<unsigned, Device> devices;
+    return devices.try_emplace(workGroupSize, 0, workGroupSize).first->second;
 }
 
 Program testProgram(const std::string& file, const std::string& options) {

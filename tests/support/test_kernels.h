@@ -7,8 +7,9 @@
 
 namespace quasilux {
 
-/// The first device, shared by all tests of a program.
-Device& testDevice();
+/// The first device, shared by all tests of a program: each context of PoCL reads its library of kernels anew, which takes as long as a
+/// third of a render's kernels.
+Device& testDevice(unsigned workGroupSize = 64);
 
 /// Builds tests/kernels/`file`, which may include anything of kernels/.
 Program testProgram(const std::string& file, const std::string& options = "");
