@@ -99,6 +99,7 @@ typedef struct {
     Packed3 position;
     unsigned int face; /* importanceFace() */
     float weight;      /* throughput, mean of R, G, B; 0: none */
+    float found; /* radiance that the path found by this vertex: by samples of emitters and by what it then ran into */
 } PilotVertex;
 
 typedef struct {

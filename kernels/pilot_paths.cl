@@ -58,6 +58,7 @@ inline int keepRecord(EmissionRecord* kept, float weight, uint emitter, uint ele
 inline void foundEmission(PilotPath* path, const PilotState* state, int isDirect, float weight, float gatheredShare,
                           float probability, uint emitter, uint element, float3 position, float3 direction, Rng* rng) {
     path->radiance += weight;
+    if (state->vertices > 0) path->vertices[state->vertices - 1].found += weight;
     if (!state->gathers && !isDirect) return;
     if (keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element, isDirect ? 1 / probability : 0,
                    position, -direction, rng) &&
@@ -354,7 +355,7 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     path.indirect.inverseDensity = path.direct.inverseDensity = 0;
     path.radiance = path.gatheredShare = 0;
     path.pixel = path.indirect.pixel = path.direct.pixel = pixel;
-    for (uint k = 0; k < PILOT_VERTICES; ++k) path.vertices[k].weight = 0;
+    for (uint k = 0; k < PILOT_VERTICES; ++k) path.vertices[k].weight = path.vertices[k].found = 0;
     PilotState state;
     state.rng = rngMake((ulong)params.seedHigh << 32 | params.seedLow, 0, STREAM_PILOT, index);
     state.throughput = 1;

@@ -5,6 +5,7 @@
 #include "learn/guide.h"
 #include "learn/guide_tree.h"
 #include "learn/openings.h"
+#include "prepare/pack.h"
 #include "render/renderer.h"
 #include "scene/color.h"
 #include "support/render_statistics.h"
@@ -219,7 +220,7 @@ TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
         const double away = 0.02 * std::pow(100, number(random)), turn = 2 * std::numbers::pi * number(random);
         path.vertices[0].position = {float(away * std::cos(turn)), float(away * std::sin(turn)), 0};
         path.vertices[1].position = {float(20 * number(random) - 10), float(20 * number(random) - 10), 8};
-        path.vertices[0].weight = path.vertices[1].weight = 1;
+        path.vertices[0].weight = path.vertices[1].weight = path.vertices[1].found = 1;
     }
     const auto sets = findAims(paths, std::vector<double>(paths.size(), 1), {}, 10);
     ASSERT_FALSE(sets.empty());
@@ -236,6 +237,33 @@ TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
         EXPECT_GT(densityAt(away) / densityAt(2 * away), 1.9);
         EXPECT_LT(densityAt(away) / densityAt(2 * away), 8);
     }
+}
+
+// A patch of ground in the sun lights a room through a window. Light from outside comes to all of the patch, which nothing is to be aimed
+// at; and most of what is scattered brings nothing.
+TEST(Aims, FindTheWindowBeforeAPatchOfGroundInTheSun) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<shared::PilotPath> paths(20000);
+    for (size_t k = 0; k < paths.size(); ++k) {
+        auto& path = paths[k] = {};
+        const glm::dvec3 inside(2 * number(random), 2 + 2 * number(random), 1.5 * number(random));
+        const glm::dvec3 ground(4 * number(random), -4 + 3 * number(random), -1.5);
+        const glm::dvec3 window(0.5 * number(random), 0, 0.5 * number(random));
+        const bool isLit = k % 10 == 0;
+        path.vertices[0].position = pack(isLit ? window + 0.5 * (window - ground) : inside);
+        path.vertices[1].position = pack(isLit ? ground : glm::dvec3(inside.y, 2 + inside.x, inside.z));
+        path.vertices[0].weight = path.vertices[1].weight = 1;
+        path.vertices[1].found = isLit;
+    }
+    const Opening patch{{0, -4, -1.5}, {1, 0, 0}, {0, 1, 0}, 5, 4};
+    const auto sets = findAims(paths, std::vector<double>(paths.size(), 1), {patch}, 20);
+    ASSERT_EQ(sets.size(), 1u);
+    EXPECT_LT(glm::length(sets[0].openings[0].centre), 0.4);
+    UsefulRay ray;
+    ray.position = {1, -6, -1.5};
+    ray.direction = glm::normalize(-ray.position);
+    EXPECT_GT(sets[0].density(ray), 10);
 }
 
 // A room with a window on a site, where everything emits what it absorbs and the sky has radiance 1: radiance is 1 everywhere.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t mostSets = 8;
 // By which the log likelihood of all scattered rays must grow; and by an opening that no light from outside is known to come through.
-constexpr double leastAimGain = 0.03, leastFoundGain = 0.5;
+constexpr double leastAimGain = 0.03, leastFoundGain = 0.2;
 // Squares about one place: each twice as wide as the one before. Those that would get less of the photons are left out.
 constexpr int innerSquares = 2, outerSquares = 6;
 constexpr double leastShare = 0.01;
@@ -106,24 +106,71 @@ std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, size_t v, d
     return ray;
 }
 
+namespace {
+
+// The ways of photons between the vertices of pilot paths, by the light that comes to the image along them: what was found from there on.
+std::vector<UsefulRay> usefulRays(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights) {
+    std::vector<UsefulRay> rays;
+    for (size_t k = 0; k < paths.size(); ++k) {
+        double found = 0;
+        for (size_t v = PILOT_VERTICES - 1; v > 0; --v) {
+            const double here = paths[k].vertices[v].found;
+            if (std::isfinite(here)) found += here;
+            auto ray = scatteredRay(paths[k], v, 1);
+            if (!ray || !(found > 0)) continue;
+            ray->weight = pathWeights[k] * found;
+            rays.push_back(*ray);
+        }
+    }
+    return rays;
+}
+
+struct Candidate {
+    Opening opening;
+    double leastGain;
+};
+
+// The set by which most is gained, which is then no candidate any more, as little as those by which too little is: rays only become fewer.
+std::optional<AimSet> takeBest(std::vector<Candidate>& candidates, const std::vector<UsefulRay>& rays) {
+    std::vector<Candidate> others;
+    std::optional<Candidate> best;
+    AimSet set;
+    double most = 0;
+    for (const Candidate& candidate : candidates) {
+        AimSet its = setAbout(candidate.opening, rays);
+        const double gain = gainOf(its, rays);
+        if (gain < candidate.leastGain) continue;
+        if (!(gain > most)) {
+            others.push_back(candidate);
+            continue;
+        }
+        if (best) others.push_back(*best);
+        best = candidate;
+        set = std::move(its);
+        most = gain;
+    }
+    candidates = std::move(others);
+    if (!best) return std::nullopt;
+    return set;
+}
+
+} // namespace
+
 std::vector<AimSet> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
                              const std::vector<Opening>& fromOutside, double radius) {
-    std::vector<UsefulRay> rays;
+    std::vector<UsefulRay> rays = usefulRays(paths, pathWeights);
     double all = 0;
-    for (size_t k = 0; k < paths.size(); ++k)
-        for (size_t v = 1; v < PILOT_VERTICES; ++v)
-            if (const auto ray = scatteredRay(paths[k], v, pathWeights[k])) {
-                rays.push_back(*ray);
-                all += ray->weight;
-            }
-    std::vector<Opening> candidates = fromOutside;
-    for (const Opening& found : findOpenings(rays, radius, candidates, mostSets)) candidates.push_back(found);
+    for (const auto& ray : rays) all += ray.weight;
+    std::vector<Candidate> candidates;
+    for (const Opening& opening : fromOutside) candidates.push_back({opening, all * leastAimGain});
+    for (const Opening& opening : findOpenings(rays, radius, {}, mostSets))
+        candidates.push_back({opening, all * leastFoundGain});
     std::vector<AimSet> sets;
-    for (size_t k = 0; k < candidates.size() && sets.size() < mostSets; ++k) {
-        const AimSet set = setAbout(candidates[k], rays);
-        if (gainOf(set, rays) < all * (k < fromOutside.size() ? leastAimGain : leastFoundGain)) continue;
-        std::erase_if(rays, [&](const UsefulRay& ray) { return set.claim(ray) > 0.5; });
-        sets.push_back(set);
+    while (sets.size() < mostSets) {
+        const auto set = takeBest(candidates, rays);
+        if (!set) break;
+        std::erase_if(rays, [&](const UsefulRay& ray) { return set->claim(ray) > 0.5; });
+        sets.push_back(*set);
     }
     return sets;
 }
