@@ -92,7 +92,7 @@ double AimSet::claim(const UsefulRay& ray) const {
     return aimed / (aimed + 2); // half of all directions are those of a hemisphere
 }
 
-std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, size_t v, double weight) {
+std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, size_t v) {
     const auto& from = path.vertices[v];
     if (!(from.weight > 0) || !std::isfinite(from.weight)) return std::nullopt;
     UsefulRay ray;
@@ -101,7 +101,7 @@ std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, size_t v, d
     const double distance = glm::length(offset);
     if (!(distance > 0)) return std::nullopt;
     ray.direction = offset / distance;
-    ray.weight = weight * from.weight;
+    ray.weight = from.weight;
     ray.isScattered = true;
     return ray;
 }
@@ -116,7 +116,7 @@ std::vector<UsefulRay> usefulRays(const std::vector<shared::PilotPath>& paths, c
         for (size_t v = PILOT_VERTICES - 1; v > 0; --v) {
             const double here = paths[k].vertices[v].found;
             if (std::isfinite(here)) found += here;
-            auto ray = scatteredRay(paths[k], v, 1);
+            auto ray = scatteredRay(paths[k], v);
             if (!ray || !(found > 0)) continue;
             ray->weight = pathWeights[k] * found;
             rays.push_back(*ray);

@@ -24,8 +24,8 @@ struct AimSet {
     double claim(const UsefulRay& ray) const;
 };
 
-/// The way of a photon from vertex `v` of a pilot path to the one before; none where it brings nothing.
-std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, std::size_t v, double weight);
+/// The way of a photon from vertex `v` of a pilot path to the one before, by the throughput there; none where it brings nothing.
+std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, std::size_t v);
 
 /// Sets of openings that light should come through: those that light from outside comes through, and what the paths found beside them.
 /// `pathWeights`: 1 / brightness of each path's pixel, over the number of paths; `radius`: of the order of the scene.

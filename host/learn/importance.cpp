@@ -33,7 +33,7 @@ struct Cell {
 };
 
 void noteAim(const shared::PilotPath& path, size_t v, const std::vector<AimSet>& aims, Cell& cell) {
-    const auto ray = scatteredRay(path, v, 1);
+    const auto ray = scatteredRay(path, v);
     if (!ray) return;
     cell.scattered += ray->weight;
     double left = ray->weight;
