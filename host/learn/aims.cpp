@@ -128,29 +128,23 @@ std::vector<UsefulRay> usefulRays(const std::vector<shared::PilotPath>& paths, c
 struct Candidate {
     Opening opening;
     double leastGain;
+    AimSet set{};
+    double gain = 0;
 };
 
 // The set by which most is gained, which is then no candidate any more, as little as those by which too little is: rays only become fewer.
 std::optional<AimSet> takeBest(std::vector<Candidate>& candidates, const std::vector<UsefulRay>& rays) {
-    std::vector<Candidate> others;
-    std::optional<Candidate> best;
-    AimSet set;
-    double most = 0;
-    for (const Candidate& candidate : candidates) {
-        AimSet its = setAbout(candidate.opening, rays);
-        const double gain = gainOf(its, rays);
-        if (gain < candidate.leastGain) continue;
-        if (!(gain > most)) {
-            others.push_back(candidate);
-            continue;
-        }
-        if (best) others.push_back(*best);
-        best = candidate;
-        set = std::move(its);
-        most = gain;
+    for (Candidate& candidate : candidates) {
+        candidate.set = setAbout(candidate.opening, rays);
+        candidate.gain = gainOf(candidate.set, rays);
     }
-    candidates = std::move(others);
-    if (!best) return std::nullopt;
+    std::erase_if(candidates, [](const Candidate& candidate) {
+        return !(candidate.gain > 0) || candidate.gain < candidate.leastGain;
+    });
+    const auto best = std::ranges::max_element(candidates, {}, &Candidate::gain);
+    if (best == candidates.end()) return std::nullopt;
+    AimSet set = std::move(best->set);
+    candidates.erase(best);
     return set;
 }
 
@@ -162,9 +156,11 @@ std::vector<AimSet> findAims(const std::vector<shared::PilotPath>& paths, const 
     double all = 0;
     for (const auto& ray : rays) all += ray.weight;
     std::vector<Candidate> candidates;
-    for (const Opening& opening : fromOutside) candidates.push_back({opening, all * leastAimGain});
-    for (const Opening& opening : findOpenings(rays, radius, {}, mostSets))
-        candidates.push_back({opening, all * leastFoundGain});
+    const auto consider = [&](const std::vector<Opening>& openings, double leastGain) {
+        for (const Opening& opening : openings) candidates.push_back({opening, all * leastGain});
+    };
+    consider(fromOutside, leastAimGain);
+    consider(findOpenings(rays, radius, {}, mostSets), leastFoundGain);
     std::vector<AimSet> sets;
     while (sets.size() < mostSets) {
         const auto set = takeBest(candidates, rays);
