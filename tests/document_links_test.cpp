@@ -20,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using test::pages;
-using test::readText;
 using test::root;
 
 struct Link {

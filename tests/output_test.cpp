@@ -6,8 +6,9 @@
 #include "util/error.h"
 
 #include "support/folder_files.h"
-#include "support/program_runner.h"
+#include "support/read_text.h"
 #include "support/render_records.h"
+#include "util/temporary_folder.h"
 
 #include <OpenImageIO/imageio.h>
 #include <cerrno>

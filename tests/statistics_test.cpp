@@ -1,8 +1,9 @@
 // The statistics of a render as JSON: every key, also in the documents; and the line of progress.
 #include "output/progress_line.h"
 #include "support/folder_files.h"
-#include "support/program_runner.h"
+#include "support/read_text.h"
 #include "support/render_records.h"
+#include "util/temporary_folder.h"
 
 #include <cmath>
 #include <gmock/gmock.h>

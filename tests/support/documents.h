@@ -1,23 +1,15 @@
 // The documents of the project, as text.
 #pragma once
 
+#include "support/read_text.h"
+
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
 #include <vector>
 
 namespace quasilux::test {
 
 inline const std::filesystem::path root = QUASILUX_SOURCE_DIR;
-
-inline std::string readText(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return content.str();
-}
 
 /// Of docs/, in the order of their names.
 inline std::vector<std::filesystem::path> pages() {

@@ -39,13 +39,6 @@ void redirect(const fs::path& file, int descriptor) {
 
 } // namespace
 
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file);
-    std::ostringstream content;
-    content << stream.rdbuf();
-    return content.str();
-}
-
 CommandLineTest::CommandLineTest() {
     fs::create_directory(folder);
     std::ofstream(folder / "scene.xml") << R"(<scene version="3.0.0">

@@ -1,6 +1,7 @@
 // Runs the built program from outside, in a folder of its own.
 #pragma once
 
+#include "support/read_text.h"
 #include "util/temporary_folder.h"
 
 #include <csignal>
@@ -12,8 +13,6 @@
 #include <vector>
 
 namespace quasilux {
-
-std::string readText(const std::filesystem::path& file);
 
 struct Outcome {
     int exitCode = -1; ///< -1: ended by a signal
