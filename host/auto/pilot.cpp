@@ -57,6 +57,7 @@ PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const 
     PilotMeasure pilot =
         measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness, radianceByFlux(report));
     if (report.photonClasses.empty()) pilot.noiseOfPhotons = 0; // of caustics that paths find
+    pilot.directByPhotons = report.learned.emittersByPhotons > 0;
     pilot.secondsOfPhotons = photons;
     pilot.radius = radiusOf(report);
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());

@@ -1,5 +1,6 @@
 #include "auto/prediction.h"
 
+#include "render/adaptive_radius.h"
 #include "render/radius.h"
 
 #include <algorithm>
@@ -214,6 +215,18 @@ PilotMeasure withCameraPaths(PilotMeasure pilot, double factor) {
     for (double& ofTile : pilot.noise) ofTile *= noise;
     pilot.noiseOfPhotons /= noise;
     return pilot;
+}
+
+// With a share s of the photons a pass leaves V_p / s + V_c and takes s T_p + T_0, T_p for tracing photons and gathering them, T_0 for all else. The product
+// is least at s^2 = (V_p / V_c) (T_0 / T_p) (optimal splitting, Kahn 1955). Where photons have little noise, radii by pixel come out as large as they may be.
+double bestShareOfPhotons(const PilotMeasure& pilot) {
+    const double gathering = largestAdaptiveRadius * largestAdaptiveRadius * pilot.secondsWithRadius;
+    const double beside = pilot.secondsPerPass - pilot.secondsOfPhotons - pilot.secondsWithRadius;
+    const double noiseBeside = 1 - pilot.noiseOfPhotons;
+    const bool gathersMostOfTheTime = gathering > pilot.secondsOfPhotons + beside;
+    if (pilot.inVolume || pilot.directByPhotons || !gathersMostOfTheTime || !(noiseBeside > 0)) return 1;
+    const double costs = std::max(0.0, beside) / (pilot.secondsOfPhotons + gathering);
+    return std::min(1.0, std::sqrt(pilot.noiseOfPhotons / noiseBeside * costs));
 }
 
 PilotMeasure withRareCaustics(PilotMeasure pilot, double noiseOfOnePath, unsigned cameraPaths) {

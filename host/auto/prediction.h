@@ -20,8 +20,9 @@ struct PilotMeasure {
         0;                  ///< relMSE of their noise at most, did one camera path a pixel find them (noiseOfFinding)
     double causticsMet = 0; ///< as many equal ones would have their noise, were they met one by one
     double biasNoise = 0;   ///< relMSE that the estimate of the bias has as noise
-    double radius = 1;      ///< of the first pass's density estimate, in any unit
-    bool inVolume = false;  ///< kernels shrink in three dimensions
+    bool directByPhotons = false; ///< of some emitters; that noise is in no share above
+    double radius = 1;            ///< of the first pass's density estimate, in any unit
+    bool inVolume = false;        ///< kernels shrink in three dimensions
 };
 
 /// `image` of passes 0, 1, …; `brightness` as of errorByTile(); `radiance`: of emitters, as noiseOfFinding() takes it.
@@ -63,6 +64,10 @@ PilotMeasure withCameraPaths(PilotMeasure pilot, double factor);
 /// Camera paths of a pixel in a pass, a power of 2, with which a render of so many seconds by this pilot's settings, which have
 /// `cameraPaths` of them, has the least error. Photons, which all paths of a pass share, cost the same however many there are.
 unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double seconds);
+
+/// Share of the pilot's photons with which a render has the least error at the same radius. Below 1 only where most of the time goes into
+/// gathering: else more camera paths with the same photons do as well.
+double bestShareOfPhotons(const PilotMeasure& pilot);
 
 /// Of camera paths, `cameraPaths` of a pixel in a pass, that find caustic light: those that seldom meet an emitter have little noise until one does. So what
 /// is known of it before, `noiseOfOnePath` at most (causticsByPaths of a pilot by photons), counts as one that was met.

@@ -44,22 +44,24 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     const double limit = stop_.seconds.value_or(longestHorizon);
     report_.horizon = limit;
     Contender first{settings, std::move(start), {}, rowOf(settings, startPhotons_)};
-    const bool begun = renderUpTo(first, fewestPasses);
+    bool begun = renderUpTo(first, fewestPasses);
+    if (begun && openWithFewerPhotons(first)) begun = renderUpTo(first, fewestPasses);
     if (begun && stop_.relativeError)
         report_.horizon = std::min(limit, world_.clock() + secondsToError(first.measure, *stop_.relativeError, limit));
     startPassSeconds_ = first.measure.secondsPerPass;
     note(first, "chosen");
+    report_.chosen = first.row;
 
-    const auto all = methods(settings, scene_, freedom_);
+    const auto all = methods(start_, scene_, freedom_);
     const double time = pilotShare * report_.horizon, ofMethods = shareOfMethods * time;
     const bool hasOthers =
-        all.size() > 1 || freedom_.cameraPaths || !numbersBeside(settings, startPhotons_, freedom_).empty();
+        all.size() > 1 || freedom_.cameraPaths || !numbersBeside(start_, startPhotons_, freedom_).empty();
     report_.outOfTime = hasOthers && 2 * fewestPasses * startPassSeconds_ > ofMethods;
     if (!begun || !hasOthers || report_.outOfTime || report_.horizon < leastSeconds)
-        return {settings, report_, std::move(first.pilot)};
+        return {start_, report_, std::move(first.pilot)};
     first.pilot.reset();
 
-    report_.rows.front().passes = 0;
+    report_.rows[first.row].passes = 0;
     const double began = world_.clock();
     if (all.size() > 1 || freedom_.cameraPaths) race(all, fewestPasses, 1, ofMethods);
     chooseCameraPaths();
@@ -69,7 +71,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     chooseCameraPaths();
     report_.seconds = world_.clock() - began;
     for (const PilotRow& row : report_.rows) report_.passes += row.passes;
-    if (!best_.pilot) return {settings, report_, nullptr}; // interrupted, or there was no time
+    if (!best_.pilot) return {start_, report_, nullptr}; // interrupted, or there was no time
     note(best_, "chosen");
     report_.chosen = best_.row;
     RenderSettings chosen = best_.settings;
@@ -220,6 +222,20 @@ bool Search::renderUpTo(Contender& contender, unsigned passes) {
     }
     if (contender.pilot->passes() >= fewestPasses) contender.measure = measureOf(contender, {});
     return contender.pilot->passes() >= passes;
+}
+
+bool Search::openWithFewerPhotons(Contender& first) {
+    const double share = std::max(bestShareOfPhotons(first.measure), 1 / mostPhotonsFactor);
+    const bool isOpen = freedom_.photons && freedom_.radius && start_.direct == DirectLight::emitters;
+    if (!isOpen || share > 1 / std::sqrt(photonsStep)) return false;
+    note(first, "given up");
+    first.pilot.reset();
+    start_.photonsPerPass = std::max(1u, static_cast<unsigned>(share * startPhotons_));
+    start_.radiusScale *= std::sqrt(double(start_.photonsPerPass) / startPhotons_);
+    first = {start_, world_.open(start_), {}, 0};
+    startPhotons_ = first.pilot->photonsPerPass();
+    first.row = rowOf(start_, startPhotons_);
+    return true;
 }
 
 PilotMeasure Search::measureOf(const Contender& contender, const std::vector<float>& brightness) {

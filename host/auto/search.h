@@ -25,7 +25,7 @@ struct SearchWorld {
 struct SearchResult {
     RenderSettings settings;
     SearchReport report;
-    std::unique_ptr<Pilot> start; ///< as it was, where nothing was tried
+    std::unique_ptr<Pilot> start; ///< where nothing was tried; as it was, or with fewer photons
 };
 
 /// Share of the render's time that goes to pilots, opening them included. All of it lost, error grows by 1 / sqrt(1 - 0.16) = 1.09.
@@ -77,6 +77,8 @@ private:
     void dropFailed(Field& field);
     void openContender(Field& field, const RenderSettings& settings, unsigned passes, double leastGain);
     bool renderUpTo(Contender& contender, unsigned passes);
+    /// Opens the start anew with the photons that serve it best, and the same radius; false where it stays as it is.
+    bool openWithFewerPhotons(Contender& first);
     PilotMeasure measureOf(const Contender& contender, const std::vector<float>& brightness);
     void measureTogether(Field& field);
     void giveUpWorst(Field& field, size_t kept);
