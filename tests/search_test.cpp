@@ -3,7 +3,7 @@
 #include "auto/search.h"
 #include "render/method.h"
 #include "render/pass_params.h"
-#include "support/even_pilot.h"
+#include "support/fake_search.h"
 #include "support/render_statistics.h"
 #include "util/error.h"
 
@@ -18,72 +18,6 @@ namespace quasilux {
 namespace {
 
 using testing::HasSubstr;
-
-struct Truth {
-    double secondsPerPass = 0.1, noisePerPass = 1, bias = 0;
-    double firstNoise = 0; // estimated before `honestFrom` passes, all of it even; 0: honest from the start
-    unsigned honestFrom = 0;
-    unsigned failsAt = 0; // pass that throws, counted from 1; 0: none
-    bool lacksMemory = false;
-    double noiseOfPhotons = 0, shareOfPhotonSeconds = 0; // as PilotMeasure
-    double shareOfGatherSeconds = 0;
-};
-using World = std::function<Truth(const RenderSettings&)>;
-
-class FakePilot : public Pilot {
-public:
-    FakePilot(const Truth& truth, unsigned photons, double& clock) : truth_(truth), photons_(photons), clock_(clock) {}
-    void renderPass() override {
-        if (passes_ + 1 == truth_.failsAt) {
-            if (truth_.lacksMemory) throw std::bad_alloc();
-            throw DeviceError("the device is lost");
-        }
-        clock_ += truth_.secondsPerPass;
-        ++passes_;
-    }
-    unsigned passes() const override { return passes_; }
-    std::vector<float> radiance() const override { return {}; }
-    PilotMeasure measure(const std::vector<float>&) const override {
-        const bool lies = passes_ < truth_.honestFrom;
-        PilotMeasure pilot =
-            evenPilot(passes_, lies ? truth_.firstNoise : truth_.noisePerPass, truth_.bias, truth_.secondsPerPass);
-        pilot.noiseOfPhotons = truth_.noiseOfPhotons;
-        pilot.secondsWithRadius = truth_.shareOfGatherSeconds * truth_.secondsPerPass;
-        pilot.secondsOfPhotons = truth_.shareOfPhotonSeconds * truth_.secondsPerPass;
-        return pilot;
-    }
-    unsigned photonsPerPass() const override { return photons_; }
-    double openingSeconds() const override { return 0.05; }
-
-private:
-    Truth truth_;
-    unsigned photons_, passes_ = 0;
-    double& clock_;
-};
-
-struct Found {
-    RenderSettings settings;
-    SearchReport report;
-};
-
-Found search(const World& world, double seconds, Freedom freedom = {true, true, true, true, true},
-             std::optional<double> error = std::nullopt, const RenderSettings& start = {}, size_t mostOpen = 1000) {
-    double clock = 0;
-    SearchWorld searched;
-    searched.open = [&](const RenderSettings& settings) {
-        clock += 0.05;
-        const unsigned photons = settings.photonsPerPass > 0 ? settings.photonsPerPass : 1000;
-        return std::make_unique<FakePilot>(world(settings), photons, clock);
-    };
-    searched.clock = [&] { return clock; };
-    searched.mostOpen = mostOpen;
-    const Scene scene = projectScene("cornell_phong.xml");
-    StopRule stop;
-    stop.seconds = seconds;
-    stop.relativeError = error;
-    auto result = Search(searched, scene, freedom, stop).run(start, searched.open(start));
-    return {result.settings, result.report};
-}
 
 constexpr Freedom everything{true, true, true, true, true};
 
