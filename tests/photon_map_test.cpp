@@ -24,7 +24,8 @@ unsigned expectedCell(const Photon& photon, const PhotonIndexSettings& settings)
     const auto coordinate = [&](float x) {
         return int64_t(std::floor(std::clamp(x / settings.radius[lightClass], -1073741824.f, 1073741824.f)));
     };
-    const auto y = uint32_t(coordinate(photon.position.y)), z = uint32_t(coordinate(photon.position.z));
+    const auto y = uint32_t(coordinate(photon.position.y)),
+               z = uint32_t(coordinate(photon.position.z)) + photon.patchSide * 0xb5297a4du;
     uint32_t hash = (y * 0x8da6b343u) ^ (z * 0xd8163841u);
     hash ^= hash >> 15;
     hash *= 0x2c1b3c6du;

@@ -87,7 +87,7 @@ INTO_EVERY_CLONE Runs findRuns(const NativeMap& photons, const shared::GatherQue
     Runs runs;
     for (int dz = -1; dz <= 1; ++dz)
         for (int dy = -1; dy <= 1; ++dy) {
-            const unsigned first = nativeCell({cell.x - 1, cell.y + dy, cell.z + dz}, mask);
+            const unsigned first = nativeCell({cell.x - 1, cell.y + dy, cell.z + dz}, query.patchSide, mask);
             if (first + 2 <= mask) {
                 runs.add(start[first], start[first + 3]);
             } else {

@@ -31,7 +31,8 @@ public:
 
 private:
     unsigned cellOf(const TracedPhoton& photon) const {
-        return nativeCell(nativeCoordinate(photon.position, map_.radius[LIGHT_DIFFUSE]), map_.cellMask);
+        return nativeCell(nativeCoordinate(photon.position, map_.radius[LIGHT_DIFFUSE]), photon.patchSide,
+                          map_.cellMask);
     }
     void place(const TracedPhoton& photon, size_t at) {
         const uint32_t words[microPhotonFields] = {std::bit_cast<uint32_t>(photon.position.x),

@@ -15,8 +15,9 @@ inline CellCoordinate nativeCoordinate(const shared::Packed3& p, float radius) {
     return {int(std::floor(p.x / radius)), int(std::floor(p.y / radius)), int(std::floor(p.z / radius))};
 }
 
-inline unsigned nativeCell(const CellCoordinate& c, unsigned cellMask) {
-    unsigned hash = unsigned(c.y) * 0x8da6b343u ^ unsigned(c.z) * 0xd8163841u;
+inline unsigned nativeCell(const CellCoordinate& c, unsigned patchSide, unsigned cellMask) {
+    const unsigned z = unsigned(c.z) + patchSide * 0xb5297a4du;
+    unsigned hash = unsigned(c.y) * 0x8da6b343u ^ z * 0xd8163841u;
     hash ^= hash >> 15;
     hash *= 0x2c1b3c6du;
     return ((hash ^ hash >> 12) + unsigned(c.x)) & cellMask;
