@@ -1,0 +1,108 @@
+// Photons seen by coats and rough conductors, eight at a time (kernels/directional_lobes.clh), against the lobe photon by photon: the same photons, so
+// the same image but for rounding. Nothing is statistical. The control: an index that is wrong by 2 % is told apart.
+#include "render/renderer.h"
+#include "support/image_difference.h"
+#include "support/placed_scenes.h"
+#include "support/test_kernels.h"
+
+#include <fmt/format.h>
+#include <functional>
+#include <gtest/gtest.h>
+
+namespace quasilux {
+namespace {
+
+constexpr double rounding = 1e-4; // relative, of sums of some hundred photons
+
+std::string coat(const std::string& type, double index) {
+    return fmt::format(
+        R"(<bsdf type="{}"><float name="int_ior" value="{}"/><float name="ext_ior" value="1"/><rgb name="diffuse_reflectance" value="0.6,0.5,0.3"/></bsdf>)",
+        type, index);
+}
+
+/// With its gloss so wide that photons bring its light too.
+std::string satin(double index) {
+    return fmt::format(
+        R"(<bsdf type="roughplastic"><string name="distribution" value="ggx"/><float name="alpha" value="0.5"/><float name="int_ior" value="{}"/><rgb name="diffuse_reflectance" value="0.6,0.5,0.3"/></bsdf>)",
+        index);
+}
+
+std::string metal(const std::string& distribution, double index) {
+    return fmt::format(
+        R"(<bsdf type="roughconductor"><string name="distribution" value="{}"/><float name="alpha_u" value="0.6"/><float name="alpha_v" value="0.4"/><rgb name="eta" value="{},0.9,1.2"/><rgb name="k" value="2,2.5,3"/></bsdf>)",
+        distribution, index);
+}
+
+std::string principled(double index) {
+    return fmt::format(
+        R"(<bsdf type="principled"><rgb name="base_color" value="{},0.5,0.2"/><float name="roughness" value="0.7"/><float name="metallic" value="0.6"/></bsdf>)",
+        index / 2);
+}
+
+std::string besideDiffuse(const std::string& bsdf) {
+    return R"(<bsdf type="blendbsdf"><float name="weight" value="0.7"/><bsdf type="diffuse"/>)" + bsdf + "</bsdf>";
+}
+
+/// The corner of a floor and a wall, so that light comes from everywhere and discs are cut.
+FilmImage render(const std::string& bsdf, int maxDepth, const std::string& options) {
+    const Scene scene = placedScene(orthographicSensor("0,0,1.5", "0,0,0", 1, 16) + fmt::format(R"(
+<integrator type="path"><integer name="max_depth" value="{0}"/></integrator>
+<shape type="rectangle"><bsdf type="twosided">{1}</bsdf></shape>
+<shape type="rectangle"><transform name="to_world"><rotate y="1" angle="90"/><translate x="-0.5"/></transform><bsdf type="twosided">{1}</bsdf></shape>
+<emitter type="point"><rgb name="intensity" value="10"/><transform name="to_world"><translate x="0.4" z="0.6"/></transform></emitter>)",
+                                                                                                maxDepth, bsdf),
+                                    Placement{});
+    RenderSettings settings;
+    settings.direct = DirectLight::photons;
+    settings.photonsPerPass = 20'000;
+    settings.quasiSpecular = "none";
+    settings.controlOptions = options;
+    Renderer renderer(testDevice(), scene, settings);
+    for (unsigned pass = 0; pass < 2; ++pass) renderer.renderPass(pass);
+    return renderer.develop();
+}
+
+struct Kind {
+    const char* name;
+    std::function<std::string(double index)> bsdf;
+    bool isBlended;
+    int maxDepth;
+};
+
+void PrintTo(const Kind& kind, std::ostream* stream) { *stream << kind.name; }
+
+class Lobes : public testing::TestWithParam<Kind> {};
+TEST_P(Lobes, GatherByEightsAsOneByOne) {
+    const Kind& kind = GetParam();
+    const auto imageOf = [&](double index, const std::string& options) {
+        const std::string bsdf = kind.bsdf(index);
+        return render(kind.isBlended ? besideDiffuse(bsdf) : bsdf, kind.maxDepth, options);
+    };
+    const FilmImage eight = imageOf(1.5, ""), one = imageOf(1.5, " -DLOBES_ONE_BY_ONE");
+    EXPECT_LT(largestDifference(eight.radiance, one.radiance), rounding);
+    EXPECT_NE(eight.radiance, one.radiance) << "both are the same code";
+    double bias = 0, apart = 0;
+    for (size_t k = 0; k < one.bias.size(); ++k) {
+        bias += std::abs(one.bias[k]);
+        apart += std::abs(double(eight.bias[k]) - one.bias[k]);
+    }
+    EXPECT_GT(bias, 0);
+    EXPECT_LT(apart, rounding * bias);
+    EXPECT_GT(largestDifference(imageOf(1.53, "").radiance, one.radiance), 10 * rounding)
+        << "nothing would be told apart";
+}
+Kind coated(const char* name, const char* type, bool isBlended, int maxDepth) {
+    return {name, [type](double index) { return coat(type, index); }, isBlended, maxDepth};
+}
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, Lobes,
+    testing::Values(coated("Plastic", "plastic", false, -1), coated("RoughPlasticBlend", "roughplastic", true, -1),
+                    coated("PlasticBlendToDepth", "plastic", true, 3),
+                    coated("RoughPlasticToDepth", "roughplastic", false, 3), Kind{"Satin", satin, true, -1},
+                    Kind{"Ggx", [](double index) { return metal("ggx", index); }, false, -1},
+                    Kind{"Beckmann", [](double index) { return metal("beckmann", index); }, true, 3},
+                    Kind{"Principled", principled, false, -1}),
+    [](const auto& kind) { return std::string(kind.param.name); });
+
+} // namespace
+} // namespace quasilux
