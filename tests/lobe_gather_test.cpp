@@ -33,9 +33,15 @@ std::string metal(const std::string& distribution, double index) {
         distribution, index);
 }
 
+std::string thin(double index) {
+    return fmt::format(
+        R"(<bsdf type="principledthin"><rgb name="base_color" value="{},0.5,0.2"/><float name="roughness" value="0.7"/><float name="flatness" value="0.5"/><float name="diff_trans" value="0.6"/></bsdf>)",
+        index / 2);
+}
+
 std::string principled(double index) {
     return fmt::format(
-        R"(<bsdf type="principled"><rgb name="base_color" value="{},0.5,0.2"/><float name="roughness" value="0.7"/><float name="metallic" value="0.6"/></bsdf>)",
+        R"(<bsdf type="principled"><rgb name="base_color" value="{},0.5,0.2"/><float name="roughness" value="0.7"/><float name="metallic" value="0.6"/><float name="sheen" value="1"/><float name="clearcoat" value="1"/><float name="clearcoat_gloss" value="0.2"/></bsdf>)",
         index / 2);
 }
 
@@ -101,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
                     coated("RoughPlasticToDepth", "roughplastic", false, 3), Kind{"Satin", satin, true, -1},
                     Kind{"Ggx", [](double index) { return metal("ggx", index); }, false, -1},
                     Kind{"Beckmann", [](double index) { return metal("beckmann", index); }, true, 3},
-                    Kind{"Principled", principled, false, -1}),
+                    Kind{"Principled", principled, false, -1}, Kind{"Thin", thin, true, -1}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
 } // namespace
