@@ -18,6 +18,7 @@ from relmse import by_block, mean_about, read_channels, relmse_weight
 
 PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build" / "release" / "quasilux"
 SAMPLES = 32  # per pixel in one call of Mitsuba
+REFERENCE_SEED = 10**6
 
 
 class Reference:
@@ -69,6 +70,17 @@ def render_mitsuba(scene, seconds, seed):
         calls += 1
         total = total + np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=1000 * seed + calls), np.float64)[..., :3]
     return total / calls
+
+
+def reference_by_mitsuba(path, seconds, block):
+    """The mean of calls with seeds of their own, as many as fit into the time, at least eight."""
+    scene = mitsuba.load_file(str(path))
+    start, total, squares, calls = time.monotonic(), 0.0, 0.0, 0
+    while calls < 8 or time.monotonic() - start < seconds:
+        image = np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=REFERENCE_SEED + calls), np.float64)[..., :3]
+        total, squares, calls = total + image, squares + image**2, calls + 1
+    mean = total / calls
+    return Reference(mean, np.sqrt(np.maximum(squares / calls - mean**2, 0) / (calls - 1)), block)
 
 
 def at_equal_time(path, reference, seconds, folder):
