@@ -1,5 +1,6 @@
-// Photons seen by coats and rough conductors, eight at a time (kernels/directional_lobes.clh), against the lobe photon by photon: the same photons, so
-// the same image but for rounding. Nothing is statistical. The control: an index that is wrong by 2 % is told apart.
+// Photons seen by coats, rough conductors and the lobes of `principled`, eight at a time (kernels/directional_lobes.clh), against photon by
+// photon: the same photons, so the same image but for rounding. Nothing is statistical. The control: an index, or a colour, that is wrong
+// by 2 % is told apart.
 #include "render/renderer.h"
 #include "support/image_difference.h"
 #include "support/placed_scenes.h"
@@ -98,6 +99,7 @@ TEST_P(Lobes, GatherByEightsAsOneByOne) {
     EXPECT_GT(largestDifference(imageOf(1.53, "").radiance, one.radiance), 10 * rounding)
         << "nothing would be told apart";
 }
+
 Kind coated(const char* name, const char* type, bool isBlended, int maxDepth) {
     return {name, [type](double index) { return coat(type, index); }, isBlended, maxDepth};
 }
