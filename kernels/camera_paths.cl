@@ -115,6 +115,12 @@ inline PathPlace pathPlace(const World* world, uint index, float2 even) {
     return place;
 }
 
+/* Of path `k` of its pixel in a pass. Gathering costs most of a path, and what photons carry differs little between the paths of a pixel: the
+ * first ones gather for all (docs/method/auto.md, Camera paths). */
+inline float gatheringWeight(const CameraParams* params, uint k) {
+    return k < params->gatheringPaths ? (float)params->cameraPaths / params->gatheringPaths : 0.f;
+}
+
 /* Light that a path takes, by component, and its bias; paths of a pixel follow each other in `index`. `number`: of the path among all that
  * have the same index, over the passes. Returns the throughput, mean of R, G, B, with which it was cut, or -1 where it ended by itself. */
 inline float traceCameraPath(const World* world, uint index, uint number, float3* components) {
@@ -133,6 +139,7 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     path.radiusBlock = radiusBlock(params, pixel);
 #endif
     path.lightBlock = lightBlock(&params->scene, params->camera.width, pixel);
+    path.gathering = gatheringWeight(params, number % params->cameraPaths);
     path.directSamples = 1;
 #ifdef MIXED_DIRECT
     path.lastDiffuse = 0;

@@ -19,5 +19,6 @@ __kernel void markGathered(__global const BvhNode* nodes, __global const Primiti
 #endif
                          &params};
     float3 components[FILM_SAMPLES];
-    traceCameraPath(&world, index, params.pass, components);
+    for (uint k = 0; k < params.gatheringPaths; ++k)
+        traceCameraPath(&world, index, params.pass * params.cameraPaths + k, components);
 }

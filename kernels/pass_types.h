@@ -138,7 +138,9 @@ typedef struct {
     unsigned int pass;
     unsigned int bdd;
     unsigned int maxDepth;
-    unsigned int cameraPaths;     /* of a pixel in the pass; of meters and with the camera map 1 */
+    unsigned int cameraPaths; /* of a pixel in the pass; of meters and with the camera map 1 */
+    unsigned int
+        gatheringPaths; /* so many of these gather photons, each for all; 0 where only the time of the others is asked for */
     unsigned int directSamples;   /* of emitters, where a path takes direct light first */
     unsigned int causticsByPaths; /* paths find caustic light, not photons (takeRadiance) */
     unsigned int radiusBlock;     /* pixels of a row and column that share a density radius */

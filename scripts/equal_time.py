@@ -1,8 +1,8 @@
 """Error of a scene by quasilux and by Mitsuba after the same time, rendered in turns with two seeds each.
 
 Error = noise + bias. Noise: half the mean squared difference of two seeds. Bias: squared differences of the mean image from the
-reference over blocks, net of the noise of both. Both with the weights of relMSE, R being the mean of a pixel's neighbours in the
-reference, which is free of its own noise. Kernels of both renderers are compiled before the clock starts.
+reference over blocks, net of the noise of both. Both with the weights of relMSE, R being the mean of the 3 x 3 pixels about one in the
+reference, as the program weighs its estimates (docs/method/accuracy.md). Kernels of both renderers are compiled before the clock starts.
 """
 import json
 import math
@@ -26,7 +26,7 @@ class Reference:
 
     def __init__(self, pixels, stderr, block):
         self.pixels, self.stderr, self.block = pixels, stderr, block
-        self.weight = relmse_weight(self.pixels, mean_about(self.pixels, with_centre=False))
+        self.weight = relmse_weight(self.pixels, mean_about(self.pixels))
 
     def errors(self, a, b):
         """Noise of one image and bias, as shares of relMSE; the relative difference of the mean."""

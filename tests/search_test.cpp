@@ -40,46 +40,6 @@ TEST(Search, FindsWhatIsBetter) {
     EXPECT_THAT(found.report.line(), HasSubstr("auto: BDD 1, main, split none"));
 }
 
-Truth costlyPhotons(double noiseOfPhotons) {
-    Truth truth;
-    truth.noiseOfPhotons = noiseOfPhotons;
-    truth.shareOfPhotonSeconds = 0.1;
-    truth.shareOfGatherSeconds = 0.225; // with the largest radii by pixel four times as much
-    truth.bias = 0.01;                  // none of the numbers beside is better
-    return truth;
-}
-
-// s^2 = (V_p / V_c) 0.675 / (0.1 + 4 0.225); also where there is no time to try anything.
-TEST(Search, StartsWithFewerPhotonsWhereGatheringThemTakesTheTime) {
-    for (const double seconds : {200.0, 2.0})
-        for (const auto& [noise, photons] : {std::pair{0.2703, 500u}, {1e-4, 62u}, {0.8, 1000u}}) {
-            const World world = [noise = noise](const RenderSettings&) { return costlyPhotons(noise); };
-            const Found found = search(world, seconds, {false, false, false, true, true});
-            const PilotRow& row = found.report.rows.at(found.report.chosen);
-            EXPECT_EQ(row.photonsPerPass, photons) << noise << " of the noise, " << seconds << " s";
-            EXPECT_NEAR(row.settings.radiusScale, std::sqrt(photons / 1000.0), 1e-6) << "the radius is the same";
-            EXPECT_EQ(found.settings.radiusScale, row.settings.radiusScale);
-        }
-}
-
-TEST(Search, KeepsPhotonsAsTheyAreWhereTheyOrTheirRadiusAreGiven) {
-    const World costly = [](const RenderSettings&) { return costlyPhotons(0.1); };
-    for (const Freedom& freedom : {Freedom{true, true, true, false, true}, Freedom{true, true, true, true, false}}) {
-        const Found found = search(costly, 2, freedom);
-        EXPECT_EQ(found.report.rows.at(found.report.chosen).photonsPerPass, 1000u);
-        EXPECT_EQ(found.settings.radiusScale, 1);
-    }
-    RenderSettings byPhotons;
-    byPhotons.direct = DirectLight::photons;
-    EXPECT_EQ(search(costly, 2, everything, std::nullopt, byPhotons).settings.radiusScale, 1);
-    const World cheap = [](const RenderSettings&) {
-        Truth truth = costlyPhotons(0.1);
-        truth.shareOfGatherSeconds = 0.15; // more camera paths do as well
-        return truth;
-    };
-    EXPECT_EQ(search(cheap, 2).settings.radiusScale, 1);
-}
-
 // Either choice alone makes it worse; both together are the best by far.
 TEST(Search, FindsWhatIsBetterOnlyTogether) {
     const World world = [](const RenderSettings& s) {

@@ -12,7 +12,7 @@ SearchWorld worldOf(Device& device, const Scene& scene, const std::shared_ptr<co
     SearchWorld world;
     world.open = [&device, &scene, learned](const RenderSettings& settings) -> std::unique_ptr<Pilot> {
         return std::make_unique<RendererPilot>(device, std::make_unique<Renderer>(device, scene, settings, learned),
-                                               !scene.media.empty());
+                                               settings.cameraPaths, !scene.media.empty());
     };
     world.clock = [watch = Stopwatch()] { return watch.seconds(); };
     world.onPass = [&onProgress](unsigned passes) {
@@ -91,7 +91,8 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     SearchWorld world = worldOf(device, scene, learned, onProgress, interrupted);
     if (freedom.any() && result.search.notSearched.empty()) {
         world.mostOpen = pilotsInMemory(device, *start);
-        auto first = std::make_unique<RendererPilot>(device, std::move(start), !scene.media.empty());
+        auto first =
+            std::make_unique<RendererPilot>(device, std::move(start), settings.cameraPaths, !scene.media.empty());
         SearchResult found = Search(world, scene, freedom, stop).run(settings, std::move(first));
         result.search = found.report;
         result.settings = found.settings;

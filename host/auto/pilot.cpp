@@ -38,6 +38,7 @@ double radianceByFlux(const SceneReport& report) {
 } // namespace
 
 void RendererPilot::renderPass() {
+    if (passes() == 0) secondsWithoutGathering_ = renderer_->secondsWithoutGathering();
     const double photonsBefore = photonSeconds(device_);
     const RenderCounters before = renderer_->counters();
     renderer_->renderPass(passes());
@@ -58,7 +59,7 @@ PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const 
         measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness, radianceByFlux(report));
     if (report.photonClasses.empty()) pilot.noiseOfPhotons = 0; // of caustics that paths find
     pilot.directByPhotons = report.learned.emittersByPhotons > 0;
-    pilot.secondsOfPhotons = photons;
+    pilot.secondsOfPhotons = photons + std::max(0.0, camera - cameraPaths_ * secondsWithoutGathering_);
     pilot.radius = radiusOf(report);
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());
     return pilot;

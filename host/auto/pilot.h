@@ -24,8 +24,8 @@ public:
 /// Passes of a renderer of its own.
 class RendererPilot : public Pilot {
 public:
-    RendererPilot(Device& device, std::unique_ptr<Renderer> renderer, bool hasMedia)
-        : device_(device), renderer_(std::move(renderer)), hasMedia_(hasMedia) {}
+    RendererPilot(Device& device, std::unique_ptr<Renderer> renderer, unsigned cameraPaths, bool hasMedia)
+        : device_(device), renderer_(std::move(renderer)), cameraPaths_(cameraPaths), hasMedia_(hasMedia) {}
 
     void renderPass() override;
     unsigned passes() const override { return static_cast<unsigned>(renderer_->counters().passes); }
@@ -49,8 +49,10 @@ private:
 
     Device& device_;
     std::unique_ptr<Renderer> renderer_;
+    unsigned cameraPaths_; // of a pixel in a pass
     bool hasMedia_;
     std::vector<PassSeconds> passes_;
+    double secondsWithoutGathering_ = 0; // of one camera path of each pixel
 };
 
 } // namespace quasilux

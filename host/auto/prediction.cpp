@@ -110,7 +110,11 @@ struct Common {
 };
 
 // More camera paths than this leave too few passes for the estimate of the error, whatever else they do.
-constexpr unsigned fewestPassesOfImage = 64, mostCameraPaths = 64;
+constexpr unsigned fewestPassesOfImage = 32, mostCameraPaths = 64;
+
+// A few passes know nothing of light that paths seldom meet, and camera paths that gather nothing are cheap: for so much of what the photons of a pass cost
+// there are always some.
+constexpr double shareOfUnseen = 0.25;
 
 // Variance of a mean of n camera paths of a pass goes as this power of n: -1 of paths that know nothing of each other, and what is gained by nets, which
 // are larger then (kernels/lattice.clh): the variance of one path on them falls to 0.3 to 0.75 of that of a single one with 16, a half in the mean of ten scenes.
@@ -211,22 +215,9 @@ PilotMeasure withCameraPaths(PilotMeasure pilot, double factor) {
     const double ofCamera = pilot.secondsPerPass - pilot.secondsOfPhotons;
     const double noise = pilot.noiseOfPhotons + (1 - pilot.noiseOfPhotons) * std::pow(factor, noiseByPaths);
     pilot.secondsPerPass = pilot.secondsOfPhotons + factor * ofCamera;
-    pilot.secondsWithRadius *= factor;
     for (double& ofTile : pilot.noise) ofTile *= noise;
     pilot.noiseOfPhotons /= noise;
     return pilot;
-}
-
-// With a share s of the photons a pass leaves V_p / s + V_c and takes s T_p + T_0, T_p for tracing photons and gathering them, T_0 for all else. The product
-// is least at s^2 = (V_p / V_c) (T_0 / T_p) (optimal splitting, Kahn 1955). Where photons have little noise, radii by pixel come out as large as they may be.
-double bestShareOfPhotons(const PilotMeasure& pilot) {
-    const double gathering = largestAdaptiveRadius * largestAdaptiveRadius * pilot.secondsWithRadius;
-    const double beside = pilot.secondsPerPass - pilot.secondsOfPhotons - pilot.secondsWithRadius;
-    const double noiseBeside = 1 - pilot.noiseOfPhotons;
-    const bool gathersMostOfTheTime = gathering > pilot.secondsOfPhotons + beside;
-    if (pilot.inVolume || pilot.directByPhotons || !gathersMostOfTheTime || !(noiseBeside > 0)) return 1;
-    const double costs = std::max(0.0, beside) / (pilot.secondsOfPhotons + gathering);
-    return std::min(1.0, std::sqrt(pilot.noiseOfPhotons / noiseBeside * costs));
 }
 
 PilotMeasure withRareCaustics(PilotMeasure pilot, double noiseOfOnePath, unsigned cameraPaths) {
@@ -239,6 +230,8 @@ PilotMeasure withRareCaustics(PilotMeasure pilot, double noiseOfOnePath, unsigne
 }
 
 unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double seconds) {
+    const double ofOnePath = (pilot.secondsPerPass - pilot.secondsOfPhotons) / cameraPaths;
+    const auto tooFew = [&](unsigned paths) { return 2 * paths * ofOnePath <= shareOfUnseen * pilot.secondsOfPhotons; };
     unsigned best = 1;
     double least = INFINITY;
     for (unsigned paths = 1; paths <= mostCameraPaths; paths *= 2) {
@@ -246,7 +239,7 @@ unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double
         const double passes = passesAfter(changed, seconds) - pilot.passes; // those of the pilot are discarded
         if (paths > 1 && passes < fewestPassesOfImage) break;
         const double error = predictAfterPasses(changed, std::max(passes, 1.0)).relativeMse();
-        if (error < least) {
+        if (error < least || tooFew(best)) {
             least = error;
             best = paths;
         }

@@ -58,16 +58,12 @@ private:
 /// explain, count as one.
 std::vector<double> predictedErrors(const std::vector<PilotMeasure>& pilots, double seconds);
 
-/// As it would be with so many times the camera paths of a pixel in a pass.
+/// As it would be with so many times the camera paths of a pixel in a pass, one of which gathers for all.
 PilotMeasure withCameraPaths(PilotMeasure pilot, double factor);
 
 /// Camera paths of a pixel in a pass, a power of 2, with which a render of so many seconds by this pilot's settings, which have
 /// `cameraPaths` of them, has the least error. Photons, which all paths of a pass share, cost the same however many there are.
 unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double seconds);
-
-/// Share of the pilot's photons with which a render has the least error at the same radius. Below 1 only where most of the time goes into
-/// gathering: else more camera paths with the same photons do as well.
-double bestShareOfPhotons(const PilotMeasure& pilot);
 
 /// Of camera paths, `cameraPaths` of a pixel in a pass, that find caustic light: those that seldom meet an emitter have little noise until one does. So what
 /// is known of it before, `noiseOfOnePath` at most (causticsByPaths of a pilot by photons), counts as one that was met.

@@ -45,7 +45,6 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     report_.horizon = limit;
     Contender first{settings, std::move(start), {}, rowOf(settings, startPhotons_)};
     bool begun = renderUpTo(first, fewestPasses);
-    if (begun && openWithFewerPhotons(first)) begun = renderUpTo(first, fewestPasses);
     if (begun && stop_.relativeError)
         report_.horizon = std::min(limit, world_.clock() + secondsToError(first.measure, *stop_.relativeError, limit));
     startPassSeconds_ = first.measure.secondsPerPass;
@@ -222,20 +221,6 @@ bool Search::renderUpTo(Contender& contender, unsigned passes) {
     }
     if (contender.pilot->passes() >= fewestPasses) contender.measure = measureOf(contender, {});
     return contender.pilot->passes() >= passes;
-}
-
-bool Search::openWithFewerPhotons(Contender& first) {
-    const double share = std::max(bestShareOfPhotons(first.measure), 1 / mostPhotonsFactor);
-    const bool isOpen = freedom_.photons && freedom_.radius && start_.direct == DirectLight::emitters;
-    if (!isOpen || share > 1 / std::sqrt(photonsStep)) return false;
-    note(first, "given up");
-    first.pilot.reset();
-    start_.photonsPerPass = std::max(1u, static_cast<unsigned>(share * startPhotons_));
-    start_.radiusScale *= std::sqrt(double(start_.photonsPerPass) / startPhotons_);
-    first = {start_, world_.open(start_), {}, 0};
-    startPhotons_ = first.pilot->photonsPerPass();
-    first.row = rowOf(start_, startPhotons_);
-    return true;
 }
 
 PilotMeasure Search::measureOf(const Contender& contender, const std::vector<float>& brightness) {

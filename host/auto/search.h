@@ -77,8 +77,6 @@ private:
     void dropFailed(Field& field);
     void openContender(Field& field, const RenderSettings& settings, unsigned passes, double leastGain);
     bool renderUpTo(Contender& contender, unsigned passes);
-    /// Opens the start anew with the photons that serve it best, and the same radius; false where it stays as it is.
-    bool openWithFewerPhotons(Contender& first);
     PilotMeasure measureOf(const Contender& contender, const std::vector<float>& brightness);
     void measureTogether(Field& field);
     void giveUpWorst(Field& field, size_t kept);

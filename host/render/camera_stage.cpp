@@ -75,6 +75,16 @@ void CameraStage::run(unsigned pass, const PhotonStage& photons) {
     runOn(film_, radii_ ? &radii_->scales(pass) : nullptr, photons);
 }
 
+void CameraStage::runWithoutGathering(const PhotonStage& photons) {
+    params(0, photons);
+    const unsigned cameraPaths = params_.cameraPaths, gatheringPaths = params_.gatheringPaths;
+    params_.cameraPaths = 1;
+    params_.gatheringPaths = 0;
+    runOn(film_, radii_ ? &radii_->scales(0) : nullptr, photons);
+    params_.cameraPaths = cameraPaths;
+    params_.gatheringPaths = gatheringPaths;
+}
+
 bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->pilotIsDue(pass); }
 
 // With the same photons: passes to come, whose radii this decides, have others.

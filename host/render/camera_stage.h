@@ -26,6 +26,9 @@ public:
     /// CameraParams::cameraPaths of each pixel.
     void run(unsigned pass, const PhotonStage& photons);
 
+    /// The same without photons, to learn what it takes: one path of each pixel, into the film.
+    void runWithoutGathering(const PhotonStage& photons);
+
     /// Are radii by pixel to be chosen with the photons of this pass? Then chooseRadius() is to follow run().
     bool radiusIsDue(unsigned pass) const;
     /// Returns how many camera paths it traced. `photons` are those of `pass`.

@@ -43,6 +43,13 @@ void PhotonMapPass::chooseRadii(unsigned pass, RenderCounters& counters) {
     counters.radiusSeconds += watch.seconds();
 }
 
+double PhotonMapPass::secondsWithoutGathering() {
+    const Stopwatch watch;
+    camera_->runWithoutGathering(photons_->stage());
+    context_.device.finish();
+    return watch.seconds();
+}
+
 std::optional<GatheredCount> PhotonMapPass::countGathered(unsigned pass) {
     RenderCounters ofNoPass;
     catchUpRadii(pass, ofNoPass);

@@ -11,6 +11,7 @@ public:
     explicit PhotonMapPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
+    double secondsWithoutGathering() override;
     std::optional<GatheredCount> countGathered(unsigned pass) override;
     bool radiiAreChosen() const override;
     void saveRadii(StateSink& sink) const override;

@@ -178,6 +178,13 @@ void Renderer::clearPasses() {
     stages_->counters = {};
 }
 
+double Renderer::secondsWithoutGathering() {
+    const double seconds = stages_->passes->secondsWithoutGathering();
+    stages_->film->clear();
+    stages_->dropped = {};
+    return seconds;
+}
+
 bool Renderer::isFilmWhole() const { return stages_->film->isWhole(); }
 
 const Film& Renderer::film() const { return *stages_->film; }

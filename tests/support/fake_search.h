@@ -20,7 +20,6 @@ struct Truth {
     unsigned failsAt = 0; // pass that throws, counted from 1; 0: none
     bool lacksMemory = false;
     double noiseOfPhotons = 0, shareOfPhotonSeconds = 0; // as PilotMeasure
-    double shareOfGatherSeconds = 0;
 };
 using World = std::function<Truth(const RenderSettings&)>;
 
@@ -42,7 +41,6 @@ public:
         PilotMeasure pilot =
             evenPilot(passes_, lies ? truth_.firstNoise : truth_.noisePerPass, truth_.bias, truth_.secondsPerPass);
         pilot.noiseOfPhotons = truth_.noiseOfPhotons;
-        pilot.secondsWithRadius = truth_.shareOfGatherSeconds * truth_.secondsPerPass;
         pilot.secondsOfPhotons = truth_.shareOfPhotonSeconds * truth_.secondsPerPass;
         return pilot;
     }
