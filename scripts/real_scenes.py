@@ -21,10 +21,11 @@ import matplotlib.pyplot as plt
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENES = ROOT / "scenes" / "real"
-PICTURE = ROOT / "docs" / "figures" / "real_scenes.png"
+FIGURES = ROOT / "docs" / "figures"
 OUT = ROOT / "out" / "real"
 NAMES = ["room", "daylight", "sunlight", "building", "macro"]
 BLOCK = 16
+PER_ROW = 6
 
 
 def read_reference(name):
@@ -43,19 +44,19 @@ def times(ratio):
     return f"1/{1 / ratio:.1f}" if ratio < 1 else f"{ratio:.2g}"
 
 
-def draw(images):
-    """Rows: scenes, of (name, quasilux, Mitsuba)."""
-    figure, axes = plt.subplots(2, len(images), figsize=(3.2 * len(images), 5.2), squeeze=False)
-    for column, (name, *both) in enumerate(images):
-        for axis, image in zip(axes[:, column], both):
+def draw(images, picture):
+    """`images`: of (name, quasilux, Mitsuba), PER_ROW side by side, one above the other."""
+    columns, rows = min(PER_ROW, len(images)), 2 * -(-len(images) // PER_ROW)
+    figure, axes = plt.subplots(rows, columns, figsize=(3.2 * columns, 2.6 * rows), squeeze=False)
+    for axis in axes.flat:
+        axis.axis("off")
+    for k, (name, *both) in enumerate(images):
+        for row, (image, by) in enumerate(zip(both, ("quasilux", "Mitsuba path"))):
+            axis = axes[2 * (k // PER_ROW) + row, k % PER_ROW]
             axis.imshow(tone_map(image, 0.3 / both[0].mean()), interpolation="nearest")
-            axis.set_xticks([])
-            axis.set_yticks([])
-        axes[0, column].set_title(name)
-    axes[0, 0].set_ylabel("quasilux")
-    axes[1, 0].set_ylabel("Mitsuba path")
+            axis.set_title(f"{name}, {by}")
     figure.tight_layout()
-    figure.savefig(PICTURE, dpi=100)
+    figure.savefig(picture, dpi=100)
 
 
 def main():
@@ -73,8 +74,9 @@ def main():
         images.append((name, *result.images))
         row = f"| {name} | {result.noise:.1e} | {result.bias:.1e} | {result.noise + result.bias:.1e} | {100 * result.mean:+.2f} % |"
         print(f"{row} {result.estimated:.2f} | {result.peer:.1e} | {times(result.ratio)} |", flush=True)
-    if names == NAMES and seconds >= 5:
-        draw(images)
+    for all_names, picture in ((NAMES, "real_scenes.png"), (list(everyday_scenes.SCENES), "everyday_scenes.png")):
+        if names == all_names and seconds >= 5:
+            draw(images, FIGURES / picture)
 
 
 if __name__ == "__main__":

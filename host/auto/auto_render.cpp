@@ -7,14 +7,16 @@ namespace quasilux {
 
 namespace {
 
+// The clock of `--time` runs since learning, which took so many `learnSeconds`, began.
 SearchWorld worldOf(Device& device, const Scene& scene, const std::shared_ptr<const LearnedScene>& learned,
-                    const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted) {
+                    double learnSeconds, const std::function<void(const Progress&)>& onProgress,
+                    const std::atomic<bool>& interrupted) {
     SearchWorld world;
     world.open = [&device, &scene, learned](const RenderSettings& settings) -> std::unique_ptr<Pilot> {
         return std::make_unique<RendererPilot>(device, std::make_unique<Renderer>(device, scene, settings, learned),
                                                settings.cameraPaths, !scene.media.empty());
     };
-    world.clock = [watch = Stopwatch()] { return watch.seconds(); };
+    world.clock = [learnSeconds, watch = Stopwatch()] { return learnSeconds + watch.seconds(); };
     world.onPass = [&onProgress](unsigned passes) {
         Progress progress;
         progress.phase = "pilot passes";
@@ -88,7 +90,7 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     result.search.notSearched = whyNotSearched(scene, settings, stop);
     result.search.freedom = freedom;
     const auto learned = start->learned();
-    SearchWorld world = worldOf(device, scene, learned, onProgress, interrupted);
+    SearchWorld world = worldOf(device, scene, learned, start->report().learned.seconds, onProgress, interrupted);
     if (freedom.any() && result.search.notSearched.empty()) {
         world.mostOpen = pilotsInMemory(device, *start);
         auto first =

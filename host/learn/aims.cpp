@@ -11,7 +11,6 @@ namespace quasilux {
 
 namespace {
 
-constexpr size_t mostSets = 8;
 // By which the log likelihood of all scattered rays must grow; and by an opening that no light from outside is known to come through.
 constexpr double leastAimGain = 0.03, leastFoundGain = 0.2;
 // Squares about one place: each twice as wide as the one before. Those that would get less of the photons are left out.
@@ -22,10 +21,35 @@ constexpr double surestAtPlace = 0.5;
 // Where aimed photons are less dense than this many times those spread over all directions there is little to be gained.
 constexpr double leastDensity = 10;
 
-// Share of all directions that it takes from there.
-double extent(const Opening& opening, const glm::dvec3& from) {
-    const glm::dvec3 offset = opening.centre - from;
-    return 4 * opening.halfU * opening.halfV / (4 * std::numbers::pi * std::max(glm::dot(offset, offset), 1e-12));
+// Enough of the rays to tell what is gained by aiming.
+constexpr size_t mostRays = 65536;
+
+// Share of all directions that an opening takes from there, over a quarter of its area.
+double directionsOfArea(const glm::dvec3& centre, const glm::dvec3& from) {
+    const glm::dvec3 offset = centre - from;
+    return 1 / (std::numbers::pi * std::max(glm::dot(offset, offset), 1e-12));
+}
+
+double quarterOfArea(const Opening& opening) { return opening.halfU * opening.halfV; }
+
+// At most mostRays of them, drawn by weight (systematic resampling).
+std::vector<UsefulRay> thinnedByWeight(std::vector<UsefulRay> rays) {
+    if (rays.size() <= mostRays) return rays;
+    double all = 0, below = 0;
+    for (const auto& ray : rays) all += ray.weight;
+    const double step = all / mostRays;
+    double drawn = 0; // steps so far
+    std::vector<UsefulRay> some;
+    some.reserve(mostRays);
+    for (const auto& ray : rays) {
+        below += ray.weight;
+        const double times = std::max(0.0, std::floor(below / step + 0.5) - drawn);
+        if (times == 0) continue;
+        drawn += times;
+        some.push_back(ray);
+        some.back().weight = times * step;
+    }
+    return some;
 }
 
 // By which the rays' log likelihood grows where every second one of those that come this way is aimed.
@@ -81,8 +105,17 @@ AimSet setAbout(const Opening& opening, const std::vector<UsefulRay>& rays) {
 
 double AimSet::density(const UsefulRay& ray) const {
     double sum = 0;
+    if (openings.front().faces) { // squares about one place
+        const glm::dvec3& centre = openings.front().centre;
+        if (!(glm::dot(centre - ray.position, ray.direction) > 0)) return 0;
+        const double away = distance(ray, centre);
+        for (size_t k = 0; k < openings.size(); ++k)
+            if (away <= openings[k].halfU) sum += shares[k] / quarterOfArea(openings[k]);
+        return sum > 0 ? sum / directionsOfArea(centre, ray.position) : 0;
+    }
     for (size_t k = 0; k < openings.size(); ++k)
-        if (openings[k].holds(ray)) sum += shares[k] / extent(openings[k], ray.position);
+        if (openings[k].holds(ray))
+            sum += shares[k] / (quarterOfArea(openings[k]) * directionsOfArea(openings[k].centre, ray.position));
     return sum;
 }
 
@@ -152,7 +185,7 @@ std::optional<AimSet> takeBest(std::vector<Candidate>& candidates, const std::ve
 
 std::vector<AimSet> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
                              const std::vector<Opening>& fromOutside, double radius) {
-    std::vector<UsefulRay> rays = usefulRays(paths, pathWeights);
+    std::vector<UsefulRay> rays = thinnedByWeight(usefulRays(paths, pathWeights));
     double all = 0;
     for (const auto& ray : rays) all += ray.weight;
     std::vector<Candidate> candidates;
@@ -160,9 +193,9 @@ std::vector<AimSet> findAims(const std::vector<shared::PilotPath>& paths, const 
         for (const Opening& opening : openings) candidates.push_back({opening, all * leastGain});
     };
     consider(fromOutside, leastAimGain);
-    consider(findOpenings(rays, radius, {}, mostSets), leastFoundGain);
+    consider(findOpenings(rays, radius, {}, mostAimSets), leastFoundGain);
     std::vector<AimSet> sets;
-    while (sets.size() < mostSets) {
+    while (sets.size() < mostAimSets) {
         const auto set = takeBest(candidates, rays);
         if (!set) break;
         std::erase_if(rays, [&](const UsefulRay& ray) { return set->claim(ray) > 0.5; });

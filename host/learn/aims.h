@@ -24,6 +24,8 @@ struct AimSet {
     double claim(const UsefulRay& ray) const;
 };
 
+inline constexpr std::size_t mostAimSets = 8;
+
 /// The way of a photon from vertex `v` of a pilot path to the one before, by the throughput there; none where it brings nothing.
 std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, std::size_t v);
 

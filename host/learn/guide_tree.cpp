@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <queue>
+#include <utility>
 
 namespace quasilux {
 
@@ -23,7 +23,7 @@ struct Cut {
 
 struct Node {
     GuideBox box;
-    size_t first = 0, last = 0; // of the permuted samples
+    size_t first = 0, last = 0; // of the samples, in their order then
     Cut cut;
     double priority = 0;
 
@@ -34,10 +34,8 @@ double divergence(double weight, double volume) { return weight > 0 ? weight * s
 
 class TreeBuilder {
 public:
-    TreeBuilder(const std::vector<GuideSample>& samples, const GuideTreeSettings& settings)
-        : samples_(samples), settings_(settings), order_(samples.size()) {
-        std::iota(order_.begin(), order_.end(), size_t(0));
-    }
+    TreeBuilder(std::vector<GuideSample> samples, const GuideTreeSettings& settings)
+        : samples_(std::move(samples)), settings_(settings) {}
 
     std::vector<GuideLeafBox> build(const GuideBox& root) {
         std::priority_queue<Node> open;
@@ -58,31 +56,32 @@ public:
 private:
     double squaresOf(const Node& node) const {
         double sum = 0;
-        for (size_t k = node.first; k < node.last; ++k) sum += samples_[order_[k]].square;
+        for (size_t k = node.first; k < node.last; ++k) sum += samples_[k].square;
         return sum;
     }
 
     Node evaluated(Node node) const {
         double sum = 0, squares = 0;
+        std::array<std::array<double, bins>, emissionDimensions> weights{};
         for (size_t k = node.first; k < node.last; ++k) {
-            const double w = samples_[order_[k]].weight;
+            const GuideSample& sample = samples_[k];
+            const double w = sample.weight;
             sum += w;
             squares += w * w;
+            for (size_t d = 0; d < emissionDimensions; ++d) {
+                const double place = (double(sample.u[d]) - node.box.lower[d]) / node.box.size[d] * bins;
+                weights[d][static_cast<size_t>(std::clamp(place, 0.0, bins - 1.0))] += w;
+            }
         }
         if (!(sum > 0)) return node;
-        for (size_t d = 0; d < emissionDimensions; ++d) tryDimension(node, d, sum);
+        for (size_t d = 0; d < emissionDimensions; ++d) tryDimension(node, d, weights[d], sum);
         const double effective = sum * sum / squares;
         if (2 * node.cut.gain * effective > leastEvidence) node.priority = node.cut.gain * node.box.probability;
         return node;
     }
 
-    void tryDimension(Node& node, size_t d, double sum) const {
-        std::array<double, bins> weight{};
-        for (size_t k = node.first; k < node.last; ++k) {
-            const auto& sample = samples_[order_[k]];
-            const double place = (double(sample.u[d]) - node.box.lower[d]) / node.box.size[d] * bins;
-            weight[static_cast<size_t>(std::clamp(place, 0.0, bins - 1.0))] += sample.weight;
-        }
+    // By the weight of the samples in each of `bins` parts of the node.
+    static void tryDimension(Node& node, size_t d, const std::array<double, bins>& weight, double sum) {
         double below = 0;
         for (size_t k = 1; k < bins; ++k) {
             below += weight[k - 1] / sum;
@@ -95,10 +94,10 @@ private:
     std::array<Node, 2> split(const Node& node) {
         const Cut& cut = node.cut;
         const double at = node.box.lower[cut.dimension] + cut.at * node.box.size[cut.dimension];
-        const auto begin = order_.begin();
+        const auto begin = samples_.begin();
         const auto middle = std::partition(begin + static_cast<std::ptrdiff_t>(node.first),
                                            begin + static_cast<std::ptrdiff_t>(node.last),
-                                           [&](size_t k) { return samples_[k].u[cut.dimension] < at; });
+                                           [&](const GuideSample& sample) { return sample.u[cut.dimension] < at; });
         std::array<Node, 2> children;
         for (size_t side = 0; side < 2; ++side) {
             Node& child = children[side];
@@ -115,9 +114,8 @@ private:
         return children;
     }
 
-    const std::vector<GuideSample>& samples_;
+    std::vector<GuideSample> samples_;
     const GuideTreeSettings& settings_;
-    std::vector<size_t> order_;
 };
 
 } // namespace

@@ -4,10 +4,11 @@
 #include "util/bit_words.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <map>
+#include <unordered_map>
 
 namespace quasilux {
 
@@ -24,31 +25,41 @@ constexpr double leastAim = 0.05; // probability below which photons are not aim
 
 double length(const shared::Packed3& v) { return glm::length(unpack(v)); }
 
+struct Scattered {
+    double weight = 0;                         // of light that is scattered from here
+    std::array<double, mostAimSets> through{}; // of it by the set of openings that it should come through
+
+    void add(const Scattered& other) {
+        weight += other.weight;
+        for (size_t set = 0; set < mostAimSets; ++set) through[set] += other.through[set];
+    }
+};
+
 struct Cell {
     double gathered = 0, all = 0;
     bool isCoarse = false;
-    unsigned scattering = 0;          // vertices
-    double scattered = 0;             // weight of light that is scattered from here
-    std::map<size_t, double> through; // of it by the set of openings that it should come through
+    unsigned scattering = 0; // vertices
+    Scattered scattered;
 };
 
-void noteAim(const shared::PilotPath& path, size_t v, const std::vector<AimSet>& aims, Cell& cell) {
+Scattered scatteredFrom(const shared::PilotPath& path, size_t v, const std::vector<AimSet>& aims) {
+    Scattered scattered;
     const auto ray = scatteredRay(path, v);
-    if (!ray) return;
-    cell.scattered += ray->weight;
-    double left = ray->weight;
+    if (!ray) return scattered;
+    double left = scattered.weight = ray->weight;
     for (size_t k = 0; k < aims.size() && left > 0; ++k) {
-        const double claimed = left * aims[k].claim(*ray);
-        if (claimed > 0) cell.through[k] += claimed;
-        left -= claimed;
+        scattered.through[k] = left * aims[k].claim(*ray);
+        left -= scattered.through[k];
     }
+    return scattered;
 }
 
 uint32_t aimWord(const Cell& cell, const std::vector<AimSet>& aims) {
     uint32_t word = 0;
     double most = 0;
-    for (const auto& [set, weight] : cell.through) {
-        const double probability = aims[set].surest * weight / cell.scattered;
+    for (size_t set = 0; set < aims.size(); ++set) {
+        const double weight = cell.scattered.through[set];
+        const double probability = aims[set].surest * weight / cell.scattered.weight;
         if (weight <= most || probability < leastAim) continue;
         most = weight;
         word = static_cast<uint32_t>(firstOf(aims, set) + 1) << 16 | static_cast<uint32_t>(65535 * probability);
@@ -91,7 +102,7 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& path
                                       const std::vector<double>& pathWeights, const std::vector<uint32_t>& keys,
                                       const std::vector<float>& sizes, const std::vector<AimSet>& aims,
                                       shared::ImportanceGrid& grid) {
-    std::map<uint32_t, Cell> cells; // sorted, so that the table is the same on every machine
+    std::unordered_map<uint32_t, Cell> cells;
     for (size_t k = 0; k < paths.size(); ++k)
         for (size_t v = 0; v < PILOT_VERTICES; ++v) {
             const auto& vertex = paths[k].vertices[v];
@@ -107,15 +118,22 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& path
             Cell& coarse = cells[keys[2 * at + 1]];
             coarse.isCoarse = true;
             coarse.all += value / (double(IMPORTANCE_COARSE) * IMPORTANCE_COARSE);
+            const Scattered scattered = aims.empty() ? Scattered() : scatteredFrom(paths[k], v, aims);
             for (Cell* cell : {&fine, &coarse}) {
                 ++cell->scattering;
-                if (!aims.empty()) noteAim(paths[k], v, aims, *cell);
+                if (!aims.empty()) cell->scattered.add(scattered);
             }
         }
+    // Sorted, so that the table is the same on every machine.
+    std::vector<uint32_t> known;
+    known.reserve(cells.size());
+    for (const auto& [key, cell] : cells) known.push_back(key);
+    std::sort(known.begin(), known.end());
     const size_t count = std::bit_ceil(2 * cells.size() + 1);
     grid.mask = static_cast<unsigned>(count - 1);
     std::vector<uint32_t> table(IMPORTANCE_WORDS * count);
-    for (const auto& [key, cell] : cells) {
+    for (const uint32_t key : known) {
+        const Cell& cell = cells.at(key);
         size_t at = key & grid.mask;
         while (table[IMPORTANCE_WORDS * at] != 0) at = (at + 1) & grid.mask;
         table[IMPORTANCE_WORDS * at] = key;
