@@ -45,6 +45,7 @@ struct LearnedScene {
     double lightOfPhotons = 0;
     /// As many equal ones as have the same variance for that light, over the photons of the last round; below 0: not known.
     double effectiveShare = -1;
+    double seconds = 0; ///< spent on it; 0 where it was read from a file
 };
 
 class Learning {

@@ -13,7 +13,8 @@ namespace {
 
 // The radii are chosen anew after so many passes of the pilot, which ends with the last choice.
 constexpr std::array<unsigned, 3> choices{passesOfEqualRadius, 8, 16};
-constexpr double pilotSide = 128; // of the pilot's image, about: it is to cost little, whatever the size of the image
+constexpr double pilotSide =
+    128; // of the pilot's image at most, about: it is to cost little, whatever the size of the image
 constexpr unsigned foreseenPasses = 1024;
 const std::string pilotOwner = "pilot's ";
 
@@ -31,8 +32,7 @@ double noiseToCurvature() {
 }
 
 unsigned blockSize(const shared::Camera& camera) {
-    return static_cast<unsigned>(
-        std::max(1.0, std::round(std::sqrt(double(camera.width) * camera.height) / pilotSide)));
+    return static_cast<unsigned>(std::max(1.0, std::ceil(std::sqrt(double(camera.width) * camera.height) / pilotSide)));
 }
 
 shared::Camera coarseCamera(shared::Camera camera, unsigned block) {

@@ -44,22 +44,24 @@ struct Renderer::Stages {
         program.emplace(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                         kernelOptions(flat, settings));
         geometry.emplace(device, flat);
-        const Stopwatch watch;
         auto timingsBefore = device.timings();
-        learned =
-            known
-                ? std::move(known)
-                : std::make_shared<const LearnedScene>(learnScene(device, *program, scene, settings, flat, *geometry));
-        const double learnSeconds = watch.seconds();
+        learned = known ? std::move(known) : learn(scene);
         film.emplace(device, flat.camera.width, flat.camera.height, filmLayout(flat.features, settings),
                      largestFilmBuffer(flat.features, settings, device.info()));
         report = describeScene(scene, flat, settings);
         chooseRadii();
-        report.learned = describeLearned(*learned, field, report.photonsPerPass, learnSeconds);
+        report.learned = describeLearned(*learned, field, report.photonsPerPass);
         preparePasses(scene);
         device.resetTimings(std::move(timingsBefore)); // only those of passes count
         flat.bvh = {};                                 // on the device now
         flat.tables = {};
+    }
+
+    std::shared_ptr<const LearnedScene> learn(const Scene& scene) {
+        const Stopwatch watch;
+        LearnedScene found = learnScene(device, *program, scene, settings, flat, *geometry);
+        found.seconds = watch.seconds();
+        return std::make_shared<const LearnedScene>(std::move(found));
     }
 
     void chooseRadii() {

@@ -85,8 +85,7 @@ SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const Ren
     return report;
 }
 
-SceneReport::Learned describeLearned(const LearnedScene& learned, const shared::RadiusField& field, unsigned photons,
-                                     double seconds) {
+SceneReport::Learned describeLearned(const LearnedScene& learned, const shared::RadiusField& field, unsigned photons) {
     const LearnedTables& tables = learned.tables;
     SceneReport::Learned row;
     row.isGuided = tables.guide.isGuided;
@@ -100,7 +99,7 @@ SceneReport::Learned describeLearned(const LearnedScene& learned, const shared::
     if (learned.effectiveShare >= 0) row.effectivePhotons = learned.effectiveShare * photons;
     for (unsigned k = 0; field.octaves > 0 && k <= field.octaves; ++k)
         row.radiusFactors.emplace_back(field.nearest * std::exp2(k), field.factor[k]);
-    row.seconds = seconds;
+    row.seconds = learned.seconds;
     return row;
 }
 

@@ -60,9 +60,8 @@ std::string slotName(unsigned slot);
 /// All that is known before anything is learned; radii are left out.
 SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
 
-/// SceneReport::learned; `photons` of a pass, `seconds` spent on it.
-SceneReport::Learned describeLearned(const LearnedScene& learned, const shared::RadiusField& field, unsigned photons,
-                                     double seconds);
+/// SceneReport::learned; `photons` of a pass.
+SceneReport::Learned describeLearned(const LearnedScene& learned, const shared::RadiusField& field, unsigned photons);
 
 /// SceneReport::checksums, of a scene that has just been flattened.
 SceneChecksums checksumsOf(const DeviceScene& flat, int maxDepth);
