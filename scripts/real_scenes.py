@@ -1,5 +1,5 @@
 """scenes/real/ by quasilux and by Mitsuba's `path`, in turns (scripts/equal_time.py). Called by scripts/real_scenes.sh. "Estimated": noise
-as the render states it over noise as found, both root mean square. Draws images of both side by side.
+as the render states it over noise as found, both root mean square. Draws images.
 
 Other scenes are those of everyday_scenes.py, whose reference Mitsuba makes in four times the time: it lacks what `path` cannot find, such as
 the sun in a mirror, and their bias and mean tell less.
@@ -44,19 +44,30 @@ def times(ratio):
     return f"1/{1 / ratio:.1f}" if ratio < 1 else f"{ratio:.2g}"
 
 
-def draw(images, picture):
-    """`images`: of (name, quasilux, Mitsuba), PER_ROW side by side, one above the other."""
-    columns, rows = min(PER_ROW, len(images)), 2 * -(-len(images) // PER_ROW)
-    figure, axes = plt.subplots(rows, columns, figsize=(3.2 * columns, 2.6 * rows), squeeze=False)
+def draw(rows, picture):
+    """`rows`: lists of (title, image, exposure)."""
+    columns = max(map(len, rows))
+    figure, axes = plt.subplots(len(rows), columns, figsize=(3.2 * columns, 2.8 * len(rows)), squeeze=False)
     for axis in axes.flat:
         axis.axis("off")
-    for k, (name, *both) in enumerate(images):
-        for row, (image, by) in enumerate(zip(both, ("quasilux", "Mitsuba path"))):
-            axis = axes[2 * (k // PER_ROW) + row, k % PER_ROW]
-            axis.imshow(tone_map(image, 0.3 / both[0].mean()), interpolation="nearest")
-            axis.set_title(f"{name}, {by}")
+    for row, placed in zip(rows, axes):
+        for (title, image, exposure), axis in zip(row, placed):
+            axis.imshow(tone_map(image, exposure), interpolation="nearest")
+            axis.set_title(title)
     figure.tight_layout()
-    figure.savefig(picture, dpi=100)
+    figure.savefig(FIGURES / picture, dpi=100)
+
+
+def draw_both(images):
+    """`images`: of (name, quasilux, Mitsuba); one above the other."""
+    rows = [[(f"{image[0]}, {by}", image[column], 0.3 / image[1].mean()) for image in images]
+            for column, by in ((1, "quasilux"), (2, "Mitsuba path"))]
+    draw(rows, "real_scenes.png")
+
+
+def draw_everyday(images):
+    row = [(name, image, 0.3 / image.mean()) for name, image, *_ in images]
+    draw([row[k:k + PER_ROW] for k in range(0, len(row), PER_ROW)], "everyday_scenes.png")
 
 
 def main():
@@ -74,9 +85,10 @@ def main():
         images.append((name, *result.images))
         row = f"| {name} | {result.noise:.1e} | {result.bias:.1e} | {result.noise + result.bias:.1e} | {100 * result.mean:+.2f} % |"
         print(f"{row} {result.estimated:.2f} | {result.peer:.1e} | {times(result.ratio)} |", flush=True)
-    for all_names, picture in ((NAMES, "real_scenes.png"), (list(everyday_scenes.SCENES), "everyday_scenes.png")):
-        if names == all_names and seconds >= 5:
-            draw(images, FIGURES / picture)
+    if seconds >= 5 and names == NAMES:
+        draw_both(images)
+    if seconds >= 5 and names == list(everyday_scenes.SCENES):
+        draw_everyday(images)
 
 
 if __name__ == "__main__":
