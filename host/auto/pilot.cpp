@@ -59,10 +59,15 @@ PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const 
         measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness, radianceByFlux(report));
     if (report.photonClasses.empty()) pilot.noiseOfPhotons = 0; // of caustics that paths find
     pilot.directByPhotons = report.learned.emittersByPhotons > 0;
-    pilot.secondsOfPhotons = photons + std::max(0.0, camera - cameraPaths_ * secondsWithoutGathering_);
+    pilot.secondsOfPhotons = photons + gatheringSeconds(camera);
     pilot.radius = radiusOf(report);
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());
     return pilot;
+}
+
+// Of a pass whose camera paths take so many `cameraSeconds`; where no path was traced without, none are told apart.
+double RendererPilot::gatheringSeconds(double cameraSeconds) const {
+    return secondsWithoutGathering_ > 0 ? std::max(0.0, cameraSeconds - cameraPaths_ * secondsWithoutGathering_) : 0;
 }
 
 double RendererPilot::secondsPerPass() const {

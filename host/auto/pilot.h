@@ -45,6 +45,7 @@ private:
     };
     double lateMedian(double PassSeconds::*part) const;
     double secondsPerPass() const;
+    double gatheringSeconds(double cameraSeconds) const;
     double cameraSecondsWithoutDiscs() const;
 
     Device& device_;

@@ -13,8 +13,8 @@ namespace {
 
 // The radii are chosen anew after so many passes of the pilot, which ends with the last choice.
 constexpr std::array<unsigned, 3> choices{passesOfEqualRadius, 8, 16};
-constexpr double pilotSide =
-    128; // of the pilot's image at most, about: it is to cost little, whatever the size of the image
+// Of the pilot's image at most, about: it is to cost little, whatever the size of the image.
+constexpr double pilotSide = 128;
 constexpr unsigned foreseenPasses = 1024;
 const std::string pilotOwner = "pilot's ";
 
