@@ -58,14 +58,13 @@ PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const 
     PilotMeasure pilot =
         measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness, radianceByFlux(report));
     if (report.photonClasses.empty()) pilot.noiseOfPhotons = 0; // of caustics that paths find
-    pilot.directByPhotons = report.learned.emittersByPhotons > 0;
     pilot.secondsOfPhotons = photons + gatheringSeconds(camera);
     pilot.radius = radiusOf(report);
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());
     return pilot;
 }
 
-// Of a pass whose camera paths take so many `cameraSeconds`; where no path was traced without, none are told apart.
+// The part of a pass's `cameraSeconds` that gathering takes; 0 where it was not measured.
 double RendererPilot::gatheringSeconds(double cameraSeconds) const {
     return secondsWithoutGathering_ > 0 ? std::max(0.0, cameraSeconds - cameraPaths_ * secondsWithoutGathering_) : 0;
 }

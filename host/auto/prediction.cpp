@@ -1,6 +1,5 @@
 #include "auto/prediction.h"
 
-#include "render/adaptive_radius.h"
 #include "render/radius.h"
 
 #include <algorithm>

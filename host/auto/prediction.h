@@ -20,7 +20,6 @@ struct PilotMeasure {
         0;                  ///< relMSE of their noise at most, did one camera path a pixel find them (noiseOfFinding)
     double causticsMet = 0; ///< as many equal ones would have their noise, were they met one by one
     double biasNoise = 0;   ///< relMSE that the estimate of the bias has as noise
-    bool directByPhotons = false; ///< of some emitters; that noise is in no share above
     double radius = 1;            ///< of the first pass's density estimate, in any unit
     bool inVolume = false;        ///< kernels shrink in three dimensions
 };

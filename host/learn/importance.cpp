@@ -118,11 +118,12 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& path
             Cell& coarse = cells[keys[2 * at + 1]];
             coarse.isCoarse = true;
             coarse.all += value / (double(IMPORTANCE_COARSE) * IMPORTANCE_COARSE);
-            const Scattered scattered = aims.empty() ? Scattered() : scatteredFrom(paths[k], v, aims);
-            for (Cell* cell : {&fine, &coarse}) {
-                ++cell->scattering;
-                if (!aims.empty()) cell->scattered.add(scattered);
-            }
+            ++fine.scattering;
+            ++coarse.scattering;
+            if (aims.empty()) continue;
+            const Scattered scattered = scatteredFrom(paths[k], v, aims);
+            fine.scattered.add(scattered);
+            coarse.scattered.add(scattered);
         }
     // Sorted, so that the table is the same on every machine.
     std::vector<uint32_t> known;

@@ -14,15 +14,14 @@ void CameraStage::compile(const PhotonStage& photons) {
     if (shared_)
         shared_->compile(film_, params_, geometry_, tracer(film_, scales, photons));
     else
-        tracePart(film_, film_.parts().front(), 0, scales, photons);
+        tracePart(film_, film_.parts().front(), params_, 0, scales, photons);
     traceCameraPaths_.forgetPace();
     if (radii_) radii_->compile();
 }
 
 // Traces the paths of the first `pixels` of a part of the film; of none, so that the runtime compiles the kernel.
-void CameraStage::tracePart(Film& film, Film::Part& part, size_t pixels, const Buffer<float>* radiusScales,
-                            const PhotonStage& photons) {
-    shared::CameraParams params = params_;
+void CameraStage::tracePart(Film& film, Film::Part& part, shared::CameraParams params, size_t pixels,
+                            const Buffer<float>* radiusScales, const PhotonStage& photons) {
     params.firstPixel = static_cast<unsigned>(part.firstPixel);
     params.pixels = static_cast<unsigned>(pixels);
     launch(part.pixels, part.sums, film, params, radiusScales, photons);
@@ -47,17 +46,18 @@ void CameraStage::launch(size_t workItems, Buffer<float>& result, Film& film, co
         run();
 }
 
-void CameraStage::runOn(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons) {
-    const Film::Pass onFilm = film.beginPass(params_.pass);
-    params_.batchWeight = onFilm.batchWeight;
-    params_.map.biasWeight = onFilm.biasWeight;
-    params_.filmLayout = film.layout().bits();
+void CameraStage::runOn(Film& film, shared::CameraParams params, const Buffer<float>* radiusScales,
+                        const PhotonStage& photons) {
+    const Film::Pass onFilm = film.beginPass(params.pass);
+    params.batchWeight = onFilm.batchWeight;
+    params.map.biasWeight = onFilm.biasWeight;
+    params.filmLayout = film.layout().bits();
     if (shared_)
-        shared_->addPass(film, params_, geometry_, tracer(film, radiusScales, photons));
+        shared_->addPass(film, params, geometry_, tracer(film, radiusScales, photons));
     else
         for (Film::Part& part : film.parts()) {
             traceCameraPaths_.watchParts([&](size_t pixels) { film.noteAhead(part.firstPixel + pixels); });
-            tracePart(film, part, part.pixels, radiusScales, photons);
+            tracePart(film, part, params, part.pixels, radiusScales, photons);
             film.noteAhead(part.firstPixel + part.pixels);
         }
     traceCameraPaths_.watchParts({});
@@ -71,32 +71,25 @@ const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage
 }
 
 void CameraStage::run(unsigned pass, const PhotonStage& photons) {
-    params(pass, photons);
-    runOn(film_, radii_ ? &radii_->scales(pass) : nullptr, photons);
+    runOn(film_, params(pass, photons), radii_ ? &radii_->scales(pass) : nullptr, photons);
 }
 
 void CameraStage::runWithoutGathering(const PhotonStage& photons) {
-    params(0, photons);
-    const unsigned cameraPaths = params_.cameraPaths, gatheringPaths = params_.gatheringPaths;
-    params_.cameraPaths = 1;
-    params_.gatheringPaths = 0;
-    runOn(film_, radii_ ? &radii_->scales(0) : nullptr, photons);
-    params_.cameraPaths = cameraPaths;
-    params_.gatheringPaths = gatheringPaths;
+    shared::CameraParams ofOnePath = params(0, photons);
+    ofOnePath.cameraPaths = 1;
+    ofOnePath.gatheringPaths = 0;
+    runOn(film_, ofOnePath, radii_ ? &radii_->scales(0) : nullptr, photons);
 }
 
 bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->pilotIsDue(pass); }
 
 // With the same photons: passes to come, whose radii this decides, have others.
 size_t CameraStage::chooseRadius(unsigned pass, const PhotonStage& photons) {
-    params(pass, photons);
+    shared::CameraParams ofPilot = params(pass, photons);
+    ofPilot.camera = radii_->pilotCamera();
+    ofPilot.radiusBlock = ofPilot.cameraPaths = 1;
     const size_t paths = radii_->pilotFilm().pixels();
-    const shared::CameraParams ofImage = params_;
-    params_.camera = radii_->pilotCamera();
-    params_.radiusBlock = params_.cameraPaths = 1;
-    runOn(radii_->pilotFilm(), &radii_->pilotScales(), photons);
-    params_.camera = ofImage.camera;
-    params_.cameraPaths = ofImage.cameraPaths;
+    runOn(radii_->pilotFilm(), ofPilot, &radii_->pilotScales(), photons);
     radii_->endPilotPass();
     return paths;
 }

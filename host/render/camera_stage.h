@@ -35,12 +35,12 @@ public:
     size_t chooseRadius(unsigned pass, const PhotonStage& photons);
 
 private:
-    void tracePart(Film& film, Film::Part& part, size_t pixels, const Buffer<float>* radiusScales,
-                   const PhotonStage& photons);
+    void tracePart(Film& film, Film::Part& part, shared::CameraParams params, size_t pixels,
+                   const Buffer<float>* radiusScales, const PhotonStage& photons);
     SharedSamples::Trace tracer(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
     void launch(size_t workItems, Buffer<float>& result, Film& film, const shared::CameraParams& params,
                 const Buffer<float>* radiusScales, const PhotonStage& photons);
-    void runOn(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
+    void runOn(Film& film, shared::CameraParams params, const Buffer<float>* radiusScales, const PhotonStage& photons);
 
     const GeometryBuffers& geometry_;
     Film& film_;

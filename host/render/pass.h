@@ -40,7 +40,7 @@ public:
     /// Memory that all passes will take, known once the pass is made.
     const MemoryForecast& forecast() const { return forecast_; }
 
-    /// Seconds that a camera path of each pixel takes without gathering photons; 0 where passes have no more than one. It leaves what is no
+    /// Seconds that a camera path of each pixel takes without gathering photons; 0 where it gathers none anyway, or passes have no more than one. It leaves what is no
     /// part of the image in the film.
     virtual double secondsWithoutGathering() { return 0; }
     /// Which photons of this pass its camera paths gather; none where nothing is gathered.

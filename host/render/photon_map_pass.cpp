@@ -44,6 +44,7 @@ void PhotonMapPass::chooseRadii(unsigned pass, RenderCounters& counters) {
 }
 
 double PhotonMapPass::secondsWithoutGathering() {
+    if (!photons_->areTaken()) return 0;
     const Stopwatch watch;
     camera_->runWithoutGathering(photons_->stage());
     context_.device.finish();

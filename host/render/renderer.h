@@ -66,7 +66,7 @@ public:
     void restoreRadii(const StateSource& source);
     /// Forgets passes, film and counters, but neither radii nor what was learned.
     void clearPasses();
-    /// Seconds that one camera path of each pixel takes where it gathers no photons; 0 where a pass has no more than one. Before the first pass.
+    /// Seconds that one camera path of each pixel takes where it gathers no photons; 0 where it gathers none anyway, or a pass has no more than one. Before the first pass.
     double secondsWithoutGathering();
     /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for meters and
     /// --map camera. Compiles kernels for it.
