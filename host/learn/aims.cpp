@@ -32,22 +32,20 @@ double directionsOfArea(const glm::dvec3& centre, const glm::dvec3& from) {
 
 double quarterOfArea(const Opening& opening) { return opening.halfU * opening.halfV; }
 
-// At most mostRays of them, drawn by weight (systematic resampling).
+// At most mostRays of them, drawn by weight, with the weight of all.
 std::vector<UsefulRay> thinnedByWeight(std::vector<UsefulRay> rays) {
     if (rays.size() <= mostRays) return rays;
-    double all = 0, below = 0;
+    double all = 0;
     for (const auto& ray : rays) all += ray.weight;
-    const double step = all / mostRays;
-    double drawn = 0; // steps so far
+    const auto drawn = drawnByWeight(rays, mostRays);
     std::vector<UsefulRay> some;
-    some.reserve(mostRays);
-    for (const auto& ray : rays) {
-        below += ray.weight;
-        const double times = std::max(0.0, std::floor(below / step + 0.5) - drawn);
-        if (times == 0) continue;
-        drawn += times;
-        some.push_back(ray);
-        some.back().weight = times * step;
+    some.reserve(drawn.size());
+    for (size_t d = 0; d < drawn.size(); ++d) {
+        if (d == 0 || drawn[d] != drawn[d - 1]) {
+            some.push_back(rays[drawn[d]]);
+            some.back().weight = 0;
+        }
+        some.back().weight += all / mostRays;
     }
     return some;
 }

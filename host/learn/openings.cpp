@@ -33,17 +33,12 @@ double weightOf(const std::vector<UsefulRay>& rays) {
     return sum;
 }
 
-// So many of them as raysLookedAt, each as often as it weighs (systematic resampling), of equal weight.
+// So many of them as raysLookedAt, each as often as it weighs, of equal weight.
 std::vector<UsefulRay> resampled(const std::vector<UsefulRay>& rays) {
-    const double step = weightOf(rays) / raysLookedAt;
     std::vector<UsefulRay> some;
-    double below = 0;
-    for (const auto& ray : rays) {
-        below += std::min(ray.weight, mostCopies * step);
-        while (below > (static_cast<double>(some.size()) + 0.5) * step && some.size() < raysLookedAt) {
-            some.push_back(ray);
-            some.back().weight = 1;
-        }
+    for (const size_t k : drawnByWeight(rays, raysLookedAt, mostCopies)) {
+        some.push_back(rays[k]);
+        some.back().weight = 1;
     }
     return some;
 }
@@ -230,6 +225,18 @@ Opening fitOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre)
 }
 
 } // namespace
+
+std::vector<size_t> drawnByWeight(const std::vector<UsefulRay>& rays, size_t count, double mostCopies) {
+    const double step = weightOf(rays) / static_cast<double>(count);
+    std::vector<size_t> drawn;
+    drawn.reserve(count);
+    double below = 0;
+    for (size_t k = 0; k < rays.size(); ++k) {
+        below += std::min(rays[k].weight, mostCopies * step);
+        while (below > (static_cast<double>(drawn.size()) + 0.5) * step && drawn.size() < count) drawn.push_back(k);
+    }
+    return drawn;
+}
 
 double distance(const UsefulRay& ray, const glm::dvec3& place) {
     return glm::length(across(ray, place - ray.position));

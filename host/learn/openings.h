@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
 
 namespace quasilux {
@@ -17,6 +18,11 @@ struct UsefulRay {
 
 /// Of a place from the line that the ray lies on.
 double distance(const UsefulRay& ray, const glm::dvec3& place);
+
+/// Which of the rays systematic resampling draws, in their order, each as often as it weighs (no more than `mostCopies` times or so): `count`
+/// of them, fewer where some weigh more than that.
+std::vector<size_t> drawnByWeight(const std::vector<UsefulRay>& rays, size_t count,
+                                  double mostCopies = std::numeric_limits<double>::infinity());
 
 /// A rectangle, or a square that faces every place where rays begin.
 struct Opening {
