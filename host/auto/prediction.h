@@ -20,8 +20,8 @@ struct PilotMeasure {
         0;                  ///< relMSE of their noise at most, did one camera path a pixel find them (noiseOfFinding)
     double causticsMet = 0; ///< as many equal ones would have their noise, were they met one by one
     double biasNoise = 0;   ///< relMSE that the estimate of the bias has as noise
-    double radius = 1;            ///< of the first pass's density estimate, in any unit
-    bool inVolume = false;        ///< kernels shrink in three dimensions
+    double radius = 1;      ///< of the first pass's density estimate, in any unit
+    bool inVolume = false;  ///< kernels shrink in three dimensions
 };
 
 /// `image` of passes 0, 1, …; `brightness` as of errorByTile(); `radiance`: of emitters, as noiseOfFinding() takes it.
