@@ -32,7 +32,7 @@ typedef struct {
     unsigned int variant;         /* of the law: VARIANT_* */
     unsigned int directSharing;   /* DIRECT_SHARING_* */
     unsigned int emittersSampled; /* by genuine diffuse lobes, for direct light: all but those with directByPhotons */
-    unsigned int segments, borderNodes, borderNodeCount;
+    unsigned int borderLeaves, borderNodes, borderNodeCount;
     unsigned int
         patchNodes; /* by patch: the node that holds the segments whose patchA it is; QL_NONE: there are none */
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */

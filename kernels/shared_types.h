@@ -65,20 +65,24 @@ typedef struct {
                                         both, MEDIUM_UNCHANGED */
 } Shape;
 
-/* A straight piece of a border of a surface patch: free edge, crease, or curve where another surface cuts it.
- * The density estimate does not look across it (docs/method/density.md). */
-typedef struct {
-    Packed3 a, b;
-    unsigned int patchA, patchB; /* the patches that it bounds; QL_NONE where there is only one */
-} BorderSegment;
+/* Segments that kernels take together. */
+#define BORDER_LANES 8
 
-/* Node of the tree over the segments (border_tree.clh), in depth-first order. */
+/* Border segments (host/prepare/borders.h) of a leaf of the tree over them: ends, and patches that they bound. Places that are left over
+ * have no length. */
+typedef struct {
+    float ax[BORDER_LANES], ay[BORDER_LANES], az[BORDER_LANES];
+    float bx[BORDER_LANES], by[BORDER_LANES], bz[BORDER_LANES];
+    unsigned int patchA[BORDER_LANES], patchB[BORDER_LANES];
+} BorderLeaf;
+
+/* Node of the tree (border_tree.clh), in depth-first order. */
 typedef struct {
     Packed3 center, halfExtent;         /* of its box */
     float radius;                       /* of the ball about it */
     unsigned int patchFirst, patchLast; /* all patches of its segments lie between */
     unsigned int next;                  /* the first node that is not below it */
-    unsigned int first, count;          /* segments of a leaf; count 0: an inner node */
+    unsigned int leaf;                  /* index; QL_NONE: an inner node */
 } BorderNode;
 
 /* ---- scattering ---------------------------------------------------------------------------------------------- */

@@ -9,26 +9,25 @@
 namespace quasilux {
 namespace {
 
-constexpr size_t largestLeaf = 4;
 /// Of the largest coordinate: what a kernel's distances in single precision may be off by.
 constexpr double rounding = 1e-6;
 
 /// A segment; `group`: the middle of all segments of its first patch, which keeps them together.
 struct Entry {
-    shared::BorderSegment segment;
+    BorderSegment segment;
     glm::dvec3 middle, group;
 };
 
 using Entries = std::vector<Entry>::iterator;
 
-Box boxOf(const shared::BorderSegment& segment) {
+Box boxOf(const BorderSegment& segment) {
     Box box;
     box.add(unpack(segment.a));
     box.add(unpack(segment.b));
     return box;
 }
 
-std::vector<Entry> entriesOf(const std::vector<shared::BorderSegment>& segments) {
+std::vector<Entry> entriesOf(const std::vector<BorderSegment>& segments) {
     std::unordered_map<unsigned, Box> boxes;
     for (const auto& segment : segments) boxes[segment.patchA].add(boxOf(segment));
     std::vector<Entry> entries;
@@ -41,7 +40,7 @@ std::vector<Entry> entriesOf(const std::vector<shared::BorderSegment>& segments)
 shared::BorderNode nodeOf(Entries first, Entries last) {
     Box box;
     shared::BorderNode node{};
-    node.patchFirst = QL_NONE;
+    node.patchFirst = node.leaf = QL_NONE;
     for (auto entry = first; entry != last; ++entry) {
         box.add(boxOf(entry->segment));
         for (const unsigned patch : {entry->segment.patchA, entry->segment.patchB}) {
@@ -56,6 +55,20 @@ shared::BorderNode nodeOf(Entries first, Entries last) {
     node.halfExtent = pack(0.5 * box.extent() + slack);
     node.radius = static_cast<float>(0.5 * box.diagonal() * (1 + rounding) + slack);
     return node;
+}
+
+/// Of at most BORDER_LANES segments.
+shared::BorderLeaf leafOf(Entries first, Entries last) {
+    shared::BorderLeaf leaf{};
+    for (size_t lane = 0; lane < BORDER_LANES; ++lane) {
+        const bool isThere = lane < static_cast<size_t>(last - first);
+        const BorderSegment& segment = first[isThere ? static_cast<ptrdiff_t>(lane) : 0].segment;
+        const shared::Packed3 a = segment.a, b = isThere ? segment.b : a;
+        leaf.ax[lane] = a.x, leaf.ay[lane] = a.y, leaf.az[lane] = a.z;
+        leaf.bx[lane] = b.x, leaf.by[lane] = b.y, leaf.bz[lane] = b.z;
+        leaf.patchA[lane] = segment.patchA, leaf.patchB[lane] = segment.patchB;
+    }
+    return leaf;
 }
 
 /// Where the range is parted: half way by `key` along its longest axis, and between two patches where there are several.
@@ -81,16 +94,15 @@ void build(Entries first, Entries last, BorderTree& tree) {
     tree.nodes.push_back(nodeOf(first, last));
     const bool severalPatches =
         std::any_of(first, last, [&](const Entry& entry) { return entry.segment.patchA != first->segment.patchA; });
-    const bool isLeaf = static_cast<size_t>(last - first) <= largestLeaf;
+    const bool isLeaf = static_cast<size_t>(last - first) <= BORDER_LANES;
     // From the root down: the first node that is not parted between patches.
     if (isLeaf || !severalPatches)
         for (auto entry = first; entry != last; ++entry)
             if (auto& node = tree.nodeOfPatch[entry->segment.patchA]; node == QL_NONE)
                 node = static_cast<unsigned>(index);
     if (isLeaf) {
-        tree.nodes[index].first = static_cast<unsigned>(tree.segments.size());
-        tree.nodes[index].count = static_cast<unsigned>(last - first);
-        for (auto entry = first; entry != last; ++entry) tree.segments.push_back(entry->segment);
+        tree.nodes[index].leaf = static_cast<unsigned>(tree.leaves.size());
+        tree.leaves.push_back(leafOf(first, last));
     } else {
         const Entries middle = part(first, last, severalPatches ? &Entry::group : &Entry::middle, severalPatches);
         build(first, middle, tree);
@@ -101,7 +113,7 @@ void build(Entries first, Entries last, BorderTree& tree) {
 
 } // namespace
 
-BorderTree buildBorderTree(const std::vector<shared::BorderSegment>& segments, unsigned patchCount) {
+BorderTree buildBorderTree(const std::vector<BorderSegment>& segments, unsigned patchCount) {
     BorderTree tree;
     tree.nodeOfPatch.assign(patchCount, QL_NONE);
     std::vector<Entry> entries = entriesOf(segments);

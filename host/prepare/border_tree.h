@@ -6,13 +6,13 @@
 namespace quasilux {
 
 struct BorderTree {
-    std::vector<shared::BorderNode> nodes;       ///< depth first, node 0 the root; none where there is no segment
-    std::vector<shared::BorderSegment> segments; ///< in the order of the leaves
+    std::vector<shared::BorderNode> nodes; ///< depth first, node 0 the root; none where there is no segment
+    std::vector<shared::BorderLeaf> leaves;
     std::vector<unsigned>
         nodeOfPatch; ///< the lowest node that holds all segments whose patchA it is; QL_NONE: there are none
 };
 
 /// Binary tree: segments of different patches are parted first, those of one patch by their places.
-BorderTree buildBorderTree(const std::vector<shared::BorderSegment>& segments, unsigned patchCount);
+BorderTree buildBorderTree(const std::vector<BorderSegment>& segments, unsigned patchCount);
 
 } // namespace quasilux

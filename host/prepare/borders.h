@@ -9,13 +9,20 @@
 
 namespace quasilux {
 
+/// A straight piece of a border of a surface patch: free edge, crease, or curve where another surface cuts it. The density estimate does
+/// not look across it.
+struct BorderSegment {
+    shared::Packed3 a, b;
+    unsigned patchA, patchB; ///< the patches that it bounds; QL_NONE where there is only one
+};
+
 struct SurfaceBorders {
     std::vector<unsigned>
         patchOfPrimitive; ///< by primitive index (shapes in order, triangles in order; a sphere is one)
     unsigned patchCount = 0;
     std::vector<float> patchCurvature; ///< by patch, 1/scene unit: larger principal curvature that 90 % of its area
                                        ///< stays below; 0 = flat
-    std::vector<shared::BorderSegment> segments; ///< free edges, creases, and curves where other surfaces cut
+    std::vector<BorderSegment> segments;
     struct Overlap {
         unsigned first, second; ///< primitives
         glm::dvec3 place;       ///< within both

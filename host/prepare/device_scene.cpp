@@ -91,7 +91,7 @@ std::vector<float> patchRadii(const SurfaceBorders& borders) {
 
 void appendBorders(const SurfaceBorders& borders, SceneTableWriter& tables, shared::SceneTables& offsets) {
     const BorderTree tree = buildBorderTree(borders.segments, borders.patchCount);
-    offsets.segments = tables.append(tree.segments);
+    offsets.borderLeaves = tables.append(tree.leaves);
     offsets.borderNodes = tables.append(tree.nodes);
     offsets.borderNodeCount = static_cast<unsigned>(tree.nodes.size());
     offsets.patchNodes = tables.append(tree.nodeOfPatch);

@@ -98,7 +98,7 @@ inline Scene cornellBox() {
 }
 
 inline dvec3 point(const shared::Packed3& p) { return {p.x, p.y, p.z}; }
-inline double length(const shared::BorderSegment& s) { return glm::distance(point(s.a), point(s.b)); }
+inline double length(const BorderSegment& s) { return glm::distance(point(s.a), point(s.b)); }
 
 inline double totalLength(const SurfaceBorders& borders) {
     double sum = 0;
@@ -106,7 +106,7 @@ inline double totalLength(const SurfaceBorders& borders) {
     return sum;
 }
 
-inline bool names(const shared::BorderSegment& s, unsigned p, unsigned q) {
+inline bool names(const BorderSegment& s, unsigned p, unsigned q) {
     return (s.patchA == p && s.patchB == q) || (s.patchA == q && s.patchB == p);
 }
 
