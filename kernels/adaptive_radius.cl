@@ -13,41 +13,68 @@
 #define RADIUS_WINDOW 2
 /* A squared curvature below this share of its noise is taken to be as large. */
 #define CURVATURE_FLOOR 0.1f
-/* Squared bias counts this many times: it is underestimated where features are narrow, and a smaller radius costs less time. */
+/* Squared bias counts this many times while the pilot's disc is the largest: of features narrower than it c r^2 says too little. */
 #define BIAS_CARE 3.0f
-#define RADIUS_SCALE_MIN 0.3f
+#define RADIUS_SCALE_MIN 0.1f
+/* The pilot's disc is made as small as its measures certainly ask for, but not for less than a quarter of it. */
+#define PILOT_HYSTERESIS 0.75f
 
 /* Of the pilot's film, which has everything. */
 #define PILOT_LAYOUT (FILM_HAS_BIAS | FILM_HAS_COMPONENTS)
 
-__kernel void measureRadii(__global const float* film, __global RadiusMeasure* measures, const RadiusParams params) {
+/* `pilotScales`: radii of the pilot, in units of MapParams::radius. */
+__kernel void measureRadii(__global const float* film, __global const float* pilotScales,
+                           __global RadiusMeasure* measures, const RadiusParams params) {
     const uint pixel = get_global_id(0);
     if (pixel >= params.width * params.height) return;
-    const float n = params.passes;
     __global const float* sums = film + (size_t)pixel * FILM_PIXEL_FLOATS(PILOT_LAYOUT);
     for (uint c = 0; c < LIGHT_CLASSES; ++c) {
         if (!(PHOTON_CLASSES >> c & 1)) continue;
+        const size_t i = radiusIndex(pixel, c);
+        __global RadiusMeasure* measure = measures + i;
+        measure->passes += params.newPasses;
+        measure->squaredRadii += params.squaredShrinks * pilotScales[i] * pilotScales[i];
+        measure->inverseSquares += params.inverseShrinks / (pilotScales[i] * pilotScales[i]);
+        const float n = measure->passes;
         __global const float* bias = sums + FILM_CLASS_BIAS(PILOT_LAYOUT) + c * FILM_BIAS_FLOATS;
         float square = 0, noise = 0;
         for (uint channel = 0; channel < 3; ++channel) {
-            const float radiance = sums[FILM_TOTAL_SUM + channel] / n;
+            const float radiance = sums[FILM_TOTAL_SUM + channel] / params.passes;
             if (!(radiance > 0)) continue;
             const float sum = bias[FILM_BIAS_SUM + channel], mean = sum / n;
             square += mean * mean / (radiance * radiance);
             noise += max(bias[FILM_BIAS_SQUARES + channel] - sum * mean, 0.f) / (n * (n - 1)) / (radiance * radiance);
         }
         if (!isfinite(square + noise)) square = noise = 0;
-        const float perRadius = n / params.squaredRadii;
-        __global RadiusMeasure* measure = measures + radiusIndex(pixel, c);
+        const float perRadius = n / measure->squaredRadii;
         measure->curvature = (square - noise) * perRadius * perRadius;
         measure->curvatureNoise = noise * perRadius * perRadius;
-        measure->variance = noise * n * n / (BIAS_VARIANCE * params.inverseSquares);
+        measure->variance = noise * n * n / (BIAS_VARIANCE * measure->inverseSquares);
     }
 }
 
+/* 0 where nothing is known. */
+inline float bestRadius(float curvature, float variance, const RadiusParams* params) {
+    const float sixth = params->noiseToCurvature * variance / (2 * curvature);
+    return sixth > 0 && isfinite(sixth) ? exp2(log2(sixth) / 6) : 0;
+}
+
+/* Of a squared mean over the square of its standard error, less 1: what one in a hundred exceeds by chance (Student's t), with the noise from so
+ * many passes in some four parts of the window whose discs do not overlap. */
+inline float excessByChance(float passes) { return 5 + 8 / ((passes - 1) * (passes - 1)); }
+
+/* The pilot goes on with radius `scale`, and forgets the bias that it has measured. */
+inline void narrowPilot(float scale, uint lightClass, __global float* sums, __global float* pilotScale,
+                        __global RadiusMeasure* measure) {
+    *pilotScale = scale;
+    measure->passes = measure->squaredRadii = measure->inverseSquares = 0;
+    __global float* bias = sums + FILM_CLASS_BIAS(PILOT_LAYOUT) + lightClass * FILM_BIAS_FLOATS;
+    for (uint k = 0; k < FILM_BIAS_FLOATS; ++k) bias[k] = 0;
+}
+
 /* `before`: the radii chosen before, which stay where there is no such light. */
-__kernel void chooseRadii(__global const RadiusMeasure* measures, __global const float* before, __global float* scales,
-                          const RadiusParams params) {
+__kernel void chooseRadii(__global float* film, __global RadiusMeasure* measures, __global float* pilotScales,
+                          __global const float* before, __global float* scales, const RadiusParams params) {
     const uint pixel = get_global_id(0);
     if (pixel >= params.width * params.height) return;
     const int x = pixel % params.width, y = pixel / params.width;
@@ -63,10 +90,14 @@ __kernel void chooseRadii(__global const RadiusMeasure* measures, __global const
                 noise += measure->curvatureNoise;
                 variance += measure->variance;
             }
-        curvature = max(curvature, CURVATURE_FLOOR * noise);
-        const float sixth = params.noiseToCurvature * variance / (2 * BIAS_CARE * curvature);
         const size_t i = radiusIndex(pixel, c);
-        const int isKnown = sixth > 0 && isfinite(sixth);
-        scales[i] = isKnown ? clamp(exp2(log2(sixth) / 6), RADIUS_SCALE_MIN, params.largest) : before[i];
+        const float care = pilotScales[i] < params.largest ? 1 : BIAS_CARE;
+        const float best = bestRadius(care * max(curvature, CURVATURE_FLOOR * noise), variance, &params);
+        scales[i] = best > 0 ? clamp(best, RADIUS_SCALE_MIN, params.largest) : before[i];
+        const float certain = curvature - excessByChance(measures[i].passes) * noise,
+                    wanted = max(bestRadius(care * certain, variance, &params), RADIUS_SCALE_MIN);
+        if (certain > 0 && variance > 0 && wanted < PILOT_HYSTERESIS * pilotScales[i])
+            narrowPilot(wanted, c, film + (size_t)pixel * FILM_PIXEL_FLOATS(PILOT_LAYOUT), pilotScales + i,
+                        measures + i);
     }
 }

@@ -167,13 +167,18 @@ typedef struct {
         curvature; /* squared: the bias at radius r, in units of MapParams::radius of the first pass, is r^2 times its root */
     float curvatureNoise; /* of its estimate */
     float variance;       /* of a pass of radius 1, from photons */
+    float passes;         /* of the pilot with the radius that it has now */
+    float squaredRadii;   /* sum over these of the squared radius, in units of MapParams::radius of the first pass */
+    float inverseSquares; /* of its inverse */
 } RadiusMeasure;
 
 typedef struct {
     unsigned int width, height; /* of the pilot */
     unsigned int passes;        /* of it */
-    float squaredRadii;     /* sum over them of the squared radius, in units of MapParams::radius of the first pass */
-    float inverseSquares;   /* of its inverse */
+    unsigned int newPasses;     /* since radii were last chosen */
+    float
+        squaredShrinks; /* sum over these of the squared radius for scale 1, in units of MapParams::radius of the first pass */
+    float inverseShrinks;   /* of its inverse */
     float noiseToCurvature; /* variance / (2 curvature) of a pass times this is the best radius to the sixth power */
     float largest;          /* radius, in units of MapParams::radius */
 } RadiusParams;

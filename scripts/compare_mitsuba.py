@@ -11,7 +11,7 @@ import sys
 import mitsuba
 import numpy as np
 
-from equal_time import Reference, at_equal_time, render_quasilux
+from equal_time import Reference, add_variant, at_equal_time, render_quasilux
 from relmse import by_block
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -57,8 +57,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", metavar="SCENE")
     parser.add_argument("--equal-time", type=float, metavar="SECONDS")
+    add_variant(parser)
     arguments = parser.parse_args()
-    mitsuba.set_variant("llvm_ad_rgb")
+    mitsuba.set_variant(arguments.variant)
     names = arguments.scenes or sorted(path.stem for path in SCENES.glob("*.xml"))
     heads = ["scene", "mean", "worst block", ""]
     if arguments.equal_time:

@@ -17,8 +17,16 @@ import numpy as np
 from relmse import by_block, mean_about, read_channels, relmse_weight
 
 PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build" / "release" / "quasilux"
-SAMPLES = 32  # per pixel in one call of Mitsuba
+SAMPLES = {"llvm_ad_rgb": 32, "cuda_ad_rgb": 512}  # per pixel in one call of Mitsuba, by variant
 REFERENCE_SEED = 10**6
+
+
+def add_variant(parser):
+    parser.add_argument("--variant", choices=SAMPLES, default="llvm_ad_rgb", help="of Mitsuba, for the device that quasilux runs on (default: %(default)s)")
+
+
+def samples():
+    return SAMPLES[mitsuba.variant()]
 
 
 class Reference:
@@ -68,7 +76,7 @@ def render_mitsuba(scene, seconds, seed):
     start, total, calls = time.monotonic(), 0.0, 0
     while time.monotonic() - start < seconds:
         calls += 1
-        total = total + np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=1000 * seed + calls), np.float64)[..., :3]
+        total = total + np.asarray(mitsuba.render(scene, spp=samples(), seed=1000 * seed + calls), np.float64)[..., :3]
     return total / calls
 
 
@@ -77,7 +85,7 @@ def reference_by_mitsuba(path, seconds, block):
     scene = mitsuba.load_file(str(path))
     start, total, squares, calls = time.monotonic(), 0.0, 0.0, 0
     while calls < 8 or time.monotonic() - start < seconds:
-        image = np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=REFERENCE_SEED + calls), np.float64)[..., :3]
+        image = np.asarray(mitsuba.render(scene, spp=samples(), seed=REFERENCE_SEED + calls), np.float64)[..., :3]
         total, squares, calls = total + image, squares + image**2, calls + 1
     mean = total / calls
     return Reference(mean, np.sqrt(np.maximum(squares / calls - mean**2, 0) / (calls - 1)), block)
@@ -86,7 +94,7 @@ def reference_by_mitsuba(path, seconds, block):
 def at_equal_time(path, reference, seconds, folder):
     """The scene file `path` by both."""
     scene = mitsuba.load_file(str(path))
-    np.asarray(mitsuba.render(scene, spp=SAMPLES, seed=0))  # compiles
+    np.asarray(mitsuba.render(scene, spp=samples(), seed=0))  # compiles
     render_quasilux(path, 1, 9, folder)
     ours, theirs, estimates = [], [], []
     for seed in (1, 2):

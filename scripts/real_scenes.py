@@ -4,6 +4,7 @@ as the render states it over noise as found, both root mean square. Draws images
 Other scenes are those of everyday_scenes.py, whose reference Mitsuba makes in four times the time: it lacks what `path` cannot find, such as
 the sun in a mirror, and their bias and mean tell less.
 """
+import argparse
 import os
 import pathlib
 import sys
@@ -12,7 +13,7 @@ import matplotlib
 import mitsuba
 
 import everyday_scenes
-from equal_time import Reference, at_equal_time, reference_by_mitsuba
+from equal_time import Reference, add_variant, at_equal_time, reference_by_mitsuba
 from figures import tone_map
 from relmse import read_channels
 
@@ -71,12 +72,16 @@ def draw_everyday(images):
 
 
 def main():
-    seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 30
-    names = sys.argv[2:] or NAMES
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("seconds", nargs="?", type=float, default=30, metavar="SECONDS")
+    parser.add_argument("scenes", nargs="*", metavar="SCENE")
+    add_variant(parser)
+    arguments = parser.parse_args()
+    seconds, names = arguments.seconds, arguments.scenes or NAMES
     known = [*NAMES, *everyday_scenes.SCENES]
     if not set(names) <= set(known):
         sys.exit(f"real_scenes: unknown scene; known are {' '.join(known)}")
-    mitsuba.set_variant("llvm_ad_rgb")
+    mitsuba.set_variant(arguments.variant)
     print(f"{seconds:g} s each, two seeds, load {os.getloadavg()[0]:.1f}, Mitsuba {mitsuba.__version__}\n")
     print("| scene | quasilux: noise | bias | error | mean | estimated | Mitsuba `path` | error against it |\n|" + "---|" * 8)
     images = []

@@ -36,18 +36,36 @@ void put(std::vector<float>& film, unsigned pixel, const Light& light, double ra
     }
 }
 
-std::vector<float> chooseRadii(const std::vector<float>& film, double largest = 2) {
+/// What the kernels make of a film.
+struct Choice {
+    std::vector<float> scales, pilotScales, film;
+};
+
+Choice choose(const std::vector<float>& film, double largest = 2) {
     Program program(testDevice(), "adaptive_radius.cl",
                     "-DPHOTON_CLASSES=8u -DBVH_STACK_SIZE=32 -DESTIMATE_BIAS=1 -DADAPTIVE_RADIUS");
     Buffer<float> sums(testDevice(), film, "film"), scales(testDevice(), size_t{width} * height, "scales");
     Buffer<float> before(testDevice(), size_t{width} * height, "scales before");
     Buffer<shared::RadiusMeasure> measures(testDevice(), size_t{width} * height, "measures");
+    Buffer<float> pilotScales(testDevice(), size_t{width} * height, "pilot's scales");
     before.fill(1);
-    const shared::RadiusParams params{
-        width, height, passes, squaredRadii, inverseSquares, noiseToCurvature, static_cast<float>(largest)};
-    program.kernel("measureRadii").launch(size_t{width} * height, sums, measures, params);
-    program.kernel("chooseRadii").launch(size_t{width} * height, measures, before, scales, params);
-    return scales.read();
+    pilotScales.fill(static_cast<float>(largest));
+    measures.write(std::vector<shared::RadiusMeasure>(measures.size()));
+    const shared::RadiusParams params{width,
+                                      height,
+                                      passes,
+                                      passes,
+                                      static_cast<float>(squaredRadii / (largest * largest)),
+                                      static_cast<float>(inverseSquares * largest * largest),
+                                      noiseToCurvature,
+                                      static_cast<float>(largest)};
+    program.kernel("measureRadii").launch(size_t{width} * height, sums, pilotScales, measures, params);
+    program.kernel("chooseRadii").launch(size_t{width} * height, sums, measures, pilotScales, before, scales, params);
+    return {scales.read(), pilotScales.read(), sums.read()};
+}
+
+std::vector<float> chooseRadii(const std::vector<float>& film, double largest = 2) {
+    return choose(film, largest).scales;
 }
 
 // docs/method/radius.md: r^6 = N v / (2 * 3 c^2), with c^2 net of the noise of its estimate, and not below a tenth of it.
@@ -81,8 +99,27 @@ TEST(AdaptiveRadius, IsBoundedAndNeedsLight) {
             put(film, pixel, {100, 0.01}, 1);
     const auto scales = chooseRadii(film, 1.5);
     EXPECT_FLOAT_EQ(scales[3], 1.5f);
-    EXPECT_FLOAT_EQ(scales[15], 0.3f);
+    EXPECT_FLOAT_EQ(scales[15], 0.1f);
     EXPECT_FLOAT_EQ(scales[28], 1); // black: as it was
+}
+
+// The pilot's disc follows the radius that is chosen where it is sure of the bias, and what it measured with wider discs is forgotten.
+TEST(AdaptiveRadius, PilotNarrowsWhereBiasIsCertain) {
+    const Light certain{0.5, 0.001}, uncertain{0.1, 0.2};
+    std::vector<float> film(size_t{width} * height * layout.floatsPerPixel());
+    for (unsigned pixel = 0; pixel < width * height; ++pixel)
+        put(film, pixel, pixel % width < width / 2 ? certain : uncertain, 1);
+    const Choice choice = choose(film);
+    const auto biasSum = [&](unsigned pixel) {
+        return choice.film[size_t(pixel) * layout.floatsPerPixel() + FILM_CLASS_BIAS(layout.bits()) +
+                           LIGHT_DIFFUSE * FILM_BIAS_FLOATS];
+    };
+    EXPECT_LT(choice.scales[4], 0.5);
+    EXPECT_LT(choice.pilotScales[4], 0.6);
+    EXPECT_EQ(biasSum(4), 0);
+    EXPECT_LT(choice.scales[width - 4], 2);
+    EXPECT_EQ(choice.pilotScales[width - 4], 2);
+    EXPECT_GT(biasSum(width - 4), 0);
 }
 
 double relativeError(const RenderSettings& settings, unsigned passesOfRender) {

@@ -11,8 +11,8 @@ namespace quasilux {
 
 namespace {
 
-// The radii are chosen anew after so many passes of the pilot, which ends with the last choice.
-constexpr std::array<unsigned, 3> choices{passesOfEqualRadius, 8, 16};
+// The radii are chosen anew, and the pilot's discs narrowed, after so many of its passes; it ends with the last choice.
+constexpr std::array<unsigned, 4> choices{passesOfEqualRadius, 4, 8, 16};
 // Of the pilot's image at most, about: it is to cost little, whatever the size of the image.
 constexpr double pilotSide = 128;
 constexpr unsigned foreseenPasses = 1024;
@@ -68,6 +68,7 @@ AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared
     for (size_t choice = 0; choice <= choices.size(); ++choice)
         scales_.emplace_back(device, pilotScales_.size(), scalesLabel(choice)).fill(1);
     pilotScales_.fill(largestAdaptiveRadius);
+    measures_.write(std::vector<shared::RadiusMeasure>(measures_.size()));
 }
 
 std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
@@ -82,8 +83,8 @@ std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camer
 
 void AdaptiveRadius::compile() {
     const shared::RadiusParams nothing{};
-    measureRadii_.launch(film_->pixels(), film_->sums(), measures_, nothing);
-    chooseRadii_.launch(film_->pixels(), measures_, scales_[0], scales_[1], nothing);
+    measureRadii_.launch(film_->pixels(), film_->sums(), pilotScales_, measures_, nothing);
+    chooseRadii_.launch(film_->pixels(), film_->sums(), measures_, pilotScales_, scales_[0], scales_[1], nothing);
 }
 
 unsigned AdaptiveRadius::pilotPassesBefore(unsigned pass) {
@@ -94,21 +95,23 @@ unsigned AdaptiveRadius::pilotPassesBefore(unsigned pass) {
 const Buffer<float>& AdaptiveRadius::scales(unsigned pass) const { return scales_[choicesWithin(pass)]; }
 
 void AdaptiveRadius::endPilotPass() {
-    const double square = squaredShrink(passes_) * largestAdaptiveRadius * largestAdaptiveRadius;
-    squaredRadii_ += square;
-    inverseSquares_ += 1 / square;
+    squaredShrinks_ += squaredShrink(passes_);
+    inverseShrinks_ += 1 / squaredShrink(passes_);
     ++passes_;
     const size_t made = choicesWithin(passes_);
     if (made == choicesWithin(passes_ - 1)) return;
     const shared::RadiusParams params{camera_.width,
                                       camera_.height,
                                       passes_,
-                                      static_cast<float>(squaredRadii_),
-                                      static_cast<float>(inverseSquares_),
+                                      passes_ - (made > 1 ? choices[made - 2] : 0),
+                                      static_cast<float>(squaredShrinks_),
+                                      static_cast<float>(inverseShrinks_),
                                       static_cast<float>(noiseToCurvature()),
                                       largestAdaptiveRadius};
-    measureRadii_.launch(film_->pixels(), film_->sums(), measures_, params);
-    chooseRadii_.launch(film_->pixels(), measures_, scales_[made - 1], scales_[made], params);
+    squaredShrinks_ = inverseShrinks_ = 0;
+    measureRadii_.launch(film_->pixels(), film_->sums(), pilotScales_, measures_, params);
+    chooseRadii_.launch(film_->pixels(), film_->sums(), measures_, pilotScales_, scales_[made - 1], scales_[made],
+                        params);
     if (passes_ >= choices.back()) endPilot();
 }
 
@@ -119,25 +122,33 @@ void AdaptiveRadius::endPilot() {
 }
 
 void AdaptiveRadius::save(StateSink& sink) const {
-    sink.array("radii counts", std::vector<double>{double(passes_), squaredRadii_, inverseSquares_});
+    sink.array("radii counts", std::vector<double>{double(passes_), squaredShrinks_, inverseShrinks_});
     for (size_t choice = 1; choice < scales_.size(); ++choice) sink.array(scalesLabel(choice), scales_[choice].read());
-    if (film_) film_->save(sink, "pilot's film");
+    if (!film_) return;
+    film_->save(sink, "pilot's film");
+    sink.array("pilot's radii", pilotScales_.read());
+    sink.array("pilot's measures", measures_.read());
 }
 
 void AdaptiveRadius::restore(const StateSource& source) {
     source.requireBytes("radii counts", 3 * sizeof(double));
     const auto counts = source.array<double>("radii counts");
     passes_ = static_cast<unsigned>(counts[0]);
-    squaredRadii_ = counts[1];
-    inverseSquares_ = counts[2];
+    squaredShrinks_ = counts[1];
+    inverseShrinks_ = counts[2];
     for (size_t choice = 1; choice < scales_.size(); ++choice) {
         source.requireBytes(scalesLabel(choice), scales_[choice].size() * sizeof(float));
         scales_[choice].write(source.array<float>(scalesLabel(choice)));
     }
-    if (passes_ >= choices.back())
+    if (passes_ >= choices.back()) {
         endPilot();
-    else
-        film_->restore(source, "pilot's film");
+        return;
+    }
+    film_->restore(source, "pilot's film");
+    source.requireBytes("pilot's radii", pilotScales_.size() * sizeof(float));
+    pilotScales_.write(source.array<float>("pilot's radii"));
+    source.requireBytes("pilot's measures", measures_.size() * sizeof(shared::RadiusMeasure));
+    measures_.write(source.array<shared::RadiusMeasure>("pilot's measures"));
 }
 
 } // namespace quasilux

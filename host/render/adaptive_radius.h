@@ -16,7 +16,7 @@ namespace quasilux {
 /// No pixel's radius is more than this many times the fixed one. CELLS_REACHED of kernels/density.clh.
 inline constexpr float largestAdaptiveRadius = 2;
 /// First passes, in which all pixels still have the fixed one.
-inline constexpr unsigned passesOfEqualRadius = 4;
+inline constexpr unsigned passesOfEqualRadius = 2;
 
 class AdaptiveRadius {
 public:
@@ -37,7 +37,7 @@ public:
     const shared::Camera& pilotCamera() const { return camera_; }
     Film& pilotFilm() { return *film_; }
     const Buffer<float>& pilotScales() const { return pilotScales_; }
-    /// To be called when the pilot's film has taken its next pass. Chooses the radii anew after 4, 8 and 16, and ends the pilot.
+    /// To be called when the pilot's film has taken its next pass. Chooses the radii anew after 2, 4, 8 and 16, and ends the pilot.
     void endPilotPass();
 
     /// Have all radii been chosen?
@@ -64,7 +64,7 @@ private:
     Buffer<float> pilotScales_;
     Buffer<shared::RadiusMeasure> measures_;
     unsigned passes_ = 0;
-    double squaredRadii_ = 0, inverseSquares_ = 0; ///< shared::RadiusParams
+    double squaredShrinks_ = 0, inverseShrinks_ = 0; ///< shared::RadiusParams
 };
 
 } // namespace quasilux
