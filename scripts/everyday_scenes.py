@@ -226,6 +226,16 @@ def car():
     )
 
 
+def product():
+    """Glass, lacquer and gold on a sweep, between two large lamps."""
+    return scene(
+        "0,-2.2,0.9", "0,0,0.3", 35, box((-6, -6, -0.1), (6, 2.5, 0), diffuse(0.75)), box((-6, 2.5, -0.1), (6, 2.6, 5), diffuse(0.75)),
+        rectangle((-1.5, -1, 2.2), 0.5, 0.5, lamp(14), [("y", 145)]), rectangle((1.8, -0.6, 1.6), 0.4, 0.6, lamp("9,9,10"), [("y", -120)]),
+        tube((0, 0, 0), (0, 0, 0.5), 0.12, glass()), ball((0.4, 0.1, 0.18), 0.18, plastic("0.7,0.1,0.1", 0.1)),
+        ball((-0.4, 0.05, 0.18), 0.18, metal("Au", 0.15)), ball((0.18, -0.3, 0.1), 0.1, glass(0.1)), sky(0.05),
+    )
+
+
 def houses(numbers, rows):
     return [
         box((side * 10 - 4, 10 * k, 0), (side * 10 + 4, 10 * k + 9, numbers.uniform(6, 14)), diffuse(f"{numbers.uniform(0.3, 0.7):.2f},0.45,0.4"))
@@ -265,7 +275,7 @@ def night_street():
 
 
 SCENES = {function.__name__: function for function in
-          (kitchen, curtain, blinds, desk, corridor, candle, ajar, shade, car, street, night_street)}
+          (kitchen, curtain, blinds, desk, corridor, candle, ajar, shade, car, product, street, night_street)}
 
 
 def write(folder, name):
