@@ -22,7 +22,8 @@ REFERENCE_SEED = 10**6
 
 
 def add_variant(parser):
-    parser.add_argument("--variant", choices=SAMPLES, default="llvm_ad_rgb", help="of Mitsuba, for the device that quasilux runs on (default: %(default)s)")
+    parser.add_argument("--variant", choices=SAMPLES, default="llvm_ad_rgb",
+                        help="of Mitsuba, for the kind of device that quasilux runs on (default: %(default)s)")
 
 
 def samples():
