@@ -53,7 +53,7 @@ __kernel void measureRadii(__global const float* film, __global const float* pil
     }
 }
 
-/* 0 where nothing is known. */
+/* 0 where nothing is known, or `curvature` is not positive. */
 inline float bestRadius(float curvature, float variance, const RadiusParams* params) {
     const float sixth = params->noiseToCurvature * variance / (2 * curvature);
     return sixth > 0 && isfinite(sixth) ? exp2(log2(sixth) / 6) : 0;
@@ -94,10 +94,10 @@ __kernel void chooseRadii(__global float* film, __global RadiusMeasure* measures
         const float care = pilotScales[i] < params.largest ? 1 : BIAS_CARE;
         const float best = bestRadius(care * max(curvature, CURVATURE_FLOOR * noise), variance, &params);
         scales[i] = best > 0 ? clamp(best, RADIUS_SCALE_MIN, params.largest) : before[i];
-        const float certain = curvature - excessByChance(measures[i].passes) * noise,
-                    wanted = max(bestRadius(care * certain, variance, &params), RADIUS_SCALE_MIN);
-        if (certain > 0 && variance > 0 && wanted < PILOT_HYSTERESIS * pilotScales[i])
-            narrowPilot(wanted, c, film + (size_t)pixel * FILM_PIXEL_FLOATS(PILOT_LAYOUT), pilotScales + i,
+        const float certain = curvature - excessByChance(measures[i].passes) * noise;
+        const float wanted = bestRadius(care * certain, variance, &params), narrow = max(wanted, RADIUS_SCALE_MIN);
+        if (wanted > 0 && narrow < PILOT_HYSTERESIS * pilotScales[i])
+            narrowPilot(narrow, c, film + (size_t)pixel * FILM_PIXEL_FLOATS(PILOT_LAYOUT), pilotScales + i,
                         measures + i);
     }
 }
