@@ -368,7 +368,7 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     const MeterPlace place = meterPlace(&params.scene.meter, tables, pixel, rngNext2(&state.rng));
     const Surface s = meterSurfaceOf(&params.scene, tables, &place);
     const Frame frame = frameFromNormal(s.geometricNormal);
-    state.medium = params.scene.meter.medium;
+    state.medium = place.medium;
     state.ray = leavingRay(&s, toWorld(&frame, sampleCosineHemisphere(rngNext2(&state.rng))));
     state.gathers = 1;
     state.events = SCATTER_GENUINE_DIFFUSE; /* direct light at the meter is sampled */

@@ -377,19 +377,34 @@ typedef struct {
     float areaCdf; /* share of the meter's area up to and including this piece; last = 1 */
 } MeterPrimitive;
 
+#define GRID_PLANAR 0u      /* irradiance of the grid's plane */
+#define GRID_CYLINDRICAL 1u /* mean of that of planes that hold the grid's normal */
+
+/* Points of a grid: the centres of equal cells of a parallelogram. Its pixels lie one after the other, row by row. */
+typedef struct {
+    MeterPrimitive plane;
+    unsigned int firstPixel, columns, rows;
+    unsigned int quantity; /* GRID_* */
+    unsigned int medium;   /* in which it lies: index or MEDIUM_NONE */
+    float
+        height; /* GRID_CYLINDRICAL: of the cells in which photons are counted, half of it on each side of the plane */
+    float inverseExtent; /* 1 / area of a cell; GRID_CYLINDRICAL: 1 / its volume */
+} MeterGrid;
+
 #define METER_NONE 0u /* the sensor is a camera */
 #define METER_RAY 1u  /* radiance along the camera's one ray */
 #define METER_AREA 2u /* irradiance: a pixel is a part of the surface */
-#define METER_GRID 3u /* irradiance: a pixel is a point, the centre of a cell of the one parallelogram */
+#define METER_GRID 3u /* irradiance: a pixel is a point of a grid */
 
 typedef struct {
-    unsigned int kind;                       /* METER_NONE ... METER_GRID */
-    unsigned int primitives, primitiveCount; /* MeterPrimitive records: word offset into the scene tables, number */
-    unsigned int width, height;              /* pixels */
-    unsigned int samples;                    /* paths of a pixel in each pass, a power of two */
-    unsigned int lobe;                       /* a white Lambert lobe */
-    unsigned int medium;                     /* in which the meter lies: index or MEDIUM_NONE */
-    float inverseArea;                       /* 1 / area of a pixel */
+    unsigned int kind; /* METER_NONE ... METER_GRID */
+    unsigned int primitives,
+        primitiveCount; /* MeterPrimitive records, of METER_GRID MeterGrid records: word offset into the scene tables, number */
+    unsigned int width, height; /* pixels */
+    unsigned int samples;       /* paths of a pixel in each pass, a power of two */
+    unsigned int lobe;          /* a white Lambert lobe */
+    unsigned int medium;        /* METER_RAY, METER_AREA: in which the meter lies, index or MEDIUM_NONE */
+    float inverseArea;          /* METER_AREA: 1 / area of a pixel */
 } Meter;
 
 /* ---- light classes (kernels/law.clh) ----------------------------------------------------------------------------- */

@@ -56,7 +56,7 @@ struct Lux {
 Lux luxOn(const std::string& sky, const std::string& edges) {
     Scene scene =
         test::meterScene(sky + "<?quasilux illuminance-grid origin=\"0,0,0\" " + edges + " nx=\"1\" ny=\"1\"?>");
-    useGridAsSensor(scene);
+    useGridsAsSensor(scene);
     RenderSettings settings;
     settings.photonsPerPass = 1000;
     Renderer renderer(testDevice(), scene, settings);

@@ -237,9 +237,9 @@ TEST(BatchedReadings, KnowTheirErrors) {
             image.radiance.insert(image.radiance.end(), 3, static_cast<float>(sum / pass));
         }
         readings.add(image);
-        EXPECT_EQ(normFigures(readings).mean.isKnown(), pass >= fewestBatches) << pass;
+        EXPECT_EQ(normFigures(readings, {0, points}).mean.isKnown(), pass >= fewestBatches) << pass;
     }
-    const NormFigures figures = normFigures(readings);
+    const NormFigures figures = normFigures(readings, {0, points});
     const double single = std::sqrt(1 + 1.0 / points), error = single / std::sqrt(passes);
     EXPECT_GE(figures.mean.batches, 32u);
     // The estimate itself is known to 1 / sqrt(2 · 31) = 13 %; a third is 2.6 of that.

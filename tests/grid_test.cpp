@@ -110,7 +110,7 @@ TEST_F(GridTest, SpacingIsThatOfTheNorm) {
     const auto sizeOf = [&](const std::string& u, const std::string& v) {
         const Scene scene = test::meterScene("<?quasilux illuminance-grid origin=\"0,0,0\" edge-u=\"" + u +
                                              "\" edge-v=\"" + v + "\" spacing=\"en12464\"?>" + pointLight);
-        return std::pair(scene.grid->nx, scene.grid->ny);
+        return std::pair(scene.grids.front().nx, scene.grids.front().ny);
     };
     EXPECT_EQ(sizeOf("4.8,0,0", "0,7.2,0"), std::pair(6u, 9u));
     EXPECT_EQ(sizeOf("0,0,2", "0,7.2,0"), std::pair(6u, 22u));

@@ -240,7 +240,7 @@ TEST(Grid, ReadsItsPoints) {
     Scene scene = test::meterScene(
         pointLight +
         "<?quasilux illuminance-grid origin=\"-1,-1,0\" edge-u=\"2,0,0\" edge-v=\"0,2,0\" nx=\"4\" ny=\"2\"?>");
-    ASSERT_TRUE(scene.grid);
+    ASSERT_EQ(scene.grids.size(), 1u);
     EXPECT_EQ(scene.sensor.meter, MeterKind::grid) << "a scene without a sensor measures its grid";
     RenderSettings settings;
     Renderer renderer(testDevice(), scene, settings);

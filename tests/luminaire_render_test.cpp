@@ -29,7 +29,7 @@ std::string hanging(const std::string& file, const std::string& place, double tu
 
 /// Lux at the points of the scene's grid.
 std::vector<double> luxOf(Scene scene, unsigned passes = 1) {
-    useGridAsSensor(scene);
+    useGridsAsSensor(scene);
     RenderSettings settings;
     settings.photonsPerPass = 1000;
     Renderer renderer(testDevice(), scene, settings);

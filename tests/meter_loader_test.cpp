@@ -50,9 +50,9 @@ TEST(MeterLoader, ReadsARadiancemeterEitherWay) {
 TEST(MeterLoader, ReadsAGrid) {
     const Scene scene = test::meterScene(light + "<?quasilux illuminance-grid origin=\"1,2,3\" edge-u=\"4,0,0\" "
                                                  "edge-v=\"0,2,0\" nx=\"2\" ny=\"1\" normal=\"0,0,-1\"?>");
-    ASSERT_TRUE(scene.grid);
-    test::expectNear(glm::vec3(scene.grid->point(1, 0)), {4, 3, 3});
-    test::expectNear(glm::vec3(scene.grid->normal()), {0, 0, -1});
+    ASSERT_EQ(scene.grids.size(), 1u);
+    test::expectNear(glm::vec3(scene.grids.front().point(1, 0)), {4, 3, 3});
+    test::expectNear(glm::vec3(scene.grids.front().normal()), {0, 0, -1});
 }
 
 TEST(MeterErrors, SayWhatIsWrong) {
@@ -93,7 +93,7 @@ TEST(MeterErrors, SayWhatIsWrong) {
 
 TEST(MeterErrors, AGridThatIsMissingIsSaid) {
     Scene scene = test::meterScene(light + plate);
-    EXPECT_THROW(useGridAsSensor(scene), InputError);
+    EXPECT_THROW(useGridsAsSensor(scene), InputError);
 }
 
 } // namespace

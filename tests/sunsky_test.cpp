@@ -205,7 +205,7 @@ TEST(SunSkyRender, GroundHasTheIlluminanceOfTheModel) {
     Scene scene = test::meterScene(sunsky(highSun) + "<?quasilux units=\"photometric\"?><?quasilux illuminance-grid "
                                                      "origin=\"0,0,0\" edge-u=\"1,0,0\" edge-v=\"0,1,0\" nx=\"1\" "
                                                      "ny=\"1\"?>");
-    useGridAsSensor(scene);
+    useGridsAsSensor(scene);
     RenderSettings settings;
     settings.photonsPerPass = 1000;
     settings.photometric = true;

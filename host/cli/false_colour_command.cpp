@@ -26,14 +26,15 @@ ValueScale givenScale(const FalseColourOptions& options) {
 void requireImage(const FalseColourOptions& options) {
     if (!options.levels.empty())
         throw InputError("--levels: isolux lines are of grids; give a table, .csv, or leave --levels out");
+    if (!options.grid.empty()) throw InputError("--grid: an image has none; give a grid's table, .csv");
     if (options.daylightFactor) throw InputError("--daylight-factor: an image has none; give a grid's table, .csv");
 }
 
 Drawing drawingOfGrid(const FalseColourOptions& options, const std::string& title) {
     if (options.photometric)
         throw InputError("--photometric: a grid's table is in lx already; leave --photometric out");
-    const GridValues grid =
-        readGridTable(options.input, options.daylightFactor ? GridQuantity::daylightFactor : GridQuantity::illuminance);
+    const GridValues grid = readGridTable(
+        options.input, options.daylightFactor ? GridQuantity::daylightFactor : GridQuantity::illuminance, options.grid);
     const ValueScale scale = options.range.empty() ? scaleOfGrid(grid, options.logarithmic) : givenScale(options);
     return isoluxDrawing(grid, {parseColourMap(options.map), scale}, options.levels, title);
 }

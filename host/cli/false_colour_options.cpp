@@ -33,6 +33,10 @@ void declareFalseColour(CLI::App& app, FalseColourOptions& options) {
         ->type_name("LIST")
         ->delimiter(',')
         ->check(numberAbove(0, 1e30));
+    command
+        .add_option("--grid", options.grid,
+                    "Which grid of a table of several, by the name that its rows have (default: the only one)")
+        ->type_name("NAME");
     command.add_flag("--daylight-factor", options.daylightFactor,
                      "Of a grid the daylight factor in per cent instead of the illuminance (default: off)");
     command.add_flag("--photometric", options.photometric,

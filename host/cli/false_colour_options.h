@@ -14,6 +14,7 @@ struct FalseColourOptions {
     std::string map = "viridis";
     std::vector<double> levels; ///< of grids; empty: the scale's marks
     bool photometric = false, daylightFactor = false;
+    std::string grid; ///< of a table of several; empty: it has one
     bool quiet = false;
 };
 

@@ -54,8 +54,8 @@ void warn(const RenderOptions& options, const std::vector<std::string>& warnings
     endIfStrict(options, warnings, Moment::beforePasses);
 }
 
-WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const FilmImage& image,
-                        const std::vector<AovImage>& aovs, RenderRecord& record) {
+WrittenFiles writeFiles(const RenderOptions& options, const FilmImage& image, const std::vector<AovImage>& aovs,
+                        RenderRecord& record) {
     const Stopwatch watch;
     WrittenFiles written;
     if (const std::string path = options.outputPath(); !path.empty()) {
@@ -63,9 +63,7 @@ WrittenFiles writeFiles(const RenderOptions& options, const Scene& scene, const 
         written.paths.push_back(path);
     }
     if (!options.grid.empty()) {
-        IlluminanceGrid grid = *scene.grid;
-        grid.origin += scene.origin; // where the file has it
-        writeGridCsv(options.grid, grid, image, record);
+        writeGridCsv(options.grid, image, record);
         written.paths.push_back(options.grid);
     }
     if (!options.png.empty()) {
@@ -288,8 +286,8 @@ int SensorRender::finish() {
     record.loadSeconds = done_.loaded.seconds;
     record.unobstructedIlluminance = done_.loaded.daylight;
     record.interrupted |= done_.isStopped;
-    const WrittenFiles written = writeFiles(options_.named(namePartsOf(record.settings.seed, image.passes)),
-                                            *done_.loaded.scene, image, layers(), record);
+    const WrittenFiles written =
+        writeFiles(options_.named(namePartsOf(record.settings.seed, image.passes)), image, layers(), record);
     progress_.clear();
     if (options_.json)
         printJsonSummary(record, image, written);

@@ -25,6 +25,8 @@ RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device
     record.search = render.search;
     record.error = estimateError(render.image);
     record.meter = scene.sensor.meter;
+    if (record.meter == MeterKind::grid) record.grids = scene.grids;
+    for (IlluminanceGrid& grid : record.grids) grid.origin += scene.origin;
     record.pixelFormat = scene.sensor.pixelFormat;
     record.peakBufferBytes = render.peakBufferBytes;
     record.peakHostBytes = peakResidentBytes();

@@ -48,8 +48,8 @@ public:
         content_.otherLamps = otherLamps();
         const bool hasPicture = scene_.sensor.meter == MeterKind::none;
         sharesLeft_ = (directShare + observerShare) * static_cast<double>(observers().size()) +
-                      (scene_.grid ? gridShare : 0) + (hasPicture ? pictureShare : 0);
-        if (scene_.grid) measureOwnGrid();
+                      (scene_.grids.empty() ? 0 : gridShare) + (hasPicture ? pictureShare : 0);
+        if (!scene_.grids.empty()) measureOwnGrids();
         for (const Observer& observer : observers()) measureObserver(observer);
         if (hasPicture) takePicture();
         if (isInterrupted())
@@ -137,16 +137,42 @@ private:
         noteSettings(result, "of figures");
     }
 
-    void measureOwnGrid() {
+    /// All together: they share photons.
+    void measureOwnGrids() {
         Scene scene = scene_;
-        useGridAsSensor(scene);
-        const IlluminanceGrid& grid = *scene.grid;
+        useGridsAsSensor(scene);
+        const std::vector<PixelRange> ranges = rangesOf(scene.grids);
         BatchedReadings readings(photometric_);
+        RenderedPart rendered;
+        measure(scene, gridShare, rendered, readings, [&] {
+            return std::all_of(ranges.begin(), ranges.end(), [&](const PixelRange& range) {
+                return areKnown(normFigures(readings, range), options_.precision);
+            });
+        });
+        for (size_t k = 0; k < ranges.size(); ++k)
+            content_.grids.push_back(gridPart(scene.grids, k, ranges, rendered, readings));
+    }
+
+    static GridPart gridPart(const std::vector<IlluminanceGrid>& grids, size_t k, const std::vector<PixelRange>& ranges,
+                             const RenderedPart& rendered, const BatchedReadings& readings) {
+        const IlluminanceGrid& grid = grids[k];
         GridPart part;
-        measure(scene, gridShare, part, readings, [&] { return areKnown(normFigures(readings), options_.precision); });
-        part.figures = normFigures(readings);
-        part.values = {grid.nx, grid.ny, glm::length(grid.edgeU), glm::length(grid.edgeV), readings.means(), {}, "lx"};
-        content_.grid = std::move(part);
+        static_cast<RenderedPart&>(part) = rendered;
+        part.name = grid.name;
+        part.isCylindrical = grid.kind == IlluminanceKind::cylindrical;
+        part.figures = normFigures(readings, ranges[k]);
+        const auto means = readings.means();
+        const auto first = means.begin() + static_cast<std::ptrdiff_t>(ranges[k].first);
+        part.values = {grid.nx,
+                       grid.ny,
+                       glm::length(grid.edgeU),
+                       glm::length(grid.edgeV),
+                       {first, first + static_cast<std::ptrdiff_t>(ranges[k].count)},
+                       {},
+                       "lx"};
+        if (const auto twin = horizontalTwin(grids, k))
+            part.modelling = ratioOfMeans(readings, ranges[k], ranges[*twin]);
+        return part;
     }
 
     void measureObserver(const Observer& observer) {

@@ -26,22 +26,22 @@ void writeSettings(std::ostream& out, const RenderRecord& record) {
          settings.photometric ? "lx: 0.2126 R + 0.7152 G + 0.0722 B" : "lx: 683 lm/W (0.2126 R + 0.7152 G + 0.0722 B)");
 }
 
-void writeFigures(std::ostream& out, const RenderRecord& record, const FilmImage& image) {
-    const GridFigures figures = gridFigures(image, record.settings.photometric);
+void writeFigures(std::ostream& out, const RenderRecord& record, const FilmImage& image, size_t k,
+                  const PixelRange& range) {
+    const GridFigures figures = gridFigures(image, range, record.settings.photometric);
+    const std::string begin = record.grids.size() > 1 ? record.grids[k].name + " " : "";
     const auto line = [&](const char* key, double value, double error, const char* unit) {
-        fmt::print(out, "# {}: {:.6g}{}{}\n", key, value, errorText(image, error), unit);
+        fmt::print(out, "# {}{}: {:.6g}{}{}\n", begin, key, value, errorText(image, error), unit);
     };
     line("mean", figures.mean, figures.meanStandardError, " lx");
     line("minimum", figures.minimum.photometricValue, figures.minimum.photometricStandardError, " lx");
     line("maximum", figures.maximum.photometricValue, figures.maximum.photometricStandardError, " lx");
     line("U0", figures.overall, figures.overallStandardError, " (minimum / mean)");
     line("Ud", figures.diversity, figures.diversityStandardError, " (minimum / maximum)");
-    if (record.unobstructedIlluminance)
-        fmt::print(out, "# daylightFactor: % of {:.9g} lx, free ground under the sky without sun and lamps\n",
-                   *record.unobstructedIlluminance);
 }
 
-void writeNames(std::ostream& out, bool hasDaylightFactor) {
+void writeNames(std::ostream& out, bool hasGridNames, bool hasDaylightFactor) {
+    if (hasGridNames) out << "grid,";
     out << "i,j,x,y,z,nx,ny,nz,illuminance,illuminance_stderr";
     for (const char* channel : {"R", "G", "B"}) out << ",irradiance_" << channel;
     for (const char* channel : {"R", "G", "B"}) out << ",stderr_" << channel;
@@ -78,17 +78,27 @@ void writePoint(std::ostream& out, const IlluminanceGrid& grid, unsigned i, unsi
 
 } // namespace
 
-void writeGridCsv(const std::string& path, const IlluminanceGrid& grid, const FilmImage& image,
-                  const RenderRecord& record) {
+void writeGridCsv(const std::string& path, const FilmImage& image, const RenderRecord& record) {
     AtomicFile file(path);
     std::ofstream out(file.temporary());
     writeSettings(out, record);
-    writeFigures(out, record, image);
-    writeNames(out, record.unobstructedIlluminance.has_value());
-    for (unsigned j = 0; j < grid.ny; ++j)
-        for (unsigned i = 0; i < grid.nx; ++i)
-            writePoint(out, grid, i, j, readingOf(image, size_t{j} * grid.nx + i, record.settings.photometric),
-                       image.passes > 1, record.unobstructedIlluminance);
+    const std::vector<PixelRange> ranges = rangesOf(record.grids);
+    const bool hasNames = ranges.size() > 1;
+    for (size_t k = 0; k < ranges.size(); ++k) writeFigures(out, record, image, k, ranges[k]);
+    if (record.unobstructedIlluminance)
+        fmt::print(out, "# daylightFactor: % of {:.9g} lx, free ground under the sky without sun and lamps\n",
+                   *record.unobstructedIlluminance);
+    writeNames(out, hasNames, record.unobstructedIlluminance.has_value());
+    for (size_t k = 0; k < ranges.size(); ++k) {
+        const IlluminanceGrid& grid = record.grids[k];
+        for (unsigned j = 0; j < grid.ny; ++j)
+            for (unsigned i = 0; i < grid.nx; ++i) {
+                if (hasNames) out << grid.name << ',';
+                const size_t pixel = ranges[k].first + size_t{j} * grid.nx + i;
+                writePoint(out, grid, i, j, readingOf(image, pixel, record.settings.photometric), image.passes > 1,
+                           record.unobstructedIlluminance);
+            }
+    }
     out.close();
     if (!out) throw std::runtime_error("cannot write " + path);
     file.commit();

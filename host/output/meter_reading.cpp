@@ -1,5 +1,6 @@
 #include "output/meter_reading.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -42,11 +43,22 @@ MeterReading readingOf(const FilmImage& image, size_t pixel, bool unitsArePhotom
     return reading;
 }
 
-MeterReading meanReading(const FilmImage& image, bool unitsArePhotometric) {
-    const size_t pixels = image.radiance.size() / 3;
-    const double share = 1.0 / static_cast<double>(pixels);
+PixelRange allPixels(const FilmImage& image) { return {0, image.radiance.size() / 3}; }
+
+std::vector<PixelRange> rangesOf(const std::vector<IlluminanceGrid>& grids) {
+    std::vector<PixelRange> ranges;
+    size_t first = 0;
+    for (const IlluminanceGrid& grid : grids) {
+        ranges.push_back({first, grid.points()});
+        first += grid.points();
+    }
+    return ranges;
+}
+
+MeterReading meanReading(const FilmImage& image, PixelRange range, bool unitsArePhotometric) {
+    const double share = 1.0 / static_cast<double>(range.count);
     MeterReading mean;
-    for (size_t k = 0; k < pixels; ++k) {
+    for (size_t k = range.first; k < range.first + range.count; ++k) {
         const MeterReading here = readingOf(image, k, unitsArePhotometric);
         addShare(mean.value, here.value, share);
         addShare(mean.standardError, here.standardError, share);
@@ -71,29 +83,146 @@ nlohmann::json known(const FilmImage& image, const Value& error) {
     return image.passes > 1 ? nlohmann::json(error) : nlohmann::json();
 }
 
-nlohmann::json gridJson(const FilmImage& image, bool units) {
-    const GridFigures figures = gridFigures(image, units);
-    return {{"points", image.radiance.size() / 3},
-            {"minimum", figures.minimum.photometricValue},
-            {"minimumStandardError", known(image, figures.minimum.photometricStandardError)},
-            {"maximum", figures.maximum.photometricValue},
-            {"maximumStandardError", known(image, figures.maximum.photometricStandardError)},
-            {"U0", figures.overall},
-            {"U0StandardError", known(image, figures.overallStandardError)},
-            {"Ud", figures.diversity},
-            {"UdStandardError", known(image, figures.diversityStandardError)}};
-}
+/// Of one meter, or one grid.
+class MeterWriter {
+public:
+    MeterWriter(const RenderRecord& record, const FilmImage& image)
+        : record_(record), image_(image), isPhotometric_(record.settings.photometric), ranges_(rangesOf(record.grids)) {
+    }
+
+    nlohmann::json json() const {
+        if (ranges_.size() < 2) {
+            nlohmann::json one = readingJson(ranges_.empty() ? allPixels(image_) : ranges_.front());
+            one.update(quantityJson());
+            if (!ranges_.empty()) one["grid"] = gridJson(0);
+            return one;
+        }
+        nlohmann::json all = quantityJson();
+        all["grids"] = nlohmann::json::array();
+        for (size_t k = 0; k < ranges_.size(); ++k) {
+            nlohmann::json one = readingJson(ranges_[k]);
+            one["name"] = record_.grids[k].name;
+            one.update(gridJson(k));
+            all["grids"].push_back(one);
+        }
+        return all;
+    }
+
+    std::string text() const {
+        if (ranges_.empty()) return readingText(allPixels(image_));
+        std::string text;
+        for (size_t k = 0; k < ranges_.size(); ++k) {
+            if (ranges_.size() > 1) text += record_.grids[k].name + ", ";
+            text += readingText(ranges_[k]) + gridText(k);
+        }
+        return text;
+    }
+
+private:
+    const IlluminanceGrid& grid(size_t k) const { return record_.grids[k]; }
+    bool isCylindrical(size_t k) const { return grid(k).kind == IlluminanceKind::cylindrical; }
+
+    nlohmann::json quantityJson() const {
+        return {{"quantity", quantityName(record_.meter)}, {"unit", valueUnit(record_.meter, isPhotometric_)}};
+    }
+
+    nlohmann::json readingJson(PixelRange range) const {
+        const MeterReading reading = meanReading(image_, range, isPhotometric_);
+        nlohmann::json components = nlohmann::json::object();
+        for (unsigned k = 0; k < FILM_COMPONENTS; ++k)
+            if (!image_.components[k].empty()) components[componentName(k)] = reading.components[k];
+        nlohmann::json json{{"value", reading.value},
+                            {"standardError", known(image_, reading.standardError)},
+                            {"components", components}};
+        const std::string key = isIrradiance(record_.meter) ? "illuminance" : "luminance";
+        json[key] = reading.photometricValue;
+        json[key + "StandardError"] = known(image_, reading.photometricStandardError);
+        if (record_.unobstructedIlluminance) {
+            const double percent = 100 / *record_.unobstructedIlluminance;
+            json["unobstructedIlluminance"] = *record_.unobstructedIlluminance;
+            json["daylightFactor"] = percent * reading.photometricValue;
+            json["daylightFactorStandardError"] = known(image_, percent * reading.photometricStandardError);
+        }
+        return json;
+    }
+
+    nlohmann::json gridJson(size_t k) const {
+        const GridFigures figures = gridFigures(image_, ranges_[k], isPhotometric_);
+        nlohmann::json json{{"points", ranges_[k].count},
+                            {"kind", isCylindrical(k) ? "cylindrical" : "planar"},
+                            {"minimum", figures.minimum.photometricValue},
+                            {"minimumStandardError", known(image_, figures.minimum.photometricStandardError)},
+                            {"maximum", figures.maximum.photometricValue},
+                            {"maximumStandardError", known(image_, figures.maximum.photometricStandardError)},
+                            {"U0", figures.overall},
+                            {"U0StandardError", known(image_, figures.overallStandardError)},
+                            {"Ud", figures.diversity},
+                            {"UdStandardError", known(image_, figures.diversityStandardError)}};
+        if (const auto twin = horizontalTwin(record_.grids, k)) {
+            const Modelling found = modelling(image_, ranges_[k], ranges_[*twin], isPhotometric_);
+            json["modelling"] = {{"ofMeans", found.ofMeans},
+                                 {"ofMeansStandardError", known(image_, found.ofMeansStandardError)},
+                                 {"minimum", found.least},
+                                 {"maximum", found.most}};
+        }
+        return json;
+    }
+
+    std::string line(const std::string& what, double value, double error, const std::string& unit) const {
+        return fmt::format("{} {:.6g}{} {}\n", what, value, errorText(image_, error), unit);
+    }
+
+    std::string readingText(PixelRange range) const {
+        const MeterReading reading = meanReading(image_, range, isPhotometric_);
+        std::string text;
+        if (range.count > 1) text += fmt::format("mean over {} pixels:\n", range.count);
+        const char* names[3] = {" R", " G", " B"};
+        for (size_t c = 0; c < 3; ++c)
+            text += line(quantityName(record_.meter) + std::string(names[c]), reading.value[c],
+                         reading.standardError[c], valueUnit(record_.meter, isPhotometric_));
+        const bool irradiance = isIrradiance(record_.meter);
+        text += line(irradiance ? "illuminance" : "luminance", reading.photometricValue,
+                     reading.photometricStandardError, irradiance ? "lx" : "cd/m2");
+        if (record_.unobstructedIlluminance) {
+            const double percent = 100 / *record_.unobstructedIlluminance;
+            text +=
+                line("daylight factor", percent * reading.photometricValue, percent * reading.photometricStandardError,
+                     fmt::format("% of {:.6g} lx", *record_.unobstructedIlluminance));
+        }
+        return text;
+    }
+
+    std::string gridText(size_t k) const {
+        const GridFigures figures = gridFigures(image_, ranges_[k], isPhotometric_);
+        std::string text =
+            line("minimum", figures.minimum.photometricValue, figures.minimum.photometricStandardError, "lx") +
+            line("uniformity U0", figures.overall, figures.overallStandardError, "(minimum / mean)") +
+            line("diversity Ud", figures.diversity, figures.diversityStandardError, "(minimum / maximum)");
+        if (const auto twin = horizontalTwin(record_.grids, k)) {
+            const Modelling found = modelling(image_, ranges_[k], ranges_[*twin], isPhotometric_);
+            text += line("modelling", found.ofMeans, found.ofMeansStandardError,
+                         fmt::format("(cylindrical / '{}'; of points {:.3g} to {:.3g})", grid(*twin).name, found.least,
+                                     found.most));
+        }
+        return text;
+    }
+
+    const RenderRecord& record_;
+    const FilmImage& image_;
+    bool isPhotometric_;
+    std::vector<PixelRange> ranges_;
+};
 
 } // namespace
 
-GridFigures gridFigures(const FilmImage& image, bool unitsArePhotometric) {
+GridFigures gridFigures(const FilmImage& image, PixelRange range, bool unitsArePhotometric) {
     GridFigures found;
-    for (size_t k = 0; k < image.radiance.size() / 3; ++k) {
-        const MeterReading here = readingOf(image, k, unitsArePhotometric);
+    for (size_t k = 0; k < range.count; ++k) {
+        const MeterReading here = readingOf(image, range.first + k, unitsArePhotometric);
         if (k == 0 || here.photometricValue < found.minimum.photometricValue) found.minimum = here;
         if (k == 0 || here.photometricValue > found.maximum.photometricValue) found.maximum = here;
     }
-    const MeterReading mean = meanReading(image, unitsArePhotometric);
+    const MeterReading mean = meanReading(image, range, unitsArePhotometric);
     found.mean = mean.photometricValue;
     found.meanStandardError = mean.photometricStandardError;
     if (!(found.mean > 0)) return found;
@@ -105,61 +234,43 @@ GridFigures gridFigures(const FilmImage& image, bool unitsArePhotometric) {
     return found;
 }
 
+std::optional<size_t> horizontalTwin(const std::vector<IlluminanceGrid>& grids, size_t cylindrical) {
+    const IlluminanceGrid& one = grids[cylindrical];
+    if (one.kind != IlluminanceKind::cylindrical) return std::nullopt;
+    const auto isTwin = [&](const IlluminanceGrid& other) {
+        return other.kind == IlluminanceKind::planar && other.origin == one.origin && other.edgeU == one.edgeU &&
+               other.edgeV == one.edgeV && other.nx == one.nx && other.ny == one.ny;
+    };
+    const auto found = std::find_if(grids.begin(), grids.end(), isTwin);
+    if (found == grids.end()) return std::nullopt;
+    return static_cast<size_t>(found - grids.begin());
+}
+
+Modelling modelling(const FilmImage& image, PixelRange cylindrical, PixelRange horizontal, bool unitsArePhotometric) {
+    Modelling found;
+    for (size_t k = 0; k < cylindrical.count; ++k) {
+        const double under = readingOf(image, horizontal.first + k, unitsArePhotometric).photometricValue;
+        if (!(under > 0)) continue;
+        const double ratio = readingOf(image, cylindrical.first + k, unitsArePhotometric).photometricValue / under;
+        found.least = found.most == 0 ? ratio : std::min(found.least, ratio);
+        found.most = std::max(found.most, ratio);
+    }
+    const MeterReading over = meanReading(image, cylindrical, unitsArePhotometric),
+                       under = meanReading(image, horizontal, unitsArePhotometric);
+    if (!(under.photometricValue > 0)) return found;
+    found.ofMeans = over.photometricValue / under.photometricValue;
+    found.ofMeansStandardError = errorOfRatio(over, under.photometricValue, under.photometricStandardError);
+    return found;
+}
+
 std::string errorText(const FilmImage& image, double error) {
     return image.passes > 1 ? fmt::format(" +- {:.2g}", error) : "";
 }
 
 nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image) {
-    const bool units = record.settings.photometric;
-    const MeterReading reading = meanReading(image, units);
-    nlohmann::json components = nlohmann::json::object();
-    for (unsigned k = 0; k < FILM_COMPONENTS; ++k)
-        if (!image.components[k].empty()) components[componentName(k)] = reading.components[k];
-    nlohmann::json json{{"quantity", quantityName(record.meter)},
-                        {"unit", valueUnit(record.meter, units)},
-                        {"value", reading.value},
-                        {"standardError", known(image, reading.standardError)},
-                        {"components", components}};
-    const std::string key = isIrradiance(record.meter) ? "illuminance" : "luminance";
-    json[key] = reading.photometricValue;
-    json[key + "StandardError"] = known(image, reading.photometricStandardError);
-    if (record.unobstructedIlluminance) {
-        const double percent = 100 / *record.unobstructedIlluminance;
-        json["unobstructedIlluminance"] = *record.unobstructedIlluminance;
-        json["daylightFactor"] = percent * reading.photometricValue;
-        json["daylightFactorStandardError"] = known(image, percent * reading.photometricStandardError);
-    }
-    if (record.meter == MeterKind::grid) json["grid"] = gridJson(image, units);
-    return json;
+    return MeterWriter(record, image).json();
 }
 
-std::string meterText(const RenderRecord& record, const FilmImage& image) {
-    const bool units = record.settings.photometric;
-    const MeterReading reading = meanReading(image, units);
-    const auto line = [&](const char* what, double value, double error, const char* unit) {
-        return fmt::format("{} {:.6g}{} {}\n", what, value, errorText(image, error), unit);
-    };
-    std::string text;
-    if (image.radiance.size() > 3) text += fmt::format("mean over {} pixels:\n", image.radiance.size() / 3);
-    const char* names[3] = {" R", " G", " B"};
-    for (size_t c = 0; c < 3; ++c)
-        text += line((quantityName(record.meter) + std::string(names[c])).c_str(), reading.value[c],
-                     reading.standardError[c], valueUnit(record.meter, units));
-    const bool irradiance = isIrradiance(record.meter);
-    text += line(irradiance ? "illuminance" : "luminance", reading.photometricValue, reading.photometricStandardError,
-                 irradiance ? "lx" : "cd/m2");
-    if (record.unobstructedIlluminance) {
-        const double percent = 100 / *record.unobstructedIlluminance;
-        text += line("daylight factor", percent * reading.photometricValue, percent * reading.photometricStandardError,
-                     fmt::format("% of {:.6g} lx", *record.unobstructedIlluminance).c_str());
-    }
-    if (record.meter == MeterKind::grid) {
-        const GridFigures figures = gridFigures(image, units);
-        text += line("minimum", figures.minimum.photometricValue, figures.minimum.photometricStandardError, "lx");
-        text += line("uniformity U0", figures.overall, figures.overallStandardError, "(minimum / mean)");
-        text += line("diversity Ud", figures.diversity, figures.diversityStandardError, "(minimum / maximum)");
-    }
-    return text;
-}
+std::string meterText(const RenderRecord& record, const FilmImage& image) { return MeterWriter(record, image).text(); }
 
 } // namespace quasilux

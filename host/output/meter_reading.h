@@ -6,6 +6,8 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 namespace quasilux {
 
@@ -23,8 +25,16 @@ struct MeterReading {
 };
 
 MeterReading readingOf(const FilmImage& image, size_t pixel, bool unitsArePhotometric);
-/// Mean over the film; its standard error is the mean of those of the pixels, which share photons: an upper bound.
-MeterReading meanReading(const FilmImage& image, bool unitsArePhotometric);
+/// Some of a film's pixels, one after the other.
+struct PixelRange {
+    size_t first = 0, count = 0;
+};
+PixelRange allPixels(const FilmImage& image);
+/// Of the grids that were measured together.
+std::vector<PixelRange> rangesOf(const std::vector<IlluminanceGrid>& grids);
+
+/// Mean over pixels; its standard error is the mean of those of the pixels, which share photons: an upper bound.
+MeterReading meanReading(const FilmImage& image, PixelRange range, bool unitsArePhotometric);
 
 /// What norms ask of the points of a grid: lx, or percent of daylight factors, which have the same ratios.
 struct GridFigures {
@@ -34,7 +44,16 @@ struct GridFigures {
     double diversity = 0, diversityStandardError = 0; ///< Ud: minimum over maximum
 };
 /// Errors of ratios as though those of their terms were independent. The minimum of noisy values is too low by about their noise.
-GridFigures gridFigures(const FilmImage& image, bool unitsArePhotometric);
+GridFigures gridFigures(const FilmImage& image, PixelRange range, bool unitsArePhotometric);
+
+/// Of the cylindrical and the horizontal illuminance (EN 12464-1): their ratio.
+struct Modelling {
+    double ofMeans = 0, ofMeansStandardError = 0; ///< as though the two were independent
+    double least = 0, most = 0;                   ///< of the points
+};
+/// The grid of horizontal illuminance that has the same points as this one of cylindrical illuminance, if any.
+std::optional<size_t> horizontalTwin(const std::vector<IlluminanceGrid>& grids, size_t cylindrical);
+Modelling modelling(const FilmImage& image, PixelRange cylindrical, PixelRange horizontal, bool unitsArePhotometric);
 
 /// "irradiance" or "radiance".
 const char* quantityName(MeterKind meter);

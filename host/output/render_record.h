@@ -26,8 +26,9 @@ struct RenderRecord {
     std::optional<GatheredCount> gathered; ///< which photons of a pass camera paths gather
     SearchReport search;                   ///< which settings were searched, and why these were chosen
     ErrorEstimate error;
-    PixelFormat pixelFormat;           ///< what the image holds beside R, G, B
-    MeterKind meter = MeterKind::none; ///< what the image's values are: radiance, or of area and grid irradiance
+    PixelFormat pixelFormat;            ///< what the image holds beside R, G, B
+    MeterKind meter = MeterKind::none;  ///< what the image's values are: radiance, or of area and grid irradiance
+    std::vector<IlluminanceGrid> grids; ///< whose points the image has one after the other, where the file has them
     std::optional<double> unobstructedIlluminance; ///< lx, of which illuminances are stated as daylight factors too
     std::map<std::string, KernelTiming> kernels;
     std::vector<WorkerRecord> workers;        ///< that shared its passes; empty: one device had them all

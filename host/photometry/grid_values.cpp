@@ -25,8 +25,9 @@ std::vector<std::string> cellsOf(const std::string& line) {
 
 class TableReader {
 public:
-    TableReader(const std::string& path, GridQuantity quantity)
-        : path_(path), name_(quantity == GridQuantity::illuminance ? "illuminance" : "daylight_factor"), file_(path) {
+    TableReader(const std::string& path, GridQuantity quantity, const std::string& grid)
+        : path_(path), name_(quantity == GridQuantity::illuminance ? "illuminance" : "daylight_factor"), wanted_(grid),
+          file_(path) {
         if (!file_) throw InputError(fmt::format("cannot read the grid '{}': no such file, or no permission", path));
     }
 
@@ -37,8 +38,9 @@ public:
             if (columns_.empty())
                 columns_ = cellsOf(line);
             else
-                addRow(cellsOf(line));
+                readRow(cellsOf(line));
         }
+        checkChoice();
         if (places_.empty()) fail("there are no points, expected a table as `quasilux render --grid` writes it");
         measure();
         if (!hasErrors_) grid_.standardError.clear();
@@ -67,9 +69,27 @@ private:
         return value;
     }
 
-    void addRow(const std::vector<std::string>& cells) {
+    /// A table of several grids has their names before the points.
+    void readRow(const std::vector<std::string>& cells) {
         if (cells.size() != columns_.size())
             fail(fmt::format("{} columns, expected {} as the names have", cells.size(), columns_.size()));
+        const bool hasNames = columns_.front() == "grid";
+        if (hasNames && std::find(grids_.begin(), grids_.end(), cells.front()) == grids_.end())
+            grids_.push_back(cells.front());
+        const std::string& wanted = wanted_.empty() && hasNames ? grids_.front() : wanted_;
+        if (!hasNames || cells.front() == wanted) addRow(cells);
+    }
+
+    void checkChoice() const {
+        if (wanted_.empty() ? grids_.size() < 2 : std::find(grids_.begin(), grids_.end(), wanted_) != grids_.end())
+            return;
+        if (grids_.empty())
+            fail(fmt::format("the table has one grid without a name, not '{}'; leave --grid out", wanted_));
+        fail(fmt::format("the table has the grids {}, {}", fmt::join(grids_, ", "),
+                         wanted_.empty() ? "choose one by --grid NAME" : fmt::format("not '{}'", wanted_)));
+    }
+
+    void addRow(const std::vector<std::string>& cells) {
         const double i = number(cells, "i"), j = number(cells, "j");
         // Row by row: the next column, or the first one of the next row.
         const bool isNext =
@@ -98,7 +118,8 @@ private:
         grid_.lengthV = (v > 0 ? v : u) * grid_.ny;
     }
 
-    std::string path_, name_;
+    std::string path_, name_, wanted_;
+    std::vector<std::string> grids_;
     std::ifstream file_;
     int line_ = 0;
     std::vector<std::string> columns_;
@@ -110,10 +131,10 @@ private:
 
 } // namespace
 
-GridValues readGridTable(const std::string& path, GridQuantity quantity) {
-    GridValues grid = TableReader(path, quantity).read();
-    if (quantity == GridQuantity::daylightFactor) grid.unit = "%";
-    return grid;
+GridValues readGridTable(const std::string& path, GridQuantity quantity, const std::string& grid) {
+    GridValues values = TableReader(path, quantity, grid).read();
+    if (quantity == GridQuantity::daylightFactor) values.unit = "%";
+    return values;
 }
 
 } // namespace quasilux

@@ -21,7 +21,7 @@ struct GridValues {
 /// Which column of the table is read.
 enum class GridQuantity { illuminance, daylightFactor };
 
-/// Throws InputError at file:line.
-GridValues readGridTable(const std::string& path, GridQuantity quantity);
+/// `grid`: which one of a table of several; empty: it has one. Throws InputError at file:line.
+GridValues readGridTable(const std::string& path, GridQuantity quantity, const std::string& grid = {});
 
 } // namespace quasilux

@@ -207,10 +207,10 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
     out.offsets.lightTree = tables.append(out.emitters.lightTree);
     out.offsets.lightTreeCount = out.emitters.countInTree();
-    const auto meter = flattenMeter(scene, placement.camera);
+    const auto meter = flattenMeter(scene, placement.camera, placement.grids);
     out.offsets.meter = meter.meter;
     out.offsets.meter.lobe = meterLobe;
-    out.offsets.meter.primitives = tables.append(meter.primitives);
+    out.offsets.meter.primitives = meter.grids.empty() ? tables.append(meter.primitives) : tables.append(meter.grids);
     const unsigned filterSteps = tables.append(filterTable(scene.sensor));
     appendBorders(borders, tables, out.offsets);
     out.tables = tables.words();

@@ -99,11 +99,13 @@ std::vector<float> flattenUvs(const Scene& scene);
 EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placement);
 shared::Camera flattenCamera(const Sensor& sensor, unsigned medium = MEDIUM_NONE);
 struct MeterTables {
-    shared::Meter meter{}; ///< offsets into the scene tables and `lobe` are left open
-    std::vector<shared::MeterPrimitive> primitives;
+    shared::Meter meter{};                          ///< offsets into the scene tables and `lobe` are left open
+    std::vector<shared::MeterPrimitive> primitives; ///< or of METER_GRID:
+    std::vector<shared::MeterGrid> grids;
 };
 /// Where irradiance is measured; `medium` as flattenCamera takes it. Kind METER_NONE for a camera.
-MeterTables flattenMeter(const Scene& scene, unsigned medium = MEDIUM_NONE);
+MeterTables flattenMeter(const Scene& scene, unsigned medium = MEDIUM_NONE,
+                         const std::vector<unsigned>& gridMedia = {});
 struct MediumTables {
     std::vector<shared::Medium> media;
     std::vector<shared::MediumPlane> planes;

@@ -71,15 +71,30 @@ double addSphere(const ShapeDescription& shape, Primitives& pieces) {
 }
 
 double addPrimitives(const Scene& scene, Primitives& pieces) {
-    if (scene.sensor.meter == MeterKind::grid) {
-        const auto& grid = *scene.grid;
-        pieces.push_back(
-            flatPiece(METER_PARALLELOGRAM, grid.origin, grid.edgeU, grid.edgeV, grid.flipNormals ? -1.f : 1.f));
-        return glm::length(glm::cross(grid.edgeU, grid.edgeV));
-    }
     const ShapeDescription& shape = scene.shapes.at(scene.sensor.meterShape);
     if (shape.sphere) return addSphere(shape, pieces);
     return shape.plugin == "rectangle" ? addRectangle(shape.mesh, pieces) : addMesh(shape.mesh, pieces);
+}
+
+std::vector<shared::MeterGrid> gridsOf(const Scene& scene, const std::vector<unsigned>& media) {
+    std::vector<shared::MeterGrid> grids;
+    unsigned first = 0;
+    for (const IlluminanceGrid& grid : scene.grids) {
+        const bool isCylindrical = grid.kind == IlluminanceKind::cylindrical;
+        const double cellArea = glm::length(glm::cross(grid.edgeU, grid.edgeV)) / static_cast<double>(grid.points());
+        shared::MeterGrid flat{};
+        flat.plane = flatPiece(METER_PARALLELOGRAM, grid.origin, grid.edgeU, grid.edgeV, grid.flipNormals ? -1.f : 1.f);
+        flat.firstPixel = first;
+        flat.columns = grid.nx;
+        flat.rows = grid.ny;
+        flat.quantity = isCylindrical ? GRID_CYLINDRICAL : GRID_PLANAR;
+        flat.medium = media.empty() ? MEDIUM_NONE : media[grids.size()];
+        flat.height = static_cast<float>(grid.height);
+        flat.inverseExtent = static_cast<float>(1 / (isCylindrical ? cellArea * grid.height : cellArea));
+        first += static_cast<unsigned>(grid.points());
+        grids.push_back(flat);
+    }
+    return grids;
 }
 
 unsigned kindOf(MeterKind meter) {
@@ -98,7 +113,7 @@ unsigned kindOf(MeterKind meter) {
 
 } // namespace
 
-MeterTables flattenMeter(const Scene& scene, unsigned medium) {
+MeterTables flattenMeter(const Scene& scene, unsigned medium, const std::vector<unsigned>& gridMedia) {
     const Sensor& sensor = scene.sensor;
     MeterTables tables;
     auto& meter = tables.meter;
@@ -111,6 +126,11 @@ MeterTables flattenMeter(const Scene& scene, unsigned medium) {
     meter.samples = pixels >= pathsInPass ? 1 : std::bit_floor(static_cast<unsigned>(pathsInPass / pixels));
     meter.medium = medium;
     if (meter.kind == METER_RAY) return tables;
+    if (meter.kind == METER_GRID) {
+        tables.grids = gridsOf(scene, gridMedia);
+        meter.primitiveCount = static_cast<unsigned>(tables.grids.size());
+        return tables;
+    }
     const double area = addPrimitives(scene, tables.primitives);
     meter.primitiveCount = static_cast<unsigned>(tables.primitives.size());
     meter.inverseArea = static_cast<float>(double(pixels) / area);

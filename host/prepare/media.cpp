@@ -17,8 +17,7 @@ glm::dvec3 cameraOrigin(const Sensor& sensor) {
 unsigned sensorMedium(const Scene& scene, const MediumBodies& bodies, const MediumPlacement& placement) {
     const Sensor& sensor = scene.sensor;
     if (sensor.medium) return *sensor.medium;
-    if (sensor.meter == MeterKind::grid)
-        return bodies.mediumAt(scene.grid->origin + 0.5 * (scene.grid->edgeU + scene.grid->edgeV));
+    if (sensor.meter == MeterKind::grid) return placement.grids.front();
     if (sensor.meter != MeterKind::area) return bodies.mediumAt(cameraOrigin(sensor));
     const unsigned exterior = placement.exterior[sensor.meterShape];
     return exterior != MEDIUM_UNCHANGED ? exterior
@@ -47,6 +46,9 @@ MediumPlacement placeMedia(const Scene& scene) {
     for (const PointEmitter& emitter : scene.pointEmitters)
         placement.pointEmitters.push_back(emitter.medium ? *emitter.medium
                                                          : bodies.mediumAt(glm::dvec3(emitter.position)));
+    if (scene.sensor.meter == MeterKind::grid)
+        for (const IlluminanceGrid& grid : scene.grids)
+            placement.grids.push_back(bodies.mediumAt(grid.origin + 0.5 * (grid.edgeU + grid.edgeV)));
     placement.camera = sensorMedium(scene, bodies, placement);
     return placement;
 }

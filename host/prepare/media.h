@@ -13,6 +13,7 @@ struct MediumPlacement {
     std::vector<unsigned> shapeEmitters;      ///< by shape: what its emitter emits into
     std::vector<unsigned> pointEmitters;      ///< by point emitter
     unsigned camera = MEDIUM_NONE;
+    std::vector<unsigned> grids; ///< by grid that is measured: about its centre
 };
 
 /// What the scene states holds. Where a shape states only one of interior and exterior, the other one, and likewise what

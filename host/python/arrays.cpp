@@ -15,6 +15,26 @@ namespace {
 // "nn.X", "nn.Y", "nn.Z" are layer "nn".
 std::string layerName(const std::string& channel) { return channel.substr(0, channel.rfind('.')); }
 
+/// (name or None, values, standard errors, points or None) of some pixels.
+py::tuple readingArrays(const Rendered& rendered, size_t first, unsigned width, unsigned height,
+                        const IlluminanceGrid* grid) {
+    const std::vector<size_t> shape{height, width};
+    py::array_t<double> values(shape), errors(shape);
+    for (unsigned y = 0; y < height; ++y)
+        for (unsigned x = 0; x < width; ++x) {
+            const MeterReading reading =
+                readingOf(rendered.image, first + size_t{y} * width + x, rendered.record.settings.photometric);
+            values.mutable_at(y, x) = reading.photometricValue;
+            errors.mutable_at(y, x) = reading.photometricStandardError;
+        }
+    if (!grid) return py::make_tuple(py::none(), values, errors, py::none());
+    py::array_t<double> points({size_t{height}, size_t{width}, size_t{3}});
+    for (unsigned y = 0; y < height; ++y)
+        for (unsigned x = 0; x < width; ++x)
+            for (int axis = 0; axis < 3; ++axis) points.mutable_at(y, x, axis) = grid->point(x, y)[axis];
+    return py::make_tuple(grid->name, values, errors, points);
+}
+
 } // namespace
 
 py::object imageArray(const RenderedPointer& owner, const std::vector<float>& values, size_t channels) {
@@ -49,23 +69,14 @@ py::dict layerArrays(const RenderedPointer& owner) {
     return arrays;
 }
 
-py::tuple readingArrays(const Rendered& rendered) {
+py::list readingsOf(const Rendered& rendered) {
     const FilmImage& image = rendered.image;
-    const std::vector<size_t> shape{image.height, image.width};
-    py::array_t<double> values(shape), errors(shape);
-    for (unsigned y = 0; y < image.height; ++y)
-        for (unsigned x = 0; x < image.width; ++x) {
-            const MeterReading reading =
-                readingOf(image, size_t{y} * image.width + x, rendered.record.settings.photometric);
-            values.mutable_at(y, x) = reading.photometricValue;
-            errors.mutable_at(y, x) = reading.photometricStandardError;
-        }
-    if (!rendered.grid) return py::make_tuple(values, errors, py::none());
-    py::array_t<double> points({size_t{image.height}, size_t{image.width}, size_t{3}});
-    for (unsigned y = 0; y < image.height; ++y)
-        for (unsigned x = 0; x < image.width; ++x)
-            for (int axis = 0; axis < 3; ++axis) points.mutable_at(y, x, axis) = rendered.grid->point(x, y)[axis];
-    return py::make_tuple(values, errors, points);
+    const std::vector<IlluminanceGrid>& grids = rendered.record.grids;
+    py::list readings;
+    if (grids.empty()) readings.append(readingArrays(rendered, 0, image.width, image.height, nullptr));
+    for (size_t k = 0; k < grids.size(); ++k)
+        readings.append(readingArrays(rendered, rangesOf(grids)[k].first, grids[k].nx, grids[k].ny, &grids[k]));
+    return readings;
 }
 
 RadianceImage radianceOf(const py::array_t<float, py::array::c_style | py::array::forcecast>& array,

@@ -20,9 +20,9 @@ pybind11::dict componentArrays(const RenderedPointer& owner);
 /// All layers of the EXR beside the image, by the names that they have there: components, errors, what integrator `aov` and alpha add.
 pybind11::dict layerArrays(const RenderedPointer& owner);
 
-/// Of each pixel in lx or cd/m^2: value and standard error, (height, width), double precision; and of grids the points,
-/// (height, width, 3), scene units, or None.
-pybind11::tuple readingArrays(const Rendered& rendered);
+/// Of the film, or of each grid: its name or None; of each pixel in lx or cd/m^2 value and standard error, (height, width), double precision;
+/// and of grids the points, (height, width, 3), scene units, or None.
+pybind11::list readingsOf(const Rendered& rendered);
 
 /// An array (height, width, 3), or (height, width) for grey.
 RadianceImage radianceOf(const pybind11::array_t<float, pybind11::array::c_style | pybind11::array::forcecast>& array,

@@ -50,12 +50,12 @@ LoadedScene loadTree(const py::handle& root, const std::string& folder, const st
 }
 
 py::tuple render(const LoadedScene& scene, const std::vector<std::string>& arguments, py::object callback,
-                 bool measuresGrid) {
+                 bool measuresGrids) {
     RenderWatch watch(std::move(callback));
     RenderedPointer rendered;
     try {
         const py::gil_scoped_release release;
-        rendered = renderScene(scene, arguments, measuresGrid, watch);
+        rendered = renderScene(scene, arguments, measuresGrids, watch);
     } catch (const std::exception&) {
         if (watch.raised().is_none()) throw;
     }
@@ -76,9 +76,10 @@ void save(const Rendered& rendered, const std::string& path, std::optional<doubl
         checkOutputPath(path, "save", extension);
         writeJson(path, statisticsJson(rendered.record, rendered.image));
     } else if (extension == ".csv") {
-        if (!rendered.grid) throw InputError("save " + path + ": a table is of a grid, and none was measured");
+        if (rendered.record.grids.empty())
+            throw InputError("save " + path + ": a table is of a grid, and none was measured");
         checkOutputPath(path, "save", extension);
-        writeGridCsv(path, *rendered.grid, rendered.image, rendered.record);
+        writeGridCsv(path, rendered.image, rendered.record);
     } else {
         throw InputError("save " + path + ": expected a name that ends in .exr, .png, .json or, of a grid, .csv");
     }
@@ -152,7 +153,7 @@ void defineScene(py::module_& module) {
         .def_property_readonly("sensor_count", [](const LoadedScene& self) { return self.scene->sensorCount; })
         .def_property_readonly("is_meter",
                                [](const LoadedScene& self) { return self.scene->sensor.meter != MeterKind::none; })
-        .def_property_readonly("has_grid", [](const LoadedScene& self) { return self.scene->grid.has_value(); })
+        .def_property_readonly("has_grid", [](const LoadedScene& self) { return !self.scene->grids.empty(); })
         .def_property_readonly("warnings", [](const LoadedScene& self) { return self.scene->warnings; });
     module.def("load_file", loadFile);
     module.def("load_tree", loadTree);
@@ -175,7 +176,7 @@ void defineRender(py::module_& module) {
         .def_property_readonly("image", [](const Shared& self) { return imageArray(self, self->image.radiance); })
         .def_property_readonly("components", [](const Shared& self) { return componentArrays(self); })
         .def_property_readonly("layers", [](const Shared& self) { return layerArrays(self); })
-        .def_property_readonly("readings", [](const Rendered& self) { return readingArrays(self); })
+        .def_property_readonly("readings", [](const Rendered& self) { return readingsOf(self); })
         .def_property_readonly("passes", [](const Rendered& self) { return self.image.passes; })
         .def_property_readonly("failure", [](const Rendered& self) { return self.record.failure; })
         .def_property_readonly("warnings", [](const Rendered& self) { return self.warnings; })

@@ -54,10 +54,6 @@ std::shared_ptr<const Rendered> render(const RenderOptions& options, const Scene
     rendered->record.unobstructedIlluminance = daylight;
     // What a failing device has rendered before is kept.
     if (!render.failure) rendered->layers = renderLayers(device, scene, render);
-    if (scene.sensor.meter == MeterKind::grid) {
-        rendered->grid = scene.grid;
-        rendered->grid->origin += scene.origin;
-    }
     rendered->warnings = std::move(warnings);
     for (const auto& warning : started.warnings()) rendered->warnings.push_back(warning);
     const RenderRecord& record = rendered->record;
@@ -73,14 +69,14 @@ std::shared_ptr<const Rendered> render(const RenderOptions& options, const Scene
 } // namespace
 
 std::shared_ptr<const Rendered> renderScene(const LoadedScene& loaded, const std::vector<std::string>& arguments,
-                                            bool measuresGrid, RenderWatch& watch) {
+                                            bool measuresGrids, RenderWatch& watch) {
     const RenderOptions options = optionsOf(arguments, *loaded.scene);
     checkCheckpointOptions(options);
     std::vector<std::string> warnings;
-    if (!measuresGrid && !options.daylightFactor)
+    if (!measuresGrids && !options.daylightFactor)
         return render(options, *loaded.scene, loaded.loadSeconds, std::nullopt, {}, watch);
     Scene measured = *loaded.scene; // the one that was loaded stays as it is
-    if (measuresGrid) useGridAsSensor(measured);
+    if (measuresGrids) useGridsAsSensor(measured);
     const auto daylight = skyOfDaylightFactor(options, measured, warnings);
     return render(options, measured, loaded.loadSeconds, daylight, std::move(warnings), watch);
 }

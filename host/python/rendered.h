@@ -20,14 +20,13 @@ struct LoadedScene {
 struct Rendered {
     FilmImage image;
     RenderRecord record;
-    std::vector<AovImage> layers;        ///< that the scene asks for
-    std::optional<IlluminanceGrid> grid; ///< that was measured, where the scene has it
+    std::vector<AovImage> layers; ///< that the scene asks for
     std::vector<std::string> warnings;
 };
 
-/// `arguments`: options of `quasilux render`, without the scene. `measuresGrid`: the scene's grid instead of its sensor. Null where
+/// `arguments`: options of `quasilux render`, without the scene. `measuresGrids`: the scene's grids instead of its sensor. Null where
 /// `watch` ended the render before its first pass. Throws InputError, DeviceError.
 std::shared_ptr<const Rendered> renderScene(const LoadedScene& loaded, const std::vector<std::string>& arguments,
-                                            bool measuresGrid, RenderWatch& watch);
+                                            bool measuresGrids, RenderWatch& watch);
 
 } // namespace quasilux

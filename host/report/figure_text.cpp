@@ -42,7 +42,10 @@ nlohmann::json figureJson(const Figure& figure) {
 }
 
 nlohmann::json gridJson(const GridPart& part) {
-    return {{"points", part.values.values.size()},
+    return {{"name", part.name},
+            {"kind", part.isCylindrical ? "cylindrical" : "planar"},
+            {"points", part.values.values.size()},
+            {"modelling", part.modelling ? figureJson(*part.modelling) : nlohmann::json()},
             {"mean", figureJson(part.figures.mean)},
             {"minimum", figureJson(part.figures.minimum)},
             {"maximum", figureJson(part.figures.maximum)},
@@ -87,13 +90,15 @@ std::vector<TableRow> figureRows(const ReportContent& content) {
     const auto add = [&](const std::string& name, const Figure& figure, const char* unit, bool ofMinimum = false) {
         rows.push_back(rowOf(name, figure, unit, content.precision, ofMinimum));
     };
-    if (content.grid) {
-        const NormFigures& figures = content.grid->figures;
-        add("mean illuminance", figures.mean, "lx");
-        add("minimum", figures.minimum, "lx", true);
-        add("maximum", figures.maximum, "lx", true);
-        add("uniformity U0 = minimum / mean", figures.overall, "", true);
-        add("diversity Ud = minimum / maximum", figures.diversity, "", true);
+    for (const GridPart& part : content.grids) {
+        const NormFigures& figures = part.figures;
+        const std::string begin = content.grids.size() > 1 ? part.name + ": " : "";
+        add(begin + (part.isCylindrical ? "mean cylindrical illuminance" : "mean illuminance"), figures.mean, "lx");
+        add(begin + "minimum", figures.minimum, "lx", true);
+        add(begin + "maximum", figures.maximum, "lx", true);
+        add(begin + "uniformity U0 = minimum / mean", figures.overall, "", true);
+        add(begin + "diversity Ud = minimum / maximum", figures.diversity, "", true);
+        if (part.modelling) add(begin + "modelling = mean cylindrical / horizontal", *part.modelling, "");
     }
     for (const ObserverPart& part : content.observers)
         add("UGR, " + part.figures.observer.name, part.figures.rating, "");
@@ -101,15 +106,16 @@ std::vector<TableRow> figureRows(const ReportContent& content) {
 }
 
 nlohmann::json reportJson(const ReportContent& content) {
-    nlohmann::json observers = nlohmann::json::array();
+    nlohmann::json observers = nlohmann::json::array(), grids = nlohmann::json::array();
     for (const ObserverPart& part : content.observers) observers.push_back(observerJson(part));
+    for (const GridPart& part : content.grids) grids.push_back(gridJson(part));
     nlohmann::json json{{"version", QUASILUX_VERSION},
                         {"scene", content.scene},
                         {"device", content.device},
                         {"seconds", content.seconds},
                         {"precision", content.precision},
                         {"reached", content.isKnown()},
-                        {"grid", content.grid ? gridJson(*content.grid) : nlohmann::json()},
+                        {"grids", grids},
                         {"observers", observers},
                         {"warnings", content.warnings}};
     if (content.picture)

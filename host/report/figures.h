@@ -1,6 +1,7 @@
 // The figures of norms, each with its error (docs/method/glare.md).
 #pragma once
 
+#include "output/meter_reading.h"
 #include "photometry/glare.h"
 #include "report/batched_readings.h"
 
@@ -13,7 +14,10 @@ struct NormFigures {
     Figure mean, minimum, maximum; ///< lx
     Figure overall, diversity;     ///< U0 = minimum / mean, Ud = minimum / maximum
 };
-NormFigures normFigures(const BatchedReadings& readings);
+/// Of some of the points.
+NormFigures normFigures(const BatchedReadings& readings, PixelRange range);
+/// Ratio of the means of two grids.
+Figure ratioOfMeans(const BatchedReadings& readings, PixelRange over, PixelRange under);
 
 /// Of one observer.
 struct ObserverFigures {

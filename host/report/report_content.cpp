@@ -23,7 +23,8 @@ std::vector<LuminaireRow> luminairesOf(const Scene& scene, bool photometric) {
 }
 
 bool ReportContent::isKnown() const {
-    return (!grid || areKnown(grid->figures, precision)) &&
+    return std::all_of(grids.begin(), grids.end(),
+                       [&](const GridPart& part) { return areKnown(part.figures, precision); }) &&
            std::all_of(observers.begin(), observers.end(),
                        [&](const ObserverPart& part) { return quasilux::isKnown(part.figures, precision); });
 }

@@ -16,9 +16,13 @@ struct RenderedPart {
     double seconds = 0; ///< with preparing and compiling
 };
 
+/// All of a scene's grids are measured together.
 struct GridPart : RenderedPart {
+    std::string name;
+    bool isCylindrical = false;
     GridValues values;
     NormFigures figures;
+    std::optional<Figure> modelling; ///< cylindrical over horizontal illuminance of the same points, ratio of the means
 };
 
 struct ObserverPart : RenderedPart {
@@ -48,7 +52,7 @@ struct ReportContent {
     bool hasSky = false;
     std::vector<LuminaireRow> luminaires;
     size_t otherLamps = 0; ///< emitters that are no quasilux_ies
-    std::optional<GridPart> grid;
+    std::vector<GridPart> grids;
     std::vector<ObserverPart> observers;
     std::optional<PicturePart> picture;
     std::vector<std::pair<std::string, std::string>> settings;

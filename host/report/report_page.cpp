@@ -78,9 +78,10 @@ std::string pictures(const PicturePart& part) {
     return out + "</section>\n";
 }
 
-std::string grid(const GridPart& part) {
+std::string grid(const GridPart& part, bool isAlone) {
     const ValueScale scale = scaleOfGrid(part.values, false);
-    return "<section><h2>Illuminance</h2>\n" +
+    return fmt::format("<section><h2>{}{}</h2>\n", part.isCylindrical ? "Cylindrical illuminance" : "Illuminance",
+                       isAlone ? "" : ": " + htmlEscaped(part.name)) +
            figure(isoluxDrawing(part.values, {ColourMap::viridis, scale}, {}, "isolux lines"),
                   "isolux lines; numbers: illuminance of the points in lx") +
            paragraph(fmt::format("{} passes, {:.1f} s.", part.passes, part.seconds)) + "</section>\n";
@@ -178,7 +179,7 @@ std::string reportPage(const ReportContent& content) {
     out += fmt::format("<h1>Lighting report</h1>\n<p class=\"note\">{}, by quasilux {} in {:.1f} s</p>\n",
                        htmlEscaped(content.scene), QUASILUX_VERSION, content.seconds);
     out += "<section><h2>Figures</h2>\n" + summary(content) + "</section>\n";
-    if (content.grid) out += grid(*content.grid);
+    for (const GridPart& part : content.grids) out += grid(part, content.grids.size() == 1);
     if (content.picture) out += pictures(*content.picture);
     if (!content.observers.empty()) out += "<h2>Glare: UGR (CIE 117)</h2>\n";
     for (const ObserverPart& part : content.observers) out += observer(part, content.hasSky);

@@ -10,8 +10,30 @@ namespace quasilux {
 
 namespace {
 
-const Names gridNames = {"origin", "edge-u", "edge-v", "nx", "ny", "normal", "spacing"};
+const Names gridNames = {"name", "quantity", "origin", "edge-u", "edge-v", "nx", "ny", "normal", "spacing"};
 constexpr unsigned maximumPoints = 32768; // along one side, as of a film
+
+std::string nameOf(const InstructionValues& values, const Instruction& instruction,
+                   const std::vector<IlluminanceGrid>& others) {
+    const std::string name = values.has("name") ? values.text("name") : fmt::format("grid {}", others.size() + 1);
+    if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
+        throw InputError(
+            instruction.where,
+            "illuminance-grid: name is empty or has a comma, a quote or a line break; choose one without.");
+    for (const IlluminanceGrid& other : others)
+        if (other.name == name)
+            throw InputError(instruction.where, fmt::format("illuminance-grid: the one at {} has the name '{}' too; "
+                                                            "choose another.",
+                                                            other.where.text(), name));
+    return name;
+}
+
+IlluminanceKind kindOf(const InstructionValues& values, const SourceLocation& where) {
+    if (!values.has("quantity") || values.text("quantity") == "planar") return IlluminanceKind::planar;
+    if (values.text("quantity") == "cylindrical") return IlluminanceKind::cylindrical;
+    throw InputError(where, fmt::format("illuminance-grid: quantity is '{}'; expected planar or cylindrical.",
+                                        values.text("quantity")));
+}
 
 /// EN 12464-1:2021, 4.4: at most p = 0.2 * 5^(log10 d) m between points, d being the longer side, or the shorter one where the longer is twice
 /// as long or more; p is at most 10 m. Sides are in metres.
@@ -48,10 +70,12 @@ bool isFlipped(const InstructionValues& values, const IlluminanceGrid& grid) {
 
 } // namespace
 
-IlluminanceGrid parseIlluminanceGrid(const Instruction& instruction) {
+IlluminanceGrid parseIlluminanceGrid(const Instruction& instruction, const std::vector<IlluminanceGrid>& others) {
     const InstructionValues values(instruction, gridNames, "origin, edge-u, edge-v (each \"x,y,z\"), nx and ny");
     IlluminanceGrid grid;
     grid.where = instruction.where;
+    grid.name = nameOf(values, instruction, others);
+    grid.kind = kindOf(values, instruction.where);
     grid.origin = values.vector("origin");
     grid.edgeU = values.vector("edge-u");
     grid.edgeV = values.vector("edge-v");
@@ -65,19 +89,31 @@ IlluminanceGrid parseIlluminanceGrid(const Instruction& instruction) {
         grid.ny = values.count("ny", maximumPoints);
     }
     grid.flipNormals = isFlipped(values, grid);
+    // Photons are counted in cells about the points, no higher than they are wide.
+    grid.height = std::min(glm::length(grid.edgeU) / grid.nx, glm::length(grid.edgeV) / grid.ny);
     return grid;
 }
 
-void useGridAsSensor(Scene& scene) {
-    if (!scene.grid)
+void useGridsAsSensor(Scene& scene) {
+    if (scene.grids.empty())
         throw InputError({scene.path}, "the scene has no illuminance-grid to measure; add <?quasilux illuminance-grid "
                                        "origin=\"x,y,z\" edge-u=\"x,y,z\" edge-v=\"x,y,z\" nx=\"N\" ny=\"N\"?>.");
     Sensor sensor;
-    sensor.where = scene.grid->where;
+    sensor.where = scene.grids.front().where;
     sensor.plugin = illuminanceGridKind;
     sensor.meter = MeterKind::grid;
-    sensor.width = scene.grid->nx;
-    sensor.height = scene.grid->ny;
+    sensor.width = scene.grids.front().nx;
+    sensor.height = scene.grids.front().ny;
+    if (scene.grids.size() > 1) {
+        uint64_t points = 0;
+        for (const IlluminanceGrid& grid : scene.grids) points += grid.points();
+        if (points > uint64_t{maximumPoints} * maximumPoints)
+            throw InputError(sensor.where, fmt::format("the scene's grids have {} points, {} at most can be measured; "
+                                                       "give fewer.",
+                                                       points, uint64_t{maximumPoints} * maximumPoints));
+        sensor.width = static_cast<unsigned>(points);
+        sensor.height = 1;
+    }
     scene.sensor = sensor;
 }
 

@@ -162,11 +162,11 @@ size_t chooseSensor(const std::vector<PlacedSensor>& sensors, const std::string&
                                  sensors.size() - 1, ids.empty() ? "" : knownNames(wanted, ids)));
 }
 
-/// A scene with a grid needs no sensor: the grid is what is measured then. All sensors are checked, one is kept.
+/// A scene with grids needs no sensor: the grids are what is measured then. All sensors are checked, one is kept.
 void readSensors(const std::vector<PlacedSensor>& sensors, const std::string& wanted, LoadContext& context) {
     context.scene.sensorCount = sensors.size();
-    if (sensors.empty() && context.scene.grid && wanted.empty()) {
-        useGridAsSensor(context.scene);
+    if (sensors.empty() && !context.scene.grids.empty() && wanted.empty()) {
+        useGridsAsSensor(context.scene);
         return;
     }
     if (sensors.empty())
@@ -216,9 +216,8 @@ void readMeasurement(const Instruction& instruction, Scene& scene) {
         throw InputError(instruction.where, fmt::format("unknown <?quasilux {}?>.{}", instruction.kind,
                                                         knownNames(instruction.kind, kinds)));
     } else {
-        if (scene.grid) throw InputError(instruction.where, "a second illuminance-grid; keep one.");
-        scene.grid = parseIlluminanceGrid(instruction);
-        scene.grid->origin -= scene.origin;
+        scene.grids.push_back(parseIlluminanceGrid(instruction, scene.grids));
+        scene.grids.back().origin -= scene.origin;
     }
 }
 

@@ -40,6 +40,7 @@ IlluminanceGrid eyeGrid(const Observer& observer) {
                      above = glm::cross(right, observer.direction);
     IlluminanceGrid grid;
     grid.where = observer.where;
+    grid.name = observer.name;
     // right × above looks backwards: -direction.
     grid.edgeU = observer.size * right;
     grid.edgeV = observer.size * above;

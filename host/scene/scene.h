@@ -241,14 +241,21 @@ enum class MeterKind { none, ray, area, grid };
 /// Or else it measures radiance.
 inline bool isIrradiance(MeterKind meter) { return meter == MeterKind::area || meter == MeterKind::grid; }
 
+/// What is measured at the points of a grid: illuminance of its plane, or the mean of that of all planes that hold its normal.
+enum class IlluminanceKind { planar, cylindrical };
+
 /// <?quasilux illuminance-grid …?>: points at the centres of nx × ny equal cells of a parallelogram, all of one normal.
 struct IlluminanceGrid {
     SourceLocation where;
+    std::string name; ///< in tables and reports; of one scene each another
+    IlluminanceKind kind = IlluminanceKind::planar;
     glm::dvec3 origin{}, edgeU{},
         edgeV{}; ///< corner and sides, world space; column i lies along edgeU, row j along edgeV
     unsigned nx = 0, ny = 0;
     bool flipNormals = false; ///< the normal is edgeU × edgeV, or its opposite
+    double height = 0;        ///< cylindrical: of the cells in which photons are counted, half of it on each side
 
+    size_t points() const { return size_t{nx} * ny; }
     glm::dvec3 point(unsigned i, unsigned j) const { return origin + (i + 0.5) / nx * edgeU + (j + 0.5) / ny * edgeV; }
     glm::dvec3 normal() const {
         const glm::dvec3 n = glm::normalize(glm::cross(edgeU, edgeV));
@@ -338,9 +345,10 @@ struct Scene {
     std::vector<LuminaireType> luminaireTypes;
     std::vector<DirectionalEmitter> directionalEmitters;
     std::optional<Surroundings> surroundings;
-    Sensor sensor;                       ///< the one that is rendered
-    size_t sensorCount = 0;              ///< in the file
-    std::optional<IlluminanceGrid> grid; ///< measured where the sensor is a MeterKind::grid
+    Sensor sensor;          ///< the one that is rendered
+    size_t sensorCount = 0; ///< in the file
+    std::vector<IlluminanceGrid>
+        grids; ///< measured where the sensor is a MeterKind::grid; its film has their points one after the other
     std::vector<Observer> observers;
     bool hideEmitters =
         false;         ///< the camera looks through emitting shapes and sees no surroundings (Mitsuba's hide_emitters)
@@ -368,7 +376,7 @@ struct LoadChoice {
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {},
                 const LoadChoice& choice = {});
 
-/// Makes the grid of the scene its sensor. Throws InputError where the scene has none.
-void useGridAsSensor(Scene& scene);
+/// Makes the grids of the scene its sensor. Throws InputError where the scene has none, or they have too many points together.
+void useGridsAsSensor(Scene& scene);
 
 } // namespace quasilux

@@ -11,11 +11,12 @@ Guide: docs/guide/python.md. What options mean: docs/reference/command-line.md, 
 from ._core import DeviceError, InputError, Progress, Scene, __version__
 from ._compare import compare
 from ._load import SceneError, SceneWarning, load
-from ._render import Interrupted, Reading, Render, RenderWarning, devices, meter, render
+from ._render import GridReading, Interrupted, Reading, Render, RenderWarning, devices, meter, render
 from ._transforms import look_at, rotate, scale, translate
 
 __all__ = [
     "DeviceError",
+    "GridReading",
     "InputError",
     "Interrupted",
     "Progress",

@@ -35,7 +35,7 @@ class Scene:
         """Whether the sensor that was chosen is no camera."""
     @property
     def has_grid(self) -> bool:
-        """Whether the scene has an illuminance grid."""
+        """Whether the scene has illuminance grids."""
     @property
     def warnings(self) -> list[str]: ...
 
@@ -65,7 +65,7 @@ class Rendered:
     @property
     def layers(self) -> dict[str, NDArray[np.float32]]: ...
     @property
-    def readings(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]: ...
+    def readings(self) -> list[tuple[str | None, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]]: ...
     @property
     def passes(self) -> int: ...
     @property

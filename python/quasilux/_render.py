@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypedDict
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -145,12 +145,25 @@ class Render:
         return f"<quasilux.Render {width} x {height}, {self.passes} passes, estimated relative error {error}>"
 
 
+class GridReading(NamedTuple):
+    """What was measured at the points of one grid; arrays as Reading has them."""
+
+    value: NDArray[np.float64]
+    stderr: NDArray[np.float64]
+    points: NDArray[np.float64]
+
+
 class Reading:
-    """What a meter has measured: its film's pixels, or the points of a grid."""
+    """What a meter has measured: its film's pixels, or the points of grids."""
 
     def __init__(self, render: Render):
         self.render = render
-        self.value, self.stderr, self.points = render._core.readings
+        readings = render._core.readings
+        _, self.value, self.stderr, self.points = readings[0]
+        self.grids = {name: GridReading(value, stderr, points) for name, value, stderr, points in readings if name is not None and points is not None}
+
+    grids: dict[str, GridReading]
+    """By name, all grids of the scene; value, stderr and points are those of the first one."""
 
     value: NDArray[np.float64]
     """(height, width), float64: illuminance in lx, of a radiancemeter luminance in cd/m^2. Row j, column i of a grid."""
@@ -209,7 +222,7 @@ def meter(
     callback: Callable[[_core.Progress], bool | None] | None = None,
     **options: Unpack[RenderOptions],
 ) -> Reading:
-    """Measures with the scene's sensor, where it is a meter, or else at the points of its illuminance grid.
+    """Measures with the scene's sensor, where it is a meter, or else at the points of its illuminance grids.
 
     daylight_factor: also as a share of the sky's illuminance of free ground, in per cent, without the sun and lamps.
     The others: as for render().
