@@ -6,6 +6,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 namespace quasilux {
@@ -62,6 +63,34 @@ TEST_F(GridTest, IsWrittenPointByPoint) {
         EXPECT_NEAR(std::stod(rows[k][16]), 2 * truth, 1e-5) << "all of it direct";
         EXPECT_NEAR(std::stod(rows[k][8]), 683 * (0.2126 * 2 + 0.7152 + 0.0722 * 4) * truth, 1e-2);
     }
+}
+
+TEST_F(GridTest, SeveralAreOneTable) {
+    const std::string begin = "<?quasilux illuminance-grid origin=\"-1,-1,-2\" edge-u=\"2,0,0\" edge-v=\"0,2,0\" ",
+                      walls = begin + "nx=\"2\" ny=\"3\" name=\"faces\" quantity=\"cylindrical\"?>",
+                      single = begin + "nx=\"2\" ny=\"1\" name=\"single row\"?>";
+    write("grids.xml", pointLight + grid + walls + single);
+    const Outcome outcome =
+        run({"render", "grids.xml", "--grid", "out.csv", "--stats", "s.json", "--passes", "4", "--fixed"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("modelling"));
+    const auto rows = rowsOf(readText(folder / "out.csv"));
+    ASSERT_EQ(rows.size(), 1 + 6 + 6 + 2u);
+    EXPECT_EQ(rows[0][0], "grid");
+    EXPECT_EQ(rows[1][0], "grid 1");
+    EXPECT_EQ(rows[7][0], "faces");
+    EXPECT_EQ(rows[13][0], "single row");
+    const auto meter = nlohmann::json::parse(readText(folder / "s.json"))["meter"];
+    ASSERT_EQ(meter["grids"].size(), 3u);
+    EXPECT_EQ(meter["grids"][1]["kind"], "cylindrical");
+    // Of a point: cylindrical over horizontal = tan(theta) / pi.
+    const double nearest = std::hypot(0.5, 0) / 2 / std::numbers::pi;
+    EXPECT_NEAR(meter["grids"][1]["modelling"]["minimum"].get<double>(), nearest, 0.05 * nearest);
+    EXPECT_FALSE(meter["grids"][0].contains("modelling"));
+    expectRefused({"falsecolour", "out.csv", "-o", "out.svg"},
+                  "the grids grid 1, faces, single row, choose one by --grid");
+    expectRefused({"falsecolour", "out.csv", "-o", "out.svg", "--grid", "face"}, "not 'face'");
+    EXPECT_EQ(run({"falsecolour", "out.csv", "-o", "out.svg", "--grid", "faces"}).exitCode, 0);
 }
 
 TEST_F(GridTest, PhotometricUnitsLeaveTheEfficacyOut) {

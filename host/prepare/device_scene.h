@@ -99,7 +99,7 @@ std::vector<float> flattenUvs(const Scene& scene);
 EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placement);
 shared::Camera flattenCamera(const Sensor& sensor, unsigned medium = MEDIUM_NONE);
 struct MeterTables {
-    shared::Meter meter{};                          ///< offsets into the scene tables and `lobe` are left open
+    shared::Meter meter{}; ///< offsets into the scene tables, `lobe` and `samples` (render/method.h) are left open
     std::vector<shared::MeterPrimitive> primitives; ///< or of METER_GRID:
     std::vector<shared::MeterGrid> grids;
 };

@@ -2,7 +2,6 @@
 #include "prepare/device_scene.h"
 #include "prepare/pack.h"
 
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -11,8 +10,6 @@ namespace quasilux {
 namespace {
 
 using std::numbers::pi;
-// Paths of a small film in one pass: enough for a device to be busy, and few beside the photons of a pass.
-constexpr unsigned pathsInPass = 4096;
 
 using Primitives = std::vector<shared::MeterPrimitive>;
 
@@ -120,10 +117,8 @@ MeterTables flattenMeter(const Scene& scene, unsigned medium, const std::vector<
     meter.kind = kindOf(sensor.meter);
     meter.samples = 1;
     if (meter.kind == METER_NONE) return tables;
-    const uint64_t pixels = uint64_t(sensor.width) * sensor.height;
     meter.width = sensor.width;
     meter.height = sensor.height;
-    meter.samples = pixels >= pathsInPass ? 1 : std::bit_floor(static_cast<unsigned>(pathsInPass / pixels));
     meter.medium = medium;
     if (meter.kind == METER_RAY) return tables;
     if (meter.kind == METER_GRID) {
@@ -133,7 +128,7 @@ MeterTables flattenMeter(const Scene& scene, unsigned medium, const std::vector<
     }
     const double area = addPrimitives(scene, tables.primitives);
     meter.primitiveCount = static_cast<unsigned>(tables.primitives.size());
-    meter.inverseArea = static_cast<float>(double(pixels) / area);
+    meter.inverseArea = static_cast<float>(double(sensor.width) * sensor.height / area);
     return tables;
 }
 

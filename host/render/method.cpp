@@ -3,6 +3,7 @@
 #include "render/film.h"
 
 #include <algorithm>
+#include <bit>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -173,6 +174,17 @@ unsigned photonsForPixels(const shared::Camera& camera, unsigned fewest) {
 unsigned photonsPerPass(const RenderSettings& settings, const shared::Camera& camera) {
     if (settings.photonsPerPass > 0) return settings.photonsPerPass;
     return photonsForPixels(camera, 20'000);
+}
+
+// A path costs about what a photon costs. Where photons are counted, theirs or the paths' may be the larger variance: with half of the time for each it
+// is at most twice that of the best shares. Elsewhere photons lie beyond the first hit of each path, all over the scene, and have little of it.
+unsigned meterSamples(const DeviceScene& scene, const RenderSettings& settings) {
+    const shared::Meter& meter = scene.offsets.meter;
+    if (meter.kind == METER_NONE) return 1;
+    const bool counts = settings.map == MapOrder::camera || meterCountsPhotons(scene.features, settings);
+    const uint64_t pixels = uint64_t{meter.width} * meter.height,
+                   paths = uint64_t{counts ? 1u : 4u} * photonsPerPass(settings, scene.camera);
+    return static_cast<unsigned>(std::bit_floor(std::max<uint64_t>(paths / pixels, 1)));
 }
 
 } // namespace quasilux

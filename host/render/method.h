@@ -58,5 +58,7 @@ unsigned photonsForPixels(const shared::Camera& camera, unsigned fewest);
 
 /// Photons emitted per pass: what the user said, else by pixels, but enough to keep a device busy.
 unsigned photonsPerPass(const RenderSettings& settings, const shared::Camera& camera);
+/// Paths of a meter's pixel in each pass, a power of two; 1 of a camera.
+unsigned meterSamples(const DeviceScene& scene, const RenderSettings& settings);
 
 } // namespace quasilux

@@ -29,7 +29,9 @@ DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings) {
     flattening.quasiSpecular = settings.quasiSpecular;
     flattening.photons = photons;
     flattening.overridesScene = settings.quasiSpecularOverridesScene;
-    return flattenScene(scene, flattening);
+    DeviceScene flat = flattenScene(scene, flattening);
+    flat.offsets.meter.samples = meterSamples(flat, settings);
+    return flat;
 }
 
 shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
