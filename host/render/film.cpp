@@ -149,6 +149,15 @@ Film::Pass Film::beginPass(unsigned pass) {
     return now;
 }
 
+Film::Pass Film::beginBatch() {
+    isWhole_ = false;
+    counts_.biasPasses += 1;
+    counts_.openBiasPasses += 1;
+    counts_.openPasses += 1;
+    counts_ = counts_.closed();
+    return {1, 1};
+}
+
 FilmImage Film::develop(unsigned passes) const {
     FilmImage image;
     developOver(image, passes);

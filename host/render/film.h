@@ -70,6 +70,9 @@ public:
     };
     /// To be called once before each pass is added, and after it.
     Pass beginPass(unsigned pass);
+    /// The same of a pass that is a batch of its own: those of a meter have no positions in common, and differ by less than the sum of a batch is
+    /// rounded by.
+    Pass beginBatch();
     void endPass() {
         isWhole_ = true;
         pixelsAhead_ = 0;

@@ -32,7 +32,7 @@ void MeterStage::run(unsigned pass, const PhotonStage& photons) {
     const shared::Meter& meter = params_.scene.meter;
     params_.pass = pass;
     params_.map = photons.table().map();
-    params_.batchWeight = film_.beginPass(pass).batchWeight;
+    params_.batchWeight = film_.beginBatch().batchWeight;
     traceMeterPaths_.launch(film_.pixels() * meter.samples, geometry_.nodes, geometry_.blocks, geometry_.tables,
                             photons.table().cellStart(), photons.sorted(), samples_, film_.counterBuffer(), params_);
     addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(),

@@ -177,13 +177,15 @@ unsigned photonsPerPass(const RenderSettings& settings, const shared::Camera& ca
 }
 
 // A path costs about what a photon costs. Where photons are counted, theirs or the paths' may be the larger variance: with half of the time for each it
-// is at most twice that of the best shares. Elsewhere photons lie beyond the first hit of each path, all over the scene, and have little of it.
+// is at most twice that of the best shares; so where all paths meet one place, as those of a ray. Elsewhere photons lie about their hits all over the
+// scene, and have little of it.
 unsigned meterSamples(const DeviceScene& scene, const RenderSettings& settings) {
     const shared::Meter& meter = scene.offsets.meter;
     if (meter.kind == METER_NONE) return 1;
-    const bool counts = settings.map == MapOrder::camera || meterCountsPhotons(scene.features, settings);
+    const bool photonsMatter =
+        settings.map == MapOrder::camera || meter.kind == METER_RAY || meterCountsPhotons(scene.features, settings);
     const uint64_t pixels = uint64_t{meter.width} * meter.height,
-                   paths = uint64_t{counts ? 1u : 4u} * photonsPerPass(settings, scene.camera);
+                   paths = uint64_t{photonsMatter ? 1u : 4u} * photonsPerPass(settings, scene.camera);
     return static_cast<unsigned>(std::bit_floor(std::max<uint64_t>(paths / pixels, 1)));
 }
 
