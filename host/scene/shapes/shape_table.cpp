@@ -29,6 +29,7 @@ constexpr ShapePlugin shapePlugins[] = {
     {"obj", readObj},
     {"ply", readPly},
     {"serialized", readSerialized},
+    {"mesh", readEmbeddedMesh},
     {"bsplinecurve", readBsplineCurve, false},
     {"linearcurve", readLinearCurve, false},
 };
