@@ -32,9 +32,10 @@ public:
                                    [=](const glm::dvec4& pixel) { return pixel.y * rough; });
         surface.metallic = number(material_.metallicRoughnessTexture, "metallic", metal,
                                   [=](const glm::dvec4& pixel) { return pixel.z * metal; });
-        surface.alpha =
-            number(material_.metallicRoughnessTexture, "alpha", rough * rough,
-                   [=](const glm::dvec4& pixel) { return std::max(pixel.y * rough * pixel.y * rough, 1e-4); });
+        if (passed > 0)
+            surface.alpha =
+                number(material_.metallicRoughnessTexture, "alpha", rough * rough,
+                       [=](const glm::dvec4& pixel) { return std::max(pixel.y * rough * pixel.y * rough, 1e-4); });
         surface.transmission = passed == 0 ? GltfParameter{grey(0), {}}
                                            : number(material_.transmissionTexture, "transmission", passed,
                                                     [=](const glm::dvec4& pixel) { return pixel.x * passed; });

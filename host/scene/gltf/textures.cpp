@@ -24,15 +24,16 @@ std::string wrapOf(int wrap, const SourceLocation& where) {
     }
 }
 
-/// Texture coordinates are turned about the origin, after they are scaled and before they are moved.
+/// Texture coordinates are turned about the origin, counter-clockwise on an image whose v runs down, after they are scaled and before they
+/// are moved.
 std::optional<glm::dmat4> transformOf(const tinygltf::TextureInfo& texture, const SourceLocation& where) {
     const GltfValues values(texture.extensions, transformName, where);
     if (!values.isGiven()) return std::nullopt;
     const glm::dvec2 offset = values.pair("offset", {0, 0}), scale = values.pair("scale", {1, 1});
     const double angle = values.number("rotation", 0), c = std::cos(angle), s = std::sin(angle);
     glm::dmat4 matrix(1);
-    matrix[0] = {c * scale.x, s * scale.x, 0, 0};
-    matrix[1] = {-s * scale.y, c * scale.y, 0, 0};
+    matrix[0] = {c * scale.x, -s * scale.x, 0, 0};
+    matrix[1] = {s * scale.y, c * scale.y, 0, 0};
     matrix[3] = {offset.x, offset.y, 0, 1};
     return matrix;
 }
