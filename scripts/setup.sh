@@ -19,7 +19,7 @@ done
 
 compiler=(g++ cmake ninja-build pkg-config)
 opencl=(pocl-opencl-icd ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers)
-libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-dev nlohmann-json3-dev libfmt-dev
+libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-dev libtinygltf-dev nlohmann-json3-dev libfmt-dev
     libxxhash-dev zlib1g-dev libcpp-httplib-dev fonts-dejavu-core)
 tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools oclgrind chromium python3-websocket
     python3-dev pybind11-dev mypy)

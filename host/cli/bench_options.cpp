@@ -44,8 +44,9 @@ void declareParts(CLI::App& command, BenchOptions& options) {
 void declareBench(CLI::App& app, BenchOptions& options) {
     CLI::App& command = *app.add_subcommand("bench", "Measure speed against error, of scenes, methods and devices");
     command
-        .add_option("SCENE", options.scenes,
-                    "Scene files, Mitsuba 3 XML; none is needed for --micro, and for --growth but of threads")
+        .add_option(
+            "SCENE", options.scenes,
+            "Scene files, Mitsuba 3 XML or glTF 2.0; none is needed for --micro, and for --growth but of threads")
         ->type_name("FILE");
     command
         .add_option("--method", options.methods,

@@ -38,7 +38,8 @@ std::vector<std::string> completed(CLI::App& app, std::vector<std::string> argum
     if (!arguments.empty() && std::none_of(commands.begin(), commands.end(), isFirst)) {
         const std::filesystem::path path(arguments[0]);
         std::error_code ignored;
-        if (path.extension() == ".xml" || std::filesystem::is_regular_file(path, ignored))
+        if (path.extension() == ".xml" || path.extension() == ".gltf" || path.extension() == ".glb" ||
+            std::filesystem::is_regular_file(path, ignored))
             arguments.insert(arguments.begin(), "render");
     }
     for (size_t k = 0; k < arguments.size(); ++k)

@@ -61,7 +61,9 @@ void declareFiles(CLI::App& command, RenderOptions& options) {
 }
 
 void declareScenes(CLI::App& command, RenderOptions& options) {
-    command.add_option("SCENE", options.scenes, "Scene files, Mitsuba 3 XML")->required()->type_name("FILE");
+    command.add_option("SCENE", options.scenes, "Scene files, Mitsuba 3 XML or glTF 2.0")
+        ->required()
+        ->type_name("FILE");
     command
         .add_option("-j,--jobs", options.jobs,
                     "Scenes that are rendered at once, each by a process of its own (default: 1, one after the other)")

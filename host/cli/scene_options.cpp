@@ -157,7 +157,7 @@ void declareDevice(CLI::App& command, SceneOptions& options) {
 }
 
 void declareSceneFile(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene, "Scene file, Mitsuba 3 XML")->required()->type_name("FILE");
+    command.add_option("SCENE", options.scene, "Scene file, Mitsuba 3 XML or glTF 2.0")->required()->type_name("FILE");
 }
 
 void declareScene(CLI::App& command, SceneOptions& options, const std::string& moreSensors) {

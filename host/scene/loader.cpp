@@ -3,6 +3,7 @@
 
 #include "scene/bsdfs/bsdf_plugin.h"
 #include "scene/emitters/emitters.h"
+#include "scene/gltf/gltf_document.h"
 #include "scene/illuminance_grid.h"
 #include "scene/integrator.h"
 #include "scene/load_context.h"
@@ -232,6 +233,8 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
     LoadContext context(root, document.files, scene);
     context.unknown = choice.unknown;
     context.forgiven = document.forgiven;
+    context.embedded = document.embedded.get();
+    scene.warnings = document.warnings;
     checkVersion(root, context);
     std::vector<Instruction> settings;
     for (const Instruction& instruction : root.instructions)
@@ -282,8 +285,11 @@ Scene loadScene(const std::string& path, const std::vector<std::pair<std::string
                 const LoadChoice& choice) {
     const auto guard = std::make_shared<LoadGuard>(path, choice.limits);
     std::optional<Scene> scene;
-    guard->withinMemory(
-        [&] { scene = loadScene(readSceneDocument(path, parameters, choice.unknown, guard), path, choice); });
+    guard->withinMemory([&] {
+        scene = loadScene(isGltf(path) ? readGltfDocument(path, parameters, choice.unknown, guard)
+                                       : readSceneDocument(path, parameters, choice.unknown, guard),
+                          path, choice);
+    });
     return std::move(*scene);
 }
 

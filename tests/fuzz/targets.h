@@ -22,6 +22,7 @@ void expectInputErrors(const Read& read) {
 using Target = void (*)(std::string_view input);
 
 void readXml(std::string_view input);
+void readGltf(std::string_view input);
 void readObjFile(std::string_view input);
 void readPlyFile(std::string_view input);
 void readSerializedFile(std::string_view input);
@@ -38,6 +39,7 @@ void readEdits(std::string_view input);
 
 /// By the name of the folder of their seeds.
 inline const std::map<std::string, Target> targets{{"xml", readXml},
+                                                   {"gltf", readGltf},
                                                    {"obj", readObjFile},
                                                    {"ply", readPlyFile},
                                                    {"serialized", readSerializedFile},

@@ -17,6 +17,7 @@ double readEta(Properties& properties) {
 
 Principled readParameters(Properties& properties) {
     Principled p = readSharedParameters(properties);
+    readPrincipledRoughness(properties, p);
     p.metallic = properties.share("metallic", 0);
     p.clearcoat = properties.share("clearcoat", 0);
     p.clearcoatGloss = properties.share("clearcoat_gloss", 0);

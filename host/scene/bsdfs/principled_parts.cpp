@@ -8,6 +8,8 @@ namespace quasilux {
 
 namespace {
 
+constexpr double leastAlpha = 0.001;
+
 Rgb mix(Rgb a, Rgb b, double share) {
     const auto t = static_cast<float>(share);
     return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
@@ -16,8 +18,8 @@ Rgb mix(Rgb a, Rgb b, double share) {
 } // namespace
 
 double Principled::aspect() const { return std::sqrt(1 - 0.9 * anisotropic); }
-double Principled::alphaU() const { return std::max(0.001, roughness * roughness / aspect()); }
-double Principled::alphaV() const { return std::max(0.001, roughness * roughness * aspect()); }
+double Principled::alphaU() const { return std::max(leastAlpha, roughness * roughness / aspect()); }
+double Principled::alphaV() const { return std::max(leastAlpha, roughness * roughness * aspect()); }
 
 Rgb Principled::tint() const {
     const auto brightness = static_cast<float>(luminance(base.scale));
@@ -27,7 +29,6 @@ Rgb Principled::tint() const {
 Principled readSharedParameters(Properties& properties) {
     Principled p;
     p.base = readReflectance(properties, "base_color", 0.5f);
-    p.roughness = properties.share("roughness", 0.5);
     p.anisotropic = properties.share("anisotropic", 0);
     p.specTrans = properties.share("spec_trans", 0);
     p.specTint = properties.share("spec_tint", 0);
@@ -35,6 +36,23 @@ Principled readSharedParameters(Properties& properties) {
     p.sheenTint = properties.share("sheen_tint", 0);
     p.flatness = properties.share("flatness", 0);
     return p;
+}
+
+void readPrincipledRoughness(Properties& properties, Principled& p) {
+    LoadContext& context = properties.context();
+    const Scalar roughness = readShare(properties, "roughness", 0.5f);
+    p.roughness = roughness.value;
+    if (!roughness.texture) return;
+    const TextureDescription& texture = context.scene.textures[*roughness.texture];
+    if (!texture.attribute.empty() || texture.volume || texture.device.texture0 > 0 || texture.device.texture1 > 0)
+        throw InputError(texture.where, "a roughness of principled that varies must be a 'bitmap' or a 'checkerboard' "
+                                        "of two numbers; bake it into an image.");
+    p.roughness = meanNumber(texture, 0.5f, context.scene);
+    const auto squared = [&](double factor) {
+        return squaredTexture(*roughness.texture, static_cast<float>(factor), static_cast<float>(leastAlpha), context);
+    };
+    p.alphaTextureU = squared(1 / p.aspect());
+    p.alphaTextureV = squared(p.aspect());
 }
 
 double readPrincipledIndex(Properties& properties) {
@@ -63,6 +81,8 @@ LobeDescription facets(const Principled& p, unsigned type, const Reflectance& re
     LobeDescription lobe = makeLobe(type, "specular", reflectance, ggxHalfWidth(std::max(p.alphaU(), p.alphaV())));
     lobe.device.alphaU = static_cast<float>(p.alphaU());
     lobe.device.alphaV = static_cast<float>(p.alphaV());
+    lobe.alphaTextureU = p.alphaTextureU;
+    lobe.alphaTextureV = p.alphaTextureV;
     return lobe;
 }
 

@@ -11,6 +11,8 @@ struct Principled {
     double roughness = 0.5, anisotropic = 0, metallic = 0, specTrans = 0, specTint = 0, sheen = 0, sheenTint = 0,
            flatness = 0, clearcoat = 0, clearcoatGloss = 0;
     double eta = 1.5;
+    std::optional<unsigned> alphaTextureU,
+        alphaTextureV; ///< of facets, where the roughness is a texture; `roughness` is its mean then
 
     double dielectric() const { return 1 - metallic; }
     bool textured() const { return base.texture != 0; }
@@ -18,13 +20,14 @@ struct Principled {
     double alphaV() const;
     /// The base colour at luminance 1; white where it is black.
     Rgb tint() const;
-
-private:
+    /// alphaV over alphaU is the square of it.
     double aspect() const;
 };
 
-/// Those that both have, but for the index.
+/// Those that both have, but for the index and the roughness.
 Principled readSharedParameters(Properties& properties);
+/// `roughness`, a number or a texture.
+void readPrincipledRoughness(Properties& properties, Principled& p);
 /// `eta`, an index of at least 1.
 double readPrincipledIndex(Properties& properties);
 /// Throws InputError where `coloured`, a parameter or nullptr, needs one colour and the base has a texture.

@@ -47,6 +47,7 @@ void addSpecular(const Principled& p, std::vector<LobeDescription>& lobes) {
 
 BsdfLobes readPrincipledThin(Properties& properties) {
     Principled p = readSharedParameters(properties);
+    p.roughness = properties.share("roughness", 0.5);
     p.eta = readPrincipledIndex(properties);
     const double transmitted = readTransmittedShare(properties);
     properties.accept({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",

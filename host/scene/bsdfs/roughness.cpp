@@ -21,25 +21,6 @@ float readAlpha(Properties& properties, const std::string& name, double missing,
     return static_cast<float>(alpha);
 }
 
-/// Mean of numbers as the lookup of a texture at random places has it; of an attribute of meshes, not known here yet, the default.
-float meanAlpha(const TextureDescription& texture, const Scene& scene) {
-    if (!texture.attribute.empty()) return defaultAlpha;
-    if (texture.device.type == TEXTURE_CHECKERBOARD) {
-        const auto ofSquares = [&](const Rgb& color, unsigned number) {
-            return number > 0 ? meanAlpha(scene.textures[number - 1], scene) : color.r;
-        };
-        return 0.5f * (ofSquares(texture.device.color0, texture.device.texture0) +
-                       ofSquares(texture.device.color1, texture.device.texture1));
-    }
-    double sum = 0;
-    if (texture.volume) {
-        for (const float value : texture.volume->values) sum += value;
-        return static_cast<float>(sum / double(texture.volume->values.size()));
-    }
-    for (const Rgb& texel : texture.texels) sum += texel.r;
-    return static_cast<float>(sum / double(texture.texels.size()));
-}
-
 /// Of a texture its index and the mean.
 Scalar readAlphaOrTexture(Properties& properties, const std::string& name, double missing, const std::string& smooth,
                           bool byTexture) {
@@ -47,7 +28,7 @@ Scalar readAlphaOrTexture(Properties& properties, const std::string& name, doubl
     if (!texture) return {readAlpha(properties, name, missing, smooth), std::nullopt};
     const unsigned index = useScalarTexture(*texture, properties.context());
     const Scene& scene = properties.context().scene;
-    return {std::max(meanAlpha(scene.textures[index], scene), static_cast<float>(smallestAlpha)), index};
+    return {std::max(meanNumber(scene.textures[index], defaultAlpha, scene), static_cast<float>(smallestAlpha)), index};
 }
 
 } // namespace

@@ -53,5 +53,6 @@ void readSphere(Properties& properties, ShapeDescription& shape);
 void readObj(Properties& properties, ShapeDescription& shape);
 void readPly(Properties& properties, ShapeDescription& shape);
 void readSerialized(Properties& properties, ShapeDescription& shape);
+void readEmbeddedMesh(Properties& properties, ShapeDescription& shape);
 
 } // namespace quasilux

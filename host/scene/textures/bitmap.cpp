@@ -7,9 +7,14 @@ namespace quasilux {
 
 namespace {
 
-/// Read once; warns of values that are out of range.
-const Image& imageOf(const std::string& path, const std::string& name, bool raw, TextureUse use,
-                     const SourceLocation& where, LoadContext& context) {
+/// One that the scene holds, or of a file, read once. Warns of values that are out of range.
+const Image& imageOf(const std::string& name, bool raw, TextureUse use, const SourceLocation& where,
+                     LoadContext& context) {
+    if (context.embedded) {
+        const auto held = context.embedded->images.find(name);
+        if (held != context.embedded->images.end()) return held->second;
+    }
+    const std::string path = context.files.resolve(name, where);
     const auto key = std::tuple(path, raw, use);
     const auto known = context.images.find(key);
     if (known != context.images.end()) return known->second;
@@ -46,8 +51,7 @@ void readBitmap(Properties& properties, TextureDescription& texture) {
     const bool raw = properties.boolean("raw", false);
     properties.accept({"format", "accel"});
 
-    const std::string path = properties.context().files.resolve(name, where);
-    const Image& image = imageOf(path, name, raw, texture.use, where, properties.context());
+    const Image& image = imageOf(name, raw, texture.use, where, properties.context());
     texture.device.width = image.width;
     texture.device.height = image.height;
     texture.texels = image.pixels;

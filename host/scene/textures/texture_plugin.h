@@ -55,6 +55,12 @@ unsigned useColorTexture(const Element& element, LoadContext& context);
 /// And of the numbers, as readShare takes them.
 unsigned useScalarTexture(const Element& element, LoadContext& context);
 
+/// Index into Scene::textures of the squares of the numbers at `index`, a bitmap or a checkerboard of two of them, times `factor`, but from
+/// `least` to 1.
+unsigned squaredTexture(unsigned index, float factor, float least, LoadContext& context);
+/// Mean of numbers as the lookup of a texture at random places has it; of an attribute of meshes, not known here yet, `missing`.
+float meanNumber(const TextureDescription& texture, float missing, const Scene& scene);
+
 /// The parameter `name`, a number or a texture within [0, 1], such as a weight; `missing` where it is not given. Of the
 /// colours of a texture it takes, as Mitsuba, the luminance (bitmap) or the mean of the channels (others); a checkerboard's
 /// squares change places then, as in Mitsuba 3.9.

@@ -149,6 +149,42 @@ unsigned useScalarTexture(const Element& element, LoadContext& context) {
     return scalarTexture(static_cast<unsigned>(useTexture(element, context)), context);
 }
 
+unsigned squaredTexture(unsigned index, float factor, float least, LoadContext& context) {
+    const auto [known, isNew] = context.squaredTextureIndex.emplace(
+        std::pair(index, factor), static_cast<unsigned>(context.scene.textures.size()));
+    if (!isNew) return known->second;
+    TextureDescription squares = context.scene.textures[index];
+    const auto squareOf = [&](const Rgb& value) {
+        return greyOf(std::min(std::max(value.r * value.r * factor, least), 1.0f));
+    };
+    std::vector<Rgb> pixels;
+    pixels.reserve(squares.texels.size());
+    for (const Rgb& texel : squares.texels) pixels.push_back(squareOf(texel));
+    squares.texels = std::move(pixels);
+    squares.device.color0 = squareOf(squares.device.color0);
+    squares.device.color1 = squareOf(squares.device.color1);
+    context.scene.textures.push_back(std::move(squares));
+    return known->second;
+}
+
+float meanNumber(const TextureDescription& texture, float missing, const Scene& scene) {
+    if (!texture.attribute.empty()) return missing;
+    if (texture.device.type == TEXTURE_CHECKERBOARD) {
+        const auto ofSquares = [&](const Rgb& color, unsigned number) {
+            return number > 0 ? meanNumber(scene.textures[number - 1], missing, scene) : color.r;
+        };
+        return 0.5f * (ofSquares(texture.device.color0, texture.device.texture0) +
+                       ofSquares(texture.device.color1, texture.device.texture1));
+    }
+    double sum = 0;
+    if (texture.volume) {
+        for (const float value : texture.volume->values) sum += value;
+        return static_cast<float>(sum / double(texture.volume->values.size()));
+    }
+    for (const Rgb& texel : texture.texels) sum += texel.r;
+    return static_cast<float>(sum / double(texture.texels.size()));
+}
+
 Scalar readShare(Properties& properties, const std::string& name, float missing) {
     if (const Element* texture = properties.texture(name)) return {0, useScalarTexture(*texture, properties.context())};
     return {static_cast<float>(properties.share(name, missing)), std::nullopt};

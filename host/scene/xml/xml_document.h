@@ -1,6 +1,7 @@
 // Reads scene files: XML with positions, `<include>`, `<default>` and `$parameters` (docs/reference/scene-language.md, "Document").
 #pragma once
 
+#include "scene/embedded_parts.h"
 #include "scene/scene.h"
 #include "scene/xml/element.h"
 #include "scene/xml/file_resolver.h"
@@ -15,7 +16,9 @@ using SceneParameters = std::vector<std::pair<std::string, std::string>>;
 struct SceneDocument {
     Element root;
     FileResolver files;
-    std::vector<std::string> forgiven; ///< unknown elements, which are left out: "file:line:column: …"
+    std::vector<std::string> forgiven = {}; ///< unknown elements, which are left out: "file:line:column: …"
+    std::vector<std::string> warnings = {};
+    std::shared_ptr<const EmbeddedParts> embedded = {}; ///< null: the scene holds none
 };
 
 /// Throws InputError for a missing file, malformed XML, include loops, unknown names unless they are forgiven, and unused

@@ -1,0 +1,166 @@
+#include "scene/gltf/bsdf_elements.h"
+
+#include "scene/gltf/elements.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace quasilux {
+
+namespace {
+
+// Below it a transmitting surface is clear.
+constexpr double clearRoughness = 0.02;
+// An index of 1 bends nothing and reflects nothing, which the dielectrics refuse.
+constexpr double leastIndex = 1.0001;
+
+void addColorOrTexture(Element& bsdf, const std::string& name, const GltfParameter& parameter) {
+    if (parameter.isTextured())
+        addReference(bsdf, name, parameter.texture);
+    else
+        addColor(bsdf, name, parameter.value);
+}
+
+/// A number or a texture of numbers.
+void addShare(Element& bsdf, const std::string& name, const GltfParameter& parameter) {
+    if (parameter.isTextured())
+        addReference(bsdf, name, parameter.texture);
+    else
+        addNumber(bsdf, name, parameter.value.x);
+}
+
+/// That whose reflectance at normal incidence is the material's index's, times its specular factor.
+double indexOf(const GltfMaterial& material) {
+    const double amplitude = (material.ior - 1) / (material.ior + 1);
+    const double root = std::sqrt(std::clamp(amplitude * amplitude * material.specular, 0.0, 0.98));
+    return (1 + root) / (1 - root);
+}
+
+Element principled(const GltfMaterial& material, const GltfSurface& surface, double metallic) {
+    Element bsdf = newObject("bsdf", "principled", "", material.where);
+    addColorOrTexture(bsdf, "base_color", surface.base);
+    addShare(bsdf, "roughness", surface.roughness);
+    addNumber(bsdf, "metallic", metallic);
+    addNumber(bsdf, "eta", indexOf(material));
+    if (material.clearcoat > 0) {
+        // Disney's gloss goes linearly from alpha 0.1 to 0.001.
+        const double alpha = material.clearcoatRoughness * material.clearcoatRoughness;
+        addNumber(bsdf, "clearcoat", material.clearcoat);
+        addNumber(bsdf, "clearcoat_gloss", std::clamp((0.1 - alpha) / (0.1 - 0.001), 0.0, 1.0));
+    }
+    return bsdf;
+}
+
+Element blendOf(const GltfParameter& weight, Element first, Element second, const SourceLocation& where) {
+    Element blend = newObject("bsdf", "blendbsdf", "", where);
+    addShare(blend, "weight", weight);
+    addNested(blend, "", std::move(first));
+    addNested(blend, "", std::move(second));
+    return blend;
+}
+
+Element wrapped(const char* plugin, Element nested) {
+    Element outer = newObject("bsdf", plugin, "", nested.where);
+    addNested(outer, "", std::move(nested));
+    return outer;
+}
+
+/// What reflects alone.
+Element reflecting(const GltfMaterial& material, const GltfSurface& surface) {
+    if (!surface.metallic.isTextured()) return principled(material, surface, surface.metallic.value.x);
+    return blendOf(surface.metallic, principled(material, surface, 0), principled(material, surface, 1),
+                   material.where);
+}
+
+bool isClear(const GltfSurface& surface) {
+    return !surface.roughness.isTextured() && surface.roughness.value.x < clearRoughness;
+}
+
+/// A sheet whose sides are one surface: light passes unbent.
+Element thinSheet(const GltfMaterial& material, const GltfSurface& surface) {
+    const double index = std::max(material.ior, leastIndex);
+    if (isClear(surface)) {
+        Element pane = newObject("bsdf", "thindielectric", "", material.where);
+        addNumber(pane, "int_ior", index);
+        addNumber(pane, "ext_ior", 1);
+        addColorOrTexture(pane, "specular_transmittance", surface.transmitted);
+        return pane;
+    }
+    Element sheet = newObject("bsdf", "principledthin", "", material.where);
+    addColorOrTexture(sheet, "base_color", surface.transmitted);
+    addNumber(sheet, "roughness", surface.roughness.isTextured() ? material.roughness : surface.roughness.value.x);
+    addNumber(sheet, "spec_trans", 1);
+    addNumber(sheet, "eta", index);
+    return sheet;
+}
+
+/// The border of a body.
+Element border(const GltfMaterial& material, const GltfSurface& surface) {
+    Element bsdf = newObject("bsdf", isClear(surface) ? "dielectric" : "roughdielectric", "", material.where);
+    addNumber(bsdf, "int_ior", std::max(material.ior, leastIndex));
+    addNumber(bsdf, "ext_ior", 1);
+    addColorOrTexture(bsdf, "specular_transmittance", surface.transmitted);
+    if (!isClear(surface)) {
+        addText(bsdf, "distribution", "ggx");
+        addShare(bsdf, "alpha", surface.alpha);
+    }
+    return bsdf;
+}
+
+/// How much of the light that a metal does not take is transmitted.
+GltfParameter transmittedShare(const GltfSurface& surface) {
+    GltfParameter share = surface.transmission;
+    if (!share.isTextured() && !surface.metallic.isTextured()) share.value *= 1 - surface.metallic.value.x;
+    return share;
+}
+
+Element normalMapOf(const GltfParameter& normals, Element nested) {
+    Element map = newObject("bsdf", "normalmap", "", nested.where);
+    addReference(map, "normalmap", normals.texture);
+    addNested(map, "", std::move(nested));
+    return map;
+}
+
+Element scattering(const GltfMaterial& material, const GltfSurface& surface) {
+    Element opaque = reflecting(material, surface);
+    const GltfParameter share = transmittedShare(surface);
+    if (!share.isTextured() && share.value.x == 0) {
+        if (surface.normal) opaque = normalMapOf(*surface.normal, std::move(opaque));
+        return material.doubleSided ? wrapped("twosided", std::move(opaque)) : opaque;
+    }
+    Element passing = material.hasVolume ? border(material, surface) : thinSheet(material, surface);
+    // A sheet is seen from both sides in any case.
+    Element all = !share.isTextured() && share.value.x == 1
+                      ? std::move(passing)
+                      : blendOf(share, wrapped("twosided", std::move(opaque)), std::move(passing), material.where);
+    return surface.normal ? normalMapOf(*surface.normal, std::move(all)) : all;
+}
+
+} // namespace
+
+Element bsdfOf(const GltfMaterial& material, const GltfSurface& surface, const std::string& id) {
+    Element bsdf = scattering(material, surface);
+    if (surface.opacity.isTextured() || surface.opacity.value.x < 1) {
+        Element mask = newObject("bsdf", "mask", "", material.where);
+        addShare(mask, "opacity", surface.opacity);
+        addNested(mask, "", std::move(bsdf));
+        bsdf = std::move(mask);
+    }
+    bsdf.attributes.push_back({"id", id});
+    return bsdf;
+}
+
+std::optional<Element> mediumOf(const GltfMaterial& material, const std::string& id) {
+    if (!material.hasVolume || material.transmission == 0 || !std::isfinite(material.attenuationDistance))
+        return std::nullopt;
+    // Of light the colour is left after the distance; what would be nothing is very little.
+    const glm::dvec3 left = glm::max(material.attenuationColor, glm::dvec3(1e-6));
+    const glm::dvec3 absorbed = -glm::log(left) / material.attenuationDistance;
+    if (absorbed == glm::dvec3(0)) return std::nullopt;
+    Element medium = newObject("medium", "homogeneous", id, material.where);
+    addColor(medium, "sigma_t", glm::max(absorbed, glm::dvec3(0)));
+    addColor(medium, "albedo", glm::dvec3(0));
+    return medium;
+}
+
+} // namespace quasilux

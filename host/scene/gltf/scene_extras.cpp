@@ -1,0 +1,55 @@
+#include "scene/gltf/scene_extras.h"
+
+#include <cmath>
+
+namespace quasilux {
+
+namespace {
+
+std::string numberText(const tinygltf::Value& value, const std::string& name, const SourceLocation& where) {
+    const double number = value.IsNumber() ? value.GetNumberAsDouble() : NAN;
+    if (!std::isfinite(number))
+        throw InputError(where, fmt::format("'{}' is no finite number, text or array of numbers.", name));
+    return fmt::format("{}", number);
+}
+
+std::string textOf(const tinygltf::Value& value, const std::string& name, const SourceLocation& where) {
+    if (value.IsString()) return value.Get<std::string>();
+    if (!value.IsArray()) return numberText(value, name, where);
+    std::string text;
+    for (size_t k = 0; k < value.ArrayLen(); ++k)
+        text += (k > 0 ? "," : "") + numberText(value.Get(static_cast<int>(k)), name, where);
+    return text;
+}
+
+Instruction instructionOf(const std::string& kind, const tinygltf::Value& object, const SourceLocation& where) {
+    Instruction instruction{{}, where, kind};
+    if (!object.IsObject()) throw InputError(where, fmt::format("'{}' is no object.", kind));
+    for (const std::string& name : object.Keys())
+        instruction.entries.push_back({name, textOf(object.Get(name), name, where)});
+    return instruction;
+}
+
+} // namespace
+
+std::vector<Instruction> instructionsOf(const tinygltf::Value& extras, const SourceLocation& where) {
+    if (!extras.Has("quasilux")) return {};
+    const tinygltf::Value& all = extras.Get("quasilux");
+    if (!all.IsObject()) throw InputError(where, "'quasilux' is no object of settings.");
+    std::vector<Instruction> instructions;
+    Instruction settings{{}, where};
+    for (const std::string& name : all.Keys()) {
+        const tinygltf::Value& value = all.Get(name);
+        if (value.IsObject())
+            instructions.push_back(instructionOf(name, value, where));
+        else if (value.IsArray())
+            for (size_t k = 0; k < value.ArrayLen(); ++k)
+                instructions.push_back(instructionOf(name, value.Get(static_cast<int>(k)), where));
+        else
+            settings.entries.push_back({name, textOf(value, name, where)});
+    }
+    if (!settings.entries.empty()) instructions.push_back(settings);
+    return instructions;
+}
+
+} // namespace quasilux

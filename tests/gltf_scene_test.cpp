@@ -1,0 +1,156 @@
+// Lights, cameras, extras and what stands in for missing ones, of glTF files.
+#include "support/gltf_files.h"
+#include "support/scene_files.h"
+
+#include <fmt/format.h>
+#include <numbers>
+
+namespace quasilux {
+namespace {
+
+using nlohmann::json;
+using test::GltfFile;
+using testing::Contains;
+using testing::HasSubstr;
+
+class GltfScene : public testing::Test {
+protected:
+    Scene load(const GltfFile& file, const LoadChoice& choice = {}) const {
+        return loadScene(files.write("scene.glb", file.binary()), {}, choice);
+    }
+    static GltfFile square() {
+        GltfFile file;
+        file.addNode({{"mesh", file.addSquare()}, {"name", "plate"}});
+        return file;
+    }
+    test::SceneFiles files;
+};
+
+TEST_F(GltfScene, PunctualLights) {
+    GltfFile file = square();
+    file.addLight({{"type", "point"}, {"intensity", 5}, {"color", {1, 0.5, 0}}}, {{"translation", {1, 2, 3}}});
+    file.addLight({{"type", "spot"}, {"intensity", 7}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
+                  {{"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}, {"scale", {3, 3, 3}}}); // from -z to -y
+    file.addLight({{"type", "directional"}, {"intensity", 100}});
+    file.addLight({{"type", "point"}, {"intensity", 0}});
+    const Scene scene = load(file);
+    EXPECT_EQ(scene.settings.units, Units::photometric);
+    ASSERT_EQ(scene.pointEmitters.size(), 2u);
+    EXPECT_EQ(scene.pointEmitters[0].position, glm::vec3(1, 2, 3));
+    EXPECT_EQ(scene.pointEmitters[0].intensity.r, 5);
+    EXPECT_EQ(scene.pointEmitters[0].intensity.g, 2.5f);
+    ASSERT_TRUE(scene.pointEmitters[1].spot);
+    EXPECT_LT(glm::length(scene.pointEmitters[1].spot->axis - glm::vec3(0, -1, 0)), 1e-6);
+    EXPECT_NEAR(scene.pointEmitters[1].spot->beamAngle, 0.25, 1e-6);
+    EXPECT_NEAR(scene.pointEmitters[1].spot->cutoffAngle, 0.5, 1e-6);
+    ASSERT_EQ(scene.directionalEmitters.size(), 1u);
+    EXPECT_LT(glm::length(scene.directionalEmitters[0].direction - glm::vec3(0, 0, -1)), 1e-6);
+    EXPECT_EQ(scene.directionalEmitters[0].irradiance.g, 100);
+}
+
+TEST_F(GltfScene, CamerasAreThoseOfXml) {
+    GltfFile file = square();
+    const double yfov = 0.6;
+    file.add("cameras",
+             {{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"aspectRatio", 2}, {"znear", 0.1}}}});
+    file.add("cameras",
+             {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 1.5}, {"znear", 0.1}, {"zfar", 50}}}});
+    // Looks down from above, with -z of the world up in the image.
+    const json node = {{"translation", {0, 4, 0}}, {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}};
+    for (int camera = 0; camera < 2; ++camera) {
+        json placed = node;
+        placed["camera"] = camera;
+        file.addNode(placed);
+    }
+    const Sensor perspective = load(file).sensor, orthographic = load(file, {"1"}).sensor;
+    const auto xml = [](const std::string& type, const std::string& content) {
+        return loadScene(test::SceneFiles().write("scene.xml", "<scene version=\"3.0.0\">" +
+                                                                   std::string(test::minimalLight) +
+                                                                   "<shape type=\"rectangle\"/><sensor type=\"" + type +
+                                                                   "\">" + content + "</sensor></scene>"))
+            .sensor;
+    };
+    const std::string lookat = "<lookat origin=\"0,4,0\" target=\"0,0,0\" up=\"0,0,-1\"/>";
+    const Sensor same = xml("perspective", fmt::format("<transform name=\"to_world\">{}</transform><float name=\"fov\" "
+                                                       "value=\"{}\"/><string name=\"fov_axis\" value=\"y\"/><film "
+                                                       "type=\"hdrfilm\"><integer name=\"width\" value=\"768\"/>"
+                                                       "<integer name=\"height\" value=\"384\"/></film>",
+                                                       lookat, yfov * 180 / std::numbers::pi));
+    EXPECT_NEAR(perspective.fovX, same.fovX, 1e-9);
+    EXPECT_EQ(perspective.width, same.width);
+    EXPECT_EQ(perspective.height, same.height);
+    EXPECT_EQ(perspective.nearClip, 0.1);
+    for (int k = 0; k < 4; ++k) EXPECT_LT(glm::length(perspective.toWorld[k] - same.toWorld[k]), 1e-12) << k;
+    EXPECT_TRUE(orthographic.orthographic);
+    EXPECT_NEAR(glm::length(glm::dvec3(orthographic.toWorld[0])), 3, 1e-12);
+    EXPECT_EQ(orthographic.height, 384u);
+    EXPECT_EQ(orthographic.farClip, 50);
+}
+
+TEST_F(GltfScene, WithoutCameraAndLight) {
+    const Scene scene = load(square());
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("no camera")));
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("no light")));
+    ASSERT_TRUE(scene.surroundings);
+    EXPECT_EQ(scene.surroundings->radiance.g, 1);
+    const glm::dvec3 place(scene.sensor.toWorld[3]), view(scene.sensor.toWorld[2]);
+    EXPECT_GT(place.z, 1);
+    EXPECT_GT(place.y, 0);
+    EXPECT_LT(glm::length(glm::cross(glm::normalize(view), glm::normalize(-place))), 1e-9); // at the middle
+    // All corners are in the picture.
+    const glm::dmat4 toCamera = glm::inverse(scene.sensor.toWorld);
+    for (const glm::vec3& corner : scene.shapes[0].mesh.positions) {
+        const glm::dvec3 seen(toCamera * glm::dvec4(glm::dvec3(corner), 1));
+        EXPECT_LT(std::abs(seen.x / seen.z), std::tan(scene.sensor.fovX / 2));
+        EXPECT_LT(std::abs(seen.y / seen.z), std::tan(scene.sensor.fovX / 2) * 3 / 4);
+    }
+}
+
+TEST_F(GltfScene, LuminairesAndSettingsByExtras) {
+    std::filesystem::copy(QUASILUX_SOURCE_DIR "/tests/data/luminaires", files.path("luminaires"));
+    std::string ies;
+    for (const auto& entry : std::filesystem::directory_iterator(files.path("luminaires")))
+        if (entry.path().extension() == ".ies") ies = "luminaires/" + entry.path().filename().string();
+    ASSERT_FALSE(ies.empty());
+    GltfFile file = square();
+    file.addNode({{"translation", {0, 3, 0}},
+                  {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
+                  {"extras", {{"ies", ies}, {"lumens", 1000}}}});
+    file.json["scenes"][0]["extras"]["quasilux"] = {
+        {"bdd", 1},
+        {"illuminance-grid",
+         {{"origin", {0, 0, 0}}, {"edge-u", {0, 0, 1}}, {"edge-v", {1, 0, 0}}, {"nx", 2}, {"ny", 3}}}};
+    const Scene scene = load(file);
+    ASSERT_EQ(scene.pointEmitters.size(), 1u);
+    ASSERT_TRUE(scene.pointEmitters[0].luminaire);
+    EXPECT_LT(glm::length(scene.pointEmitters[0].luminaire->axes[2] - glm::dvec3(0, -1, 0)), 1e-9);
+    const double lumens = scene.luminaireTypes.at(0).goniogram.lumens() * scene.pointEmitters[0].intensity.g;
+    EXPECT_NEAR(lumens, 1000, 0.01); // candela, as the units are photometric
+    EXPECT_EQ(scene.settings.bdd, 1u);
+    ASSERT_TRUE(scene.grid);
+    EXPECT_EQ(scene.grid->ny, 3u);
+    EXPECT_EQ(scene.sensor.meter, MeterKind::grid); // without a camera
+}
+
+TEST_F(GltfScene, WhatHasNoEffectIsListedOnce) {
+    GltfFile file = square();
+    file.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_lights_punctual"};
+    file.addLight({{"type", "point"}, {"intensity", 1}, {"range", 4}});
+    const int mesh = file.addSquare({{"mode", 1}});
+    file.addNode({{"mesh", mesh}});
+    file.addNode({{"mesh", mesh}});
+    const std::vector<std::string> warnings = load(file).warnings;
+    EXPECT_THAT(warnings, Contains(HasSubstr("not supported and without effect: KHR_materials_sheen, points and lines, "
+                                             "range of lights.")));
+}
+
+TEST_F(GltfScene, FilesBesideIt) {
+    const GltfFile file = square();
+    files.write("a b.bin", file.buffer());
+    const std::string path = files.write("scene.gltf", file.text("a%20b.bin"));
+    EXPECT_EQ(loadScene(path).shapes.size(), 1u);
+    EXPECT_EQ(loadScene(path, {}, {{}, Unknown::refused, LoadLimits{}}).shapes.size(), 1u);
+}
+
+} // namespace
+} // namespace quasilux
