@@ -43,6 +43,9 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0 || lobe.weightCount > 0;
         features.lobeWeights |= lobe.weightCount > 0;
     }
+    for (const auto& weight : materials.weights) features.weightFunctions |= weight.function != WEIGHT_VALUE;
+    for (const auto& material : materials.materials)
+        features.manyLobes |= std::max(material.frontCount, material.backCount) > LOBES_MAX;
     features.relief = !materials.reliefs.empty();
     features.alphaTextures = !materials.roughness.empty();
     features.textures |= features.relief || features.alphaTextures;

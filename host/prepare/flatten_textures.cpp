@@ -21,7 +21,7 @@ std::vector<unsigned> texturesInUse(const Scene& scene, const MaterialTables& ma
     for (const auto& weight : materials.weights) used.push_back(weight.texture);
     for (const auto& relief : materials.reliefs) used.push_back(relief.texture);
     for (const auto& levels : materials.roughness)
-        for (const unsigned number : {levels.textureU, levels.textureV})
+        for (const unsigned number : levels.texture)
             if (number > 0) used.push_back(number - 1);
     for (const auto& emitter : emitters.emitters)
         if (emitter.texture > 0) used.push_back(emitter.texture - 1);

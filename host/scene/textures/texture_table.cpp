@@ -51,46 +51,6 @@ int useTexture(const Element& element, LoadContext& context, TextureUse use = Te
     return index;
 }
 
-bool isGrey(Rgb color) { return color.r == color.g && color.r == color.b; }
-
-bool isGreyBitmap(const TextureDescription& texture) {
-    const auto grey = [](Rgb color) { return isGrey(color); };
-    return std::all_of(texture.texels.begin(), texture.texels.end(), grey);
-}
-
-Rgb greyOf(float value) { return {value, value, value}; }
-Rgb meanOf(Rgb color) { return greyOf((color.r + color.g + color.b) / 3); }
-Rgb luminanceOf(Rgb color) { return greyOf(0.212671f * color.r + 0.715160f * color.g + 0.072169f * color.b); }
-
-/// Index of the texture of numbers that the one of colours at `index` is where numbers are wanted.
-unsigned scalarTexture(unsigned index, LoadContext& context) {
-    std::vector<TextureDescription>& textures = context.scene.textures;
-    const unsigned type = textures[index].device.type;
-    if (type == TEXTURE_BITMAP && isGreyBitmap(textures[index])) return index;
-    const auto known = context.scalarTextureIndex.find(static_cast<int>(index));
-    if (known != context.scalarTextureIndex.end()) return known->second;
-    TextureDescription grey = textures[index];
-    grey.isNumber = true;
-    if (type == TEXTURE_CHECKERBOARD) {
-        // Mitsuba 3.9 has the squares the other way round where it asks a checkerboard for numbers.
-        std::swap(grey.device.color0, grey.device.color1);
-        std::swap(grey.device.texture0, grey.device.texture1);
-        grey.device.color0 = meanOf(grey.device.color0);
-        grey.device.color1 = meanOf(grey.device.color1);
-        for (unsigned* number : {&grey.device.texture0, &grey.device.texture1})
-            if (*number > 0) *number = scalarTexture(*number - 1, context) + 1;
-    }
-    if (grey.volume && grey.volume->device.channels != 1)
-        grey.volume = std::make_shared<const VolumeDescription>(meanOfChannels(*grey.volume));
-    std::vector<Rgb> luminances(grey.texels.size());
-    std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
-    grey.texels = std::move(luminances);
-    textures.push_back(std::move(grey));
-    const auto copy = static_cast<unsigned>(textures.size() - 1);
-    context.scalarTextureIndex.emplace(static_cast<int>(index), copy);
-    return copy;
-}
-
 } // namespace
 
 Names texturePluginNames() { return namesOf(texturePlugins, constantTextureNames()); }
@@ -143,15 +103,6 @@ EmissionColor readEmission(Properties& properties, const std::string& name, Rgb 
 
 unsigned useColorTexture(const Element& element, LoadContext& context) {
     return static_cast<unsigned>(useTexture(element, context));
-}
-
-unsigned useScalarTexture(const Element& element, LoadContext& context) {
-    return scalarTexture(static_cast<unsigned>(useTexture(element, context)), context);
-}
-
-Scalar readShare(Properties& properties, const std::string& name, float missing) {
-    if (const Element* texture = properties.texture(name)) return {0, useScalarTexture(*texture, properties.context())};
-    return {static_cast<float>(properties.share(name, missing)), std::nullopt};
 }
 
 } // namespace quasilux
