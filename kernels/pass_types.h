@@ -251,7 +251,12 @@ typedef struct {
     float aheadWeight;               /* and this factor makes up for it */
 } FilmCut;
 
-#define LOBES_MAX 8u /* lobes on one side of a surface; the host refuses more */
+#define LOBES_MOST 16u /* lobes on one side of a surface; the host refuses more */
+#ifdef HAS_MANY_LOBES
+#define LOBES_MAX LOBES_MOST /* on one side of the scene's surfaces */
+#else
+#define LOBES_MAX 8u
+#endif
 
 /* Hard limit on the events of a path; roulette ends practically all of them long before. Paths cut are counted. */
 #define PATH_EVENTS_MAX 100000u

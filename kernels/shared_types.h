@@ -109,10 +109,18 @@ typedef struct {
     unsigned int firstWeight, weightCount;                 /* LobeWeight records, which multiply all of it */
 } Lobe;
 
-/* Share of a lobe in a blend or under a mask, by texture. */
+/* A factor on a lobe by texture, such as its share in a blend or under a mask: a function of x = offset + factor times the texture. */
+#define WEIGHT_VALUE 0u      /* x */
+#define WEIGHT_RECIPROCAL 1u /* 1 / x */
+#define WEIGHT_ROOT 2u       /* its root */
+#define WEIGHT_TINT 3u       /* x over its luminance; white where x is black */
+#define WEIGHS_REFLECTED 1u  /* parts of the lobe */
+#define WEIGHS_TRANSMITTED 2u
 typedef struct {
-    unsigned int texture;    /* index of a Texture whose channels are equal */
-    unsigned int complement; /* 1: the share is 1 less its value */
+    unsigned int texture;  /* index of a Texture */
+    unsigned int function; /* WEIGHT_* */
+    unsigned int parts;    /* WEIGHS_*, one or both */
+    float offset, factor;
 } LobeWeight;
 
 #define MATERIAL_NULL 1u
@@ -125,13 +133,16 @@ typedef struct {
     unsigned int frontRoughness, backRoughness; /* 1 + index of the RoughnessLevels of the side's lobes; 0: none */
 } Material;
 
-/* Microfacet roughness alpha by texture. The lobes of the side are there once for each level (those of v follow each other); of levels
- * that lie evenly in the fourth root of alpha, the nearest one is taken. */
+/* Microfacet roughness, and other numbers that lobes are not linear in, by up to three textures. The lobes of the side are there once for each
+ * combination of levels (those of the last texture follow each other); of levels that lie evenly in the fourth root of x = offset +
+ * factor times the texture, the nearest one is taken. */
+#define ROUGHNESS_TEXTURES 3
 typedef struct {
-    unsigned int textureU, textureV; /* 1 + index of a Texture whose channels are equal; 0: none, one level */
-    unsigned int levelsU, levelsV;
-    float leastU, leastV; /* fourth root of alpha at the first level */
-    float levelsPerUnitU, levelsPerUnitV;
+    unsigned int texture[3]; /* 1 + index of a Texture whose channels are equal; 0: none, one level */
+    unsigned int levels[3];
+    float offset[3], factor[3];
+    float least[3]; /* fourth root of x at the first level */
+    float levelsPerUnit[3];
 } RoughnessLevels;
 
 #define RELIEF_NORMALS 0u  /* the texture holds normals: 2 rgb - 1, in the frame of dp/du */

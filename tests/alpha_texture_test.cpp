@@ -1,4 +1,5 @@
-// Roughness by texture: the levels that lobes are made for, and images whose halves are those of constant roughness. Differences of
+// Roughness and the parameters of `principled` by texture: the levels that lobes are made for, what weighs them, and images whose halves
+// are those of constants. Differences of
 // means are held to 4 standard errors of 10 batches (Student t: 0.3 % each) plus 0.5 %. Seeds are fixed.
 #include "prepare/device_scene.h"
 #include "support/render_statistics.h"
@@ -6,6 +7,7 @@
 #include "support/textured_emitters.h"
 
 #include <cmath>
+#include <functional>
 #include <gmock/gmock.h>
 
 namespace quasilux {
@@ -42,40 +44,12 @@ std::pair<float, float> alphasAt(const DeviceScene& scene, double u, double v) {
         return std::min(unsigned(std::max((std::pow(alpha, 0.25) - double(least)) * double(perUnit) + 0.5, 0.0)),
                         count - 1);
     };
-    const unsigned k = level(u, levels.leastU, levels.levelsPerUnitU, levels.levelsU) * levels.levelsV +
-                       (levels.textureV > 0 ? level(v, levels.leastV, levels.levelsPerUnitV, levels.levelsV) : 0);
+    const auto axis = [&](double alpha, size_t i) {
+        return level(alpha, levels.least[i], levels.levelsPerUnit[i], levels.levels[i]);
+    };
+    const unsigned k = axis(u, 0) * levels.levels[1] + (levels.texture[1] > 0 ? axis(v, 1) : 0);
     const auto& lobe = tableAt<shared::Lobe>(scene, scene.offsets.lobes)[material.frontFirst + k];
     return {lobe.alphaU, lobe.alphaV};
-}
-
-TEST(AlphaTexture, OfPrincipledIsItsRoughnessSquared) {
-    const auto principled = [](const std::string& plugin, const std::string& content) {
-        return withBsdf("<bsdf type=\"" + plugin + "\">" + content + "</bsdf>");
-    };
-    const std::string squares = "<texture type=\"checkerboard\" name=\"roughness\"><float name=\"color0\" "
-                                "value=\"0.6\"/><float name=\"color1\" value=\"0.01\"/></texture>";
-    const auto alphas = [](const Scene& scene, bool alongU) {
-        for (const LobeDescription& lobe : scene.bsdfs.at(0).front)
-            if (lobe.name == "specular") {
-                const auto& device =
-                    scene.textures.at((alongU ? lobe.alphaTextureU : lobe.alphaTextureV).value()).device;
-                return std::pair(std::min(device.color0.r, device.color1.r),
-                                 std::max(device.color0.r, device.color1.r));
-            }
-        return std::pair(0.f, 0.f);
-    };
-    const Scene round = principled("principled", squares);
-    EXPECT_EQ(alphas(round, true), std::pair(0.001f, 0.6f * 0.6f)); // the least that it has
-    EXPECT_EQ(alphas(round, true), alphas(round, false));
-    EXPECT_TRUE(flattened(round).features.alphaTextures);
-    const Scene along = principled("principled", squares + "<float name=\"anisotropic\" value=\"0.5\"/>");
-    const double aspect = std::sqrt(1 - 0.9 * 0.5);
-    EXPECT_NEAR(alphas(along, true).second, 0.36 / aspect, 1e-6);
-    EXPECT_NEAR(alphas(along, false).second, 0.36 * aspect, 1e-6);
-    EXPECT_THROW(principled("principledthin", squares), InputError);
-    EXPECT_THROW(principled("principled", "<texture type=\"mesh_attribute\" name=\"roughness\"><string name=\"name\" "
-                                          "value=\"vertex_a\"/></texture>"),
-                 InputError);
 }
 
 TEST(AlphaTexture, HasALobeNearEachValue) {
@@ -98,8 +72,8 @@ TEST(AlphaTexture, HasALobeNearEachValue) {
         }
     const DeviceScene alongV = flattened(withBsdf(
         "<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.3\"/>" + rampAs("alpha_v") + "</bsdf>"));
-    EXPECT_FLOAT_EQ(alphasAt(alongV, 0, 0.1).first, 0.3f);
-    EXPECT_NEAR(alphasAt(alongV, 0, 0.1).second, 0.1, 0.0006);
+    EXPECT_FLOAT_EQ(alphasAt(alongV, 0.1, 0).first, 0.3f);
+    EXPECT_NEAR(alphasAt(alongV, 0.1, 0).second, 0.1, 0.0006);
 }
 
 TEST(AlphaTexture, IsOnBothSidesOfADielectricAndInBlends) {
@@ -142,13 +116,16 @@ TEST(AlphaTexture, SaysWhatIsWrong) {
         messageOf("<bsdf type=\"roughconductor\"><float name=\"alpha_u\" value=\"0.1\"/>" + checkers + "</bsdf>"),
         HasSubstr("either alpha, or both alpha_u and alpha_v"));
     const std::string rough = "<bsdf type=\"roughconductor\">" + checkers + "</bsdf>";
-    EXPECT_THAT(
-        messageOf("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.5\"/>" + rough + rough + "</bsdf>"),
-        HasSubstr("scene.xml:5:1: the roughness of this bsdf's parts goes by different textures"));
+    const auto blended = [](const std::string& first, const std::string& second) {
+        return "<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.5\"/>" + first + second + "</bsdf>";
+    };
+    EXPECT_EQ(messageOf(blended(rough, rough)), "loaded");
+    EXPECT_THAT(messageOf(blended(blended(rough, rough), blended(rough, rough))),
+                HasSubstr("scene.xml:5:1: the roughness of this bsdf's parts goes by 4 different textures"));
 }
 
-/// A metal floor with this alpha under a lamp, from where the lamp is mirrored.
-Scene metalFloor(const std::string& alpha) {
+/// A floor of this bsdf under a lamp, from where the lamp is mirrored.
+Scene floorUnderLamp(const std::string& bsdf) {
     test::SceneFiles files;
     writeFloats(files.path("halves.exr"), 2, 1, {0.06f, 0.06f, 0.06f, 0.35f, 0.35f, 0.35f});
     return loadScene(files.write(
@@ -156,27 +133,35 @@ Scene metalFloor(const std::string& alpha) {
         R"(<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><float name="fov" value="30"/><transform name="to_world">
         <lookat origin="0,-3,2" target="0,0,0" up="0,0,1"/></transform><film type="hdrfilm"><rfilter type="box"/>
         <integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="rectangle"><transform name="to_world">
-        <scale value="2"/></transform><bsdf type="roughconductor"><string name="distribution" value="ggx"/>)" +
-            alpha + R"(</bsdf></shape>
+        <scale value="2"/></transform>)" +
+            bsdf + R"(</shape>
         <shape type="rectangle"><transform name="to_world"><scale x="1" y="0.4"/><rotate x="1" angle="120"/><translate y="3" z="2"/></transform>
         <emitter type="area"/></shape></scene>)"));
 }
 
 /// Left and right half of the image, without a margin between.
-std::vector<MeanAndError> halves(const std::string& alpha) {
+std::vector<MeanAndError> halves(const std::string& bsdf) {
     std::vector<int> group(256, -1);
     for (int k = 0; k < 256; ++k)
         if (k % 16 < 6 || k % 16 >= 10) group[size_t(k)] = k % 16 < 8 ? 0 : 1;
     RenderSettings settings;
     settings.photonsPerPass = 8000;
-    return renderGroups(metalFloor(alpha), settings, group, 10, 3);
+    return renderGroups(floorUnderLamp(bsdf), settings, group, 10, 3);
 }
 
-TEST(AlphaTexture, HalvesOfAnImageAreThoseOfConstantAlphas) {
-    const std::string texture =
-        R"(<texture type="bitmap" name="alpha"><string name="filename" value="halves.exr"/><string name="filter_type" value="nearest"/></texture>)";
-    const auto both = halves(texture), left = halves(R"(<float name="alpha" value="0.06"/>)"),
-               right = halves(R"(<float name="alpha" value="0.35"/>)");
+/// A parameter, by the texture of halves or as a number.
+std::string byHalves(const std::string& name) {
+    return "<texture type=\"bitmap\" name=\"" + name +
+           R"("><string name="filename" value="halves.exr"/><string name="filter_type" value="nearest"/></texture>)";
+}
+std::string number(const std::string& name, double value) {
+    return "<float name=\"" + name + "\" value=\"" + std::to_string(value) + "\"/>";
+}
+
+/// `bsdf` is given each parameter by name.
+void expectHalvesOfConstants(const std::function<std::string(std::function<std::string(const std::string&)>)>& bsdf) {
+    const auto constant = [](double value) { return [value](const std::string& name) { return number(name, value); }; };
+    const auto both = halves(bsdf(byHalves)), left = halves(bsdf(constant(0.06))), right = halves(bsdf(constant(0.35)));
     const auto differ = [](const MeanAndError& a, const MeanAndError& b) {
         return std::abs(a.mean - b.mean) > 4 * std::hypot(a.standardError, b.standardError) + 0.005 * b.mean;
     };
@@ -184,6 +169,51 @@ TEST(AlphaTexture, HalvesOfAnImageAreThoseOfConstantAlphas) {
     EXPECT_FALSE(differ(both[1], right[1])) << both[1].mean << " " << right[1].mean;
     EXPECT_TRUE(differ(both[0], right[0])) << "negative control";
     EXPECT_TRUE(differ(both[1], left[1])) << "negative control";
+}
+
+TEST(AlphaTexture, HalvesOfAnImageAreThoseOfConstantAlphas) {
+    expectHalvesOfConstants([](const auto& parameter) {
+        return R"(<bsdf type="roughconductor"><string name="distribution" value="ggx"/>)" + parameter("alpha") +
+               "</bsdf>";
+    });
+}
+
+TEST(PrincipledTextures, HalvesOfAnImageAreThoseOfConstants) {
+    expectHalvesOfConstants([](const auto& parameter) {
+        return R"(<bsdf type="principled"><rgb name="base_color" value="0.8,0.4,0.1"/>)" + parameter("metallic") +
+               parameter("spec_tint") + parameter("sheen") + parameter("flatness") + parameter("clearcoat") +
+               number("sheen_tint", 0.5) + number("roughness", 0.4) + "</bsdf>";
+    });
+    expectHalvesOfConstants([](const auto& parameter) {
+        return R"(<bsdf type="principled">)" + parameter("base_color") + number("metallic", 0.8) +
+               parameter("roughness") + parameter("anisotropic") + number("clearcoat", 1) +
+               parameter("clearcoat_gloss") + "</bsdf>";
+    });
+    expectHalvesOfConstants([](const auto& parameter) {
+        return R"(<bsdf type="principledthin"><rgb name="base_color" value="0.8,0.4,0.1"/>)" + parameter("spec_trans") +
+               parameter("diff_trans") + parameter("spec_tint") + parameter("sheen") + number("roughness", 0.5) +
+               "</bsdf>";
+    });
+}
+
+TEST(PrincipledTextures, LobesAreWeighedByTheirParts) {
+    const Scene scene = withBsdf("<bsdf type=\"principled\">" + rampAs("base_color") + rampAs("metallic") +
+                                 rampAs("spec_trans") + "</bsdf>");
+    const Bsdf& bsdf = scene.bsdfs.at(0);
+    ASSERT_EQ(bsdf.front.size(), 4u);
+    const auto& diffuse = bsdf.front[0].weights;
+    ASSERT_EQ(diffuse.size(), 2u);
+    for (const auto& weight : diffuse) EXPECT_EQ(weight.factor, -1) << "1 less metallic, and spec_trans";
+    EXPECT_EQ(bsdf.front[1].device.type, unsigned(LOBE_GGXDIELECTRIC));
+    const auto& border = bsdf.front[1].weights;
+    ASSERT_EQ(border.size(), 4u);
+    EXPECT_EQ(border[0].parts, WEIGHS_REFLECTED);
+    for (size_t k = 1; k < 4; ++k) EXPECT_EQ(border[k].parts, WEIGHS_TRANSMITTED);
+    EXPECT_EQ(border[3].function, WEIGHT_ROOT);
+    EXPECT_EQ(bsdf.front[2].device.reflectanceTexture, bsdf.front[0].device.reflectanceTexture) << "metal";
+    EXPECT_EQ(bsdf.front[3].device.reflectanceTexture, 0u) << "metal at grazing incidence is white";
+    ASSERT_EQ(bsdf.back.size(), 1u);
+    EXPECT_EQ(bsdf.back[0].weights.size(), 3u);
 }
 
 } // namespace

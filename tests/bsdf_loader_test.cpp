@@ -215,14 +215,15 @@ TEST(MaskBsdf, TextureOfNumbersWeighsEveryLobe) {
     ASSERT_EQ(bsdf.front.size(), 3u);
     const auto& passage = bsdf.front[0].weights;
     ASSERT_EQ(passage.size(), 1u);
-    EXPECT_EQ(passage[0].complement, 1u);
+    EXPECT_EQ(passage[0].offset, 1);
+    EXPECT_EQ(passage[0].factor, -1);
     // The mean of the channels; squares of numbers change places, as in Mitsuba 3.9.
     expectRgb(scene.textures.at(passage[0].texture).device.color1, 0.4f, 0.4f, 0.4f);
     expectRgb(scene.textures.at(passage[0].texture).device.color0, 0.2f, 0.2f, 0.2f);
     ASSERT_EQ(bsdf.front[1].weights.size(), 2u);
-    EXPECT_EQ(bsdf.front[1].weights[0].complement, 1u); // of the blend: the first is what is left
-    EXPECT_EQ(bsdf.front[2].weights[0].complement, 0u);
-    EXPECT_EQ(bsdf.front[2].weights[1].complement, 0u); // of the mask
+    EXPECT_EQ(bsdf.front[1].weights[0].factor, -1); // of the blend: the first is what is left
+    EXPECT_EQ(bsdf.front[2].weights[0].factor, 1);
+    EXPECT_EQ(bsdf.front[2].weights[1].factor, 1); // of the mask
     EXPECT_TRUE(bsdf.isTextured());
 }
 

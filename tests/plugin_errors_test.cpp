@@ -89,10 +89,6 @@ const BadBody badPlugins[] = {
      "<bsdf type=\"roughplastic\">\n<float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" "
      "value=\"0.2\"/></bsdf>",
      {"scene.xml:5:1: roughplastic: alpha_u and alpha_v differ"}},
-    {"RoughPlasticNonlinear",
-     "<bsdf type=\"roughplastic\"><texture type=\"checkerboard\" name=\"diffuse_reflectance\"/>\n<boolean "
-     "name=\"nonlinear\" value=\"true\"/></bsdf>",
-     {"scene.xml:5:1: roughplastic: the colour shift of nonlinear needs one colour"}},
     {"PrincipledRange",
      "<bsdf type=\"principled\">\n<float name=\"metallic\" value=\"1.5\"/></bsdf>",
      {"scene.xml:5:1: parameter 'metallic' of bsdf 'principled' is 1.5; it must lie within [0, 1]"}},
@@ -100,9 +96,8 @@ const BadBody badPlugins[] = {
      "<bsdf type=\"principled\"><float name=\"eta\" value=\"1.4\"/>\n<float name=\"specular\" value=\"0.5\"/></bsdf>",
      {"scene.xml:5:1: principled has both eta and specular"}},
     {"PrincipledTexture",
-     "<bsdf type=\"principled\"><texture type=\"checkerboard\" name=\"base_color\"/>\n<float name=\"spec_trans\" "
-     "value=\"0.5\"/></bsdf>",
-     {"scene.xml:5:1: principled: spec_trans needs one colour, and base_color is a texture"}},
+     "<bsdf type=\"principled\">\n<texture type=\"checkerboard\" name=\"eta\"/></bsdf>",
+     {"scene.xml:5:1: bsdf 'principled' takes no texture as 'eta'", "anisotropic, base_color, clearcoat"}},
     {"PrincipledVacuum",
      "<bsdf type=\"principled\"><float name=\"eta\" value=\"1\"/>\n<float name=\"spec_trans\" value=\"0.5\"/></bsdf>",
      {"scene.xml:5:1: principled: light that is transmitted needs an index"}},

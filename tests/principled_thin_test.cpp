@@ -177,13 +177,13 @@ TEST(PrincipledThin, IsTheSumOfItsLobesOnBothSides) {
 
 TEST(PrincipledThin, SaysWhatIsWrong) {
     test::SceneFiles files;
-    const std::string texture = "<texture type=\"checkerboard\" name=\"base_color\"/>\n";
     const std::pair<std::string, const char*> bad[] = {
         {"\n<float name=\"diff_trans\" value=\"2.5\"/>", "scene.xml:5:1: parameter 'diff_trans' is 2.5; expected 0"},
         {"\n<float name=\"eta\" value=\"0.9\"/>", "scene.xml:5:1: parameter 'eta' is 0.9"},
         {"\n<float name=\"metallic\" value=\"0.9\"/>",
          "scene.xml:5:1: unknown parameter 'metallic' of bsdf 'principledthin'"},
-        {texture + number("sheen", 1) + number("sheen_tint", 1), "principledthin: sheen_tint needs one colour"}};
+        {"\n<texture type=\"checkerboard\" name=\"eta\"/>",
+         "scene.xml:5:1: bsdf 'principledthin' takes no texture as 'eta'"}};
     for (const auto& [parameters, message] : bad)
         EXPECT_THAT(test::errorOf(files.write(
                         "scene.xml", test::sceneWith("<shape type=\"rectangle\"><bsdf type=\"principledthin\">" +

@@ -43,6 +43,9 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0 || lobe.weightCount > 0;
         features.lobeWeights |= lobe.weightCount > 0;
     }
+    for (const auto& weight : materials.weights) features.weightFunctions |= weight.function != WEIGHT_VALUE;
+    for (const auto& material : materials.materials)
+        features.manyLobes |= std::max(material.frontCount, material.backCount) > LOBES_MAX;
     features.relief = !materials.reliefs.empty();
     features.alphaTextures = !materials.roughness.empty();
     features.textures |= features.relief || features.alphaTextures;
@@ -87,6 +90,19 @@ std::vector<float> patchRadii(const SurfaceBorders& borders) {
         radii.push_back(curvature > 0 ? 0.5f / curvature : INFINITY);
     }
     return radii;
+}
+
+// What is learned follows the scene's tables: room for it, so that these are not moved for it.
+constexpr size_t wordsToSpare = 1 << 22;
+
+// Last and without a copy of their own: large textures are most of a scene.
+unsigned appendTexels(const std::vector<Texels>& images, SceneTableWriter& tables) {
+    size_t texels = 0;
+    for (const Texels& image : images) texels += image.size();
+    tables.reserve(texels * sizeof(Rgb) / sizeof(uint32_t) + wordsToSpare);
+    const unsigned first = tables.append(std::vector<Rgb>{});
+    for (const std::vector<Rgb>& image : images) tables.append(image);
+    return first;
 }
 
 void appendBorders(const SurfaceBorders& borders, SceneTableWriter& tables, shared::SceneTables& offsets) {
@@ -155,7 +171,7 @@ void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     scene.offsets.learned.lightBlockSize = learned.lightBlockSize;
     scene.offsets.learned.lightBlockColumns =
         (scene.camera.width + learned.lightBlockSize - 1) / learned.lightBlockSize;
-    scene.tables = tables.words();
+    scene.tables = std::move(tables).take();
     setDirectByPhotons(scene, learned.directByPhotons);
     scene.isGuided = learned.guide.isGuided;
     scene.typicalFlux = learned.guide.typicalFlux;
@@ -188,7 +204,6 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.lobes = tables.append(materials.lobes);
     const auto textures = flattenTextures(scene, materials, out.emitters);
     out.offsets.textures = tables.append(textures.textures);
-    out.offsets.texels = tables.append(textures.texels);
     out.offsets.uvs = tables.append(flattenUvs(scene));
     out.offsets.attributes = tables.append(textures.attributes);
     out.features.nestedTextures = textures.areNested;
@@ -213,7 +228,8 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.meter.primitives = meter.grids.empty() ? tables.append(meter.primitives) : tables.append(meter.grids);
     const unsigned filterSteps = tables.append(filterTable(scene.sensor));
     appendBorders(borders, tables, out.offsets);
-    out.tables = tables.words();
+    out.offsets.texels = appendTexels(textures.images, tables);
+    out.tables = std::move(tables).take();
     out.sceneWords = out.tables.size();
     out.camera = flattenCamera(scene.sensor, placement.camera);
     out.camera.filterSteps = filterSteps;

@@ -84,7 +84,7 @@ struct MaterialTables {
 MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecision>& split);
 struct TextureTables {
     std::vector<shared::Texture> textures;
-    std::vector<Rgb> texels;
+    std::vector<Texels> images;       ///< whose texels follow each other; shared with the scene, as they may be large
     std::vector<uint32_t> attributes; ///< and volumes, as shared::Texture has them
     bool areNested = false;           ///< some are within others
     bool haveAttributes = false, haveVolumes = false;

@@ -39,6 +39,8 @@ constexpr std::array flags = {
     Flag{&Features::nestedTextures, "HAS_NESTED_TEXTURES", "textures within textures"},
     Flag{&Features::meshAttributes, "HAS_MESH_ATTRIBUTES", "attributes of meshes"},
     Flag{&Features::lobeWeights, "HAS_LOBE_WEIGHTS", "blends by texture"},
+    Flag{&Features::weightFunctions, "HAS_WEIGHT_FUNCTIONS", "functions of textures"},
+    Flag{&Features::manyLobes, "HAS_MANY_LOBES", "materials of many lobes"},
     Flag{&Features::textureVolumes, "HAS_TEXTURE_VOLUMES", "textures by place"},
     Flag{&Features::alphaTextures, "HAS_ALPHA_TEXTURES", "roughness by texture"},
     Flag{&Features::relief, "HAS_RELIEF", "normal and bump maps"},

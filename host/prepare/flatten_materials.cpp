@@ -10,9 +10,9 @@ namespace {
 
 unsigned appendSide(const Bsdf& bsdf, const std::vector<LobeDescription>& side,
                     const std::vector<LobeDecision>& decisions, MaterialTables& tables) {
-    if (side.size() > LOBES_MAX)
+    if (side.size() > LOBES_MOST)
         throw InputError(bsdf.where, fmt::format("this bsdf has {} lobes on one side, expected at most {}: blend fewer",
-                                                 side.size(), LOBES_MAX));
+                                                 side.size(), LOBES_MOST));
     for (size_t k = 0; k < side.size(); ++k) {
         shared::Lobe lobe = side[k].device;
         lobe.scattering = decisions[k].scattering;
@@ -31,10 +31,9 @@ unsigned appendRoughness(const Scene& scene, const Bsdf& bsdf, const std::vector
     if (!levels) return 0;
     const std::vector<shared::Lobe> plain(tables.lobes.begin() + first, tables.lobes.end());
     tables.lobes.resize(first);
-    for (unsigned k = 0; k < levels->levelsU * levels->levelsV; ++k)
-        for (size_t i = 0; i < side.size(); ++i)
-            tables.lobes.push_back(lobeAtLevel(plain[i], side[i], *levels, k / levels->levelsV, k % levels->levelsV));
-    tables.roughness.push_back(*levels);
+    for (unsigned k = 0; k < levels->count(); ++k)
+        for (size_t i = 0; i < side.size(); ++i) tables.lobes.push_back(levels->lobeAt(k, plain[i], side[i]));
+    tables.roughness.push_back(levels->device);
     return static_cast<unsigned>(tables.roughness.size());
 }
 

@@ -21,7 +21,7 @@ std::vector<unsigned> texturesInUse(const Scene& scene, const MaterialTables& ma
     for (const auto& weight : materials.weights) used.push_back(weight.texture);
     for (const auto& relief : materials.reliefs) used.push_back(relief.texture);
     for (const auto& levels : materials.roughness)
-        for (const unsigned number : {levels.textureU, levels.textureV})
+        for (const unsigned number : levels.texture)
             if (number > 0) used.push_back(number - 1);
     for (const auto& emitter : emitters.emitters)
         if (emitter.texture > 0) used.push_back(emitter.texture - 1);
@@ -82,6 +82,7 @@ TextureTables flattenTextures(const Scene& scene, const MaterialTables& material
     TextureTables tables;
     for (const TextureDescription& texture : scene.textures) tables.textures.push_back(texture.device);
     std::map<const void*, unsigned> placed; // images that several textures share, by Texels::identity
+    size_t texelCount = 0;
     std::map<const VolumeDescription*, unsigned> volumes;
     for (const unsigned k : texturesInUse(scene, materials, emitters)) {
         shared::Texture& record = tables.textures[k];
@@ -99,9 +100,11 @@ TextureTables flattenTextures(const Scene& scene, const MaterialTables& material
             tables.haveVolumes = true;
             continue;
         }
-        const auto [image, isNew] = placed.emplace(texels.identity(), static_cast<unsigned>(tables.texels.size()));
+        const auto [image, isNew] = placed.emplace(texels.identity(), static_cast<unsigned>(texelCount));
         record.firstTexel = image->second;
-        if (isNew) tables.texels.insert(tables.texels.end(), texels.begin(), texels.end());
+        if (!isNew) continue;
+        tables.images.push_back(texels);
+        texelCount += texels.size();
     }
     return tables;
 }

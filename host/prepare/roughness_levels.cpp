@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
 
-// Alpha is within 0.6 % of what the texture says above 0.01, and 2 % above 0.0001; by textures of their own along u and v, four times that.
-constexpr unsigned mostLevels = 1024, mostLevelsOfTwo = 256;
+// Of one texture alpha is within 0.6 % of what it says above 0.01, and 2 % above 0.0001; of two within four times that, of three within 25 times.
+constexpr unsigned mostLevels[ROUGHNESS_TEXTURES] = {1024, 256, 40};
 // As in Mitsuba.
 constexpr double leastAlpha = 1e-4;
 
@@ -43,56 +44,57 @@ void addValues(const Scene& scene, unsigned index, Range& range) {
 
 double rootOf(double alpha) { return std::pow(std::max(alpha, leastAlpha), 0.25); }
 
-/// Levels of one axis.
-void setLevels(const Scene& scene, unsigned texture, unsigned most, unsigned& number, unsigned& levels, float& least,
-               float& perUnit) {
+/// Levels of one of `textures` textures.
+void setLevels(const Scene& scene, const LevelTexture& level, size_t k, size_t textures,
+               shared::RoughnessLevels& levels) {
     Range range;
-    addValues(scene, texture, range);
-    const double lower = rootOf(range.least), upper = rootOf(range.most);
-    number = texture + 1;
-    levels = upper > lower ? most : 1;
-    least = static_cast<float>(lower);
-    perUnit = upper > lower ? static_cast<float>((levels - 1) / (upper - lower)) : 0;
+    addValues(scene, level.texture, range);
+    const double ends[] = {level.offset + level.factor * range.least, level.offset + level.factor * range.most};
+    const double lower = rootOf(std::min(ends[0], ends[1])), upper = rootOf(std::max(ends[0], ends[1]));
+    levels.texture[k] = level.texture + 1;
+    levels.offset[k] = static_cast<float>(level.offset);
+    levels.factor[k] = static_cast<float>(level.factor);
+    levels.levels[k] = upper > lower ? mostLevels[textures - 1] : 1;
+    levels.least[k] = static_cast<float>(lower);
+    levels.levelsPerUnit[k] = upper > lower ? static_cast<float>((levels.levels[k] - 1) / (upper - lower)) : 0;
 }
 
-float alphaAt(float least, float perUnit, unsigned level) {
-    return static_cast<float>(std::pow(double(least) + (perUnit > 0 ? level / double(perUnit) : 0), 4));
+double valueAt(const shared::RoughnessLevels& levels, size_t k, unsigned level) {
+    const double perUnit = levels.levelsPerUnit[k];
+    return std::pow(double(levels.least[k]) + (perUnit > 0 ? level / perUnit : 0), 4);
 }
 
 } // namespace
 
-std::optional<shared::RoughnessLevels> roughnessLevels(const Scene& scene, const Bsdf& bsdf,
-                                                       const std::vector<LobeDescription>& side) {
-    const LobeDescription* first = nullptr;
-    for (const LobeDescription& lobe : side) {
-        if (!lobe.alphaTextureU && !lobe.alphaTextureV) continue;
-        if (first && (first->alphaTextureU != lobe.alphaTextureU || first->alphaTextureV != lobe.alphaTextureV))
-            throw InputError(bsdf.where,
-                             "the roughness of this bsdf's parts goes by different textures; use one for all of them.");
-        first = &lobe;
-    }
-    if (!first) return std::nullopt;
-    shared::RoughnessLevels levels{};
-    levels.levelsU = levels.levelsV = 1;
-    const bool areTwo = first->alphaTextureU && first->alphaTextureV && first->alphaTextureU != first->alphaTextureV;
-    const unsigned most = areTwo ? mostLevelsOfTwo : mostLevels;
-    if (first->alphaTextureU)
-        setLevels(scene, *first->alphaTextureU, most, levels.textureU, levels.levelsU, levels.leastU,
-                  levels.levelsPerUnitU);
-    if (first->alphaTextureV && first->alphaTextureV != first->alphaTextureU)
-        setLevels(scene, *first->alphaTextureV, most, levels.textureV, levels.levelsV, levels.leastV,
-                  levels.levelsPerUnitV);
+std::optional<SideLevels> roughnessLevels(const Scene& scene, const Bsdf& bsdf,
+                                          const std::vector<LobeDescription>& side) {
+    SideLevels levels;
+    for (const LobeDescription& lobe : side)
+        for (const LevelTexture& level : lobe.levelTextures)
+            if (std::find(levels.textures.begin(), levels.textures.end(), level) == levels.textures.end())
+                levels.textures.push_back(level);
+    const size_t count = levels.textures.size();
+    if (count == 0) return std::nullopt;
+    if (count > ROUGHNESS_TEXTURES)
+        throw InputError(bsdf.where,
+                         fmt::format("the roughness of this bsdf's parts goes by {} different textures (alpha, or "
+                                     "roughness, anisotropic and clearcoat_gloss); expected at most {}: use the same "
+                                     "ones for several parts.",
+                                     count, ROUGHNESS_TEXTURES));
+    std::fill(std::begin(levels.device.levels), std::end(levels.device.levels), 1u);
+    for (size_t k = 0; k < count; ++k) setLevels(scene, levels.textures[k], k, count, levels.device);
     return levels;
 }
 
-shared::Lobe lobeAtLevel(shared::Lobe lobe, const LobeDescription& description, const shared::RoughnessLevels& levels,
-                         unsigned levelU, unsigned levelV) {
-    const float u = alphaAt(levels.leastU, levels.levelsPerUnitU, levelU);
-    if (description.alphaTextureU) lobe.alphaU = u;
-    if (description.alphaTextureV)
-        lobe.alphaV = description.alphaTextureV == description.alphaTextureU
-                          ? u
-                          : alphaAt(levels.leastV, levels.levelsPerUnitV, levelV);
+shared::Lobe SideLevels::lobeAt(unsigned combination, shared::Lobe lobe, const LobeDescription& description) const {
+    if (description.levelTextures.empty()) return lobe;
+    double values[ROUGHNESS_TEXTURES] = {};
+    for (size_t k = ROUGHNESS_TEXTURES; k-- > 0; combination /= device.levels[k])
+        values[k] = valueAt(device, k, combination % device.levels[k]);
+    std::vector<double> ofLobe;
+    for (const LevelTexture& level : description.levelTextures)
+        ofLobe.push_back(values[std::find(textures.begin(), textures.end(), level) - textures.begin()]);
+    description.setLevel(lobe, ofLobe);
     return lobe;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quasilux {
@@ -35,7 +36,10 @@ public:
         if (!records.empty()) std::memcpy(words_.data() + first, records.data(), records.size() * sizeof(T));
         return first;
     }
+    /// Room for so many further words.
+    void reserve(size_t words) { words_.reserve(words_.size() + words); }
     const std::vector<uint32_t>& words() const { return words_; }
+    std::vector<uint32_t> take() && { return std::move(words_); }
 
 private:
     std::vector<uint32_t> words_;

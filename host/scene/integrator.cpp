@@ -29,7 +29,7 @@ int readDepthParameter(Properties& properties) {
 
 IntegratorChoice readPath(Properties& properties) {
     properties.accept(sampling);
-    properties.accept({"rr_depth"});
+    properties.accept({"rr_depth", "strict_normals"}); // the latter of Mitsuba 0.x
     if (properties.plugin() == "volpathmis") properties.accept({"use_spectral_mis"});
     return {readDepthParameter(properties), properties.boolean("hide_emitters", false)};
 }

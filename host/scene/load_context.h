@@ -39,14 +39,13 @@ public:
     const EmbeddedParts* embedded = nullptr;              ///< null: the scene holds none
     std::unordered_map<const Element*, int> bsdfIndex;    ///< of bsdfs that shapes use, into Scene::bsdfs
     std::unordered_map<const Element*, int> textureIndex; ///< of textures in use, into Scene::textures; -1: one colour
-    std::unordered_map<const Element*, int> emissionTextureIndex;       ///< of those that emitters use
-    std::unordered_map<int, unsigned> scalarTextureIndex;               ///< of the grey copy of a coloured texture
-    std::map<std::pair<unsigned, float>, unsigned> squaredTextureIndex; ///< of the squares of one, times a factor
-    std::unordered_map<const Element*, unsigned> mediumIndex;           ///< of media in use, into Scene::media
-    std::unordered_map<const Element*, unsigned> volumeIndex;           ///< of volumes in use, into Scene::volumes
-    std::set<const Element*> shownVolumes;                              ///< by textures
-    std::vector<const Element*> openPhases;                             ///< being read now, as openBsdfs
-    std::set<const Element*> usedPhases;                                ///< that a medium has
+    std::unordered_map<const Element*, int> emissionTextureIndex; ///< of those that emitters use
+    std::unordered_map<int, unsigned> scalarTextureIndex;         ///< of the grey copy of a coloured texture
+    std::unordered_map<const Element*, unsigned> mediumIndex;     ///< of media in use, into Scene::media
+    std::unordered_map<const Element*, unsigned> volumeIndex;     ///< of volumes in use, into Scene::volumes
+    std::set<const Element*> shownVolumes;                        ///< by textures
+    std::vector<const Element*> openPhases;                       ///< being read now, as openBsdfs
+    std::set<const Element*> usedPhases;                          ///< that a medium has
     int defaultBsdf = -1, defaultEmitterBsdf = -1; ///< of shapes without one; -1 until the first needs it
     std::vector<const Element*> openBsdfs;         ///< being read now, outermost first: a cycle shows here
     std::vector<const Element*> openTextures;      ///< likewise

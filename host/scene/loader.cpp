@@ -60,12 +60,12 @@ void readObject(const Element& object, LoadContext& context, std::vector<PlacedS
     } else if (object.tag == "integrator")
         integrators.push_back(&object);
     else if (object.tag == "bsdf" || object.tag == "texture" || object.tag == "medium" || object.tag == "phase" ||
-             object.tag == "volume" || object.tag == "alias")
+             object.tag == "volume" || object.tag == "film" || object.tag == "sampler" || object.tag == "alias")
         return; // read where another object uses it
     else
         throw InputError(object.where,
                          fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, texture, medium, "
-                                     "phase, volume, emitter, sensor or integrator.",
+                                     "phase, volume, emitter, sensor, film, sampler or integrator.",
                                      object.tag));
 }
 

@@ -30,13 +30,22 @@ struct QuasiSpecularChoice {
     bool stated = false; ///< false: nothing was said, the global setting decides
 };
 
+/// A texture of numbers, of which `offset` + `factor` times the value counts.
+struct LevelTexture {
+    unsigned texture = 0; ///< index into Scene::textures, of equal channels
+    double offset = 0, factor = 1;
+
+    bool operator==(const LevelTexture&) const = default;
+};
+
 /// One lobe as the scene describes it. `device.scattering` is SCATTER_SPECULAR for delta lobes and otherwise 0 until
 /// host/prepare/split decides between genuine diffuse and quasi-specular.
 struct LobeDescription {
     shared::Lobe device{};
     std::vector<shared::LobeWeight> weights; ///< factors by texture; their textures count from 0 in Scene::textures
-    std::optional<unsigned> alphaTextureU,
-        alphaTextureV;                 ///< index into Scene::textures, instead of the device's alphas
+    std::vector<LevelTexture> levelTextures; ///< of what the lobe is not linear in, such as its roughness
+    /// Sets what these textures decide, by their values in the same order.
+    std::function<void(shared::Lobe&, const std::vector<double>&)> setLevel;
     std::string name;                  ///< "diffuse", "specular", …, as a quasi-specular list names it
     QuasiSpecularChoice quasiSpecular; ///< from the innermost bsdf that says something
     double halfWidth = 0; ///< radians: half the lobe's energy lies within this angle of its peak (0 delta, 45° Lambert)

@@ -13,6 +13,8 @@ constexpr std::string_view asMesh = "export the shape as a mesh, such as 'ply'";
 
 constexpr std::string_view derivatives = "it is there for derivatives; use 'path', or 'volpath' where there are media";
 
+constexpr std::string_view ofFormer = "it is of Mitsuba 0.x; use 'diffuse', or 'principled' with specular 0";
+
 constexpr Unsupported unsupported[] = {
     {"shape", "sdfgrid", asMesh},
     {"shape", "ellipsoids", asMesh},
@@ -24,6 +26,13 @@ constexpr Unsupported unsupported[] = {
     {"bsdf", "polarizer", noPolarisation},
     {"bsdf", "retarder", noPolarisation},
     {"bsdf", "circular", noPolarisation},
+    {"bsdf", "roughdiffuse", ofFormer},
+    {"bsdf", "coating", "it is of Mitsuba 0.x; use 'plastic', or 'principled' with a clearcoat"},
+    {"bsdf", "roughcoating", "it is of Mitsuba 0.x; use 'roughplastic', or 'principled' with a clearcoat"},
+    {"bsdf", "mixturebsdf", "it is of Mitsuba 0.x; use 'blendbsdf'"},
+    {"bsdf", "ward", "it is of Mitsuba 0.x; use 'roughconductor', 'roughplastic' or 'principled'"},
+    {"bsdf", "difftrans", "it is of Mitsuba 0.x; use 'principledthin' with diff_trans"},
+    {"bsdf", "hk", "it is of Mitsuba 0.x; use 'principledthin', or a medium within a border"},
     {"emitter", "timed_sunsky",
      "it moves the sun while the shutter is open; use 'sunsky', which has one place and time"},
     {"sensor", "distant",

@@ -19,11 +19,13 @@ void turnIntoLobes(BsdfLobes& bsdf) {
 /// Appends `lobes` to `to`, times the weight or, where `isRest`, 1 less the weight.
 void appendShare(const std::vector<LobeDescription>& lobes, const Scalar& weight, bool isRest,
                  std::vector<LobeDescription>& to) {
-    const float factor = weight.texture ? 1.0f : (isRest ? 1 - weight.value : weight.value);
+    const auto value = static_cast<float>(weight.value);
+    const float factor = weight.texture ? 1.0f : (isRest ? 1 - value : value);
     for (LobeDescription lobe : lobes) {
         lobe.device.reflectance = lobe.device.reflectance * factor;
         lobe.device.transmittance = lobe.device.transmittance * factor;
-        if (weight.texture) lobe.weights.push_back({*weight.texture, isRest});
+        if (weight.texture)
+            lobe.weights.push_back(isRest ? weightBy(*weight.texture, 1, -1) : weightBy(*weight.texture));
         to.push_back(std::move(lobe));
     }
 }

@@ -46,6 +46,9 @@ BsdfLobes readNull(Properties& properties);
 /// A lobe of type LOBE_* with everything else zero. `halfWidth` in radians.
 LobeDescription makeLobe(unsigned type, const std::string& name, const Reflectance& reflectance, double halfWidth);
 
+/// Of both parts of a lobe: offset + factor times the texture's value.
+shared::LobeWeight weightBy(unsigned texture, double offset = 0, double factor = 1);
+
 /// Lets all light pass straight on: what a `null` bsdf is as part of another.
 LobeDescription passageLobe();
 

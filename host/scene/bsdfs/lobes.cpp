@@ -20,6 +20,11 @@ LobeDescription makeLobe(unsigned type, const std::string& name, const Reflectan
     return lobe;
 }
 
+shared::LobeWeight weightBy(unsigned texture, double offset, double factor) {
+    return {texture, WEIGHT_VALUE, WEIGHS_REFLECTED | WEIGHS_TRANSMITTED, static_cast<float>(offset),
+            static_cast<float>(factor)};
+}
+
 std::vector<unsigned> Bsdf::textures() const {
     std::vector<unsigned> all;
     for (const auto* side : {&front, &back})
@@ -27,8 +32,7 @@ std::vector<unsigned> Bsdf::textures() const {
             for (const unsigned number : {lobe.device.reflectanceTexture, lobe.device.transmittanceTexture})
                 if (number > 0) all.push_back(number - 1);
             for (const shared::LobeWeight& weight : lobe.weights) all.push_back(weight.texture);
-            for (const auto& texture : {lobe.alphaTextureU, lobe.alphaTextureV})
-                if (texture) all.push_back(*texture);
+            for (const LevelTexture& level : lobe.levelTextures) all.push_back(level.texture);
         }
     for (const auto* relief : {&frontRelief, &backRelief})
         if (*relief) all.push_back((*relief)->texture);

@@ -17,81 +17,74 @@ double readEta(Properties& properties) {
 
 Principled readParameters(Properties& properties) {
     Principled p = readSharedParameters(properties);
-    readPrincipledRoughness(properties, p);
-    p.metallic = properties.share("metallic", 0);
-    p.clearcoat = properties.share("clearcoat", 0);
-    p.clearcoatGloss = properties.share("clearcoat_gloss", 0);
+    p.metallic = readShare(properties, "metallic", 0);
+    p.clearcoat = readShare(properties, "clearcoat", 0);
+    p.clearcoatGloss = readShare(properties, "clearcoat_gloss", 0);
     p.eta = readEta(properties);
     properties.accept({"diffuse_reflectance_sampling_rate", "main_specular_sampling_rate", "clearcoat_sampling_rate"});
-    return p;
-}
-
-void check(const Principled& p, Properties& properties) {
-    const char* coloured = p.specTrans > 0                  ? "spec_trans"
-                           : p.specTint > 0                 ? "spec_tint"
-                           : p.sheen > 0 && p.sheenTint > 0 ? "sheen_tint"
-                                                            : nullptr;
-    checkOneColor(p, coloured, properties);
-    if (p.specTrans > 0 && p.eta == 1)
+    if (!p.specTrans.isZero() && p.eta == 1)
         throw InputError(
             properties.where("spec_trans"),
             "principled: light that is transmitted needs an index eta (or specular) that bends it; eta is 1.");
+    return p;
+}
+
+/// The root of the base colour, which light that passes has, and what a texture gives of it.
+Rgb passedColor(const Principled& p) {
+    const Rgb base = p.base.scale;
+    return {std::sqrt(base.r), std::sqrt(base.g), std::sqrt(base.b)};
 }
 
 /// Fresnel's reflectance of the part that is neither metal nor tinted, and what passes.
 void addDielectric(const Principled& p, BsdfLobes& lobes) {
-    const Rgb reflected = grey(p.dielectric() * (1 - p.specTint));
-    if (p.specTrans == 0) {
-        LobeDescription lobe = facets(p, LOBE_GGX, reflected);
+    const Share dielectric = rest(p.metallic), untinted = rest(p.specTint);
+    const Rgb reflected = grey(dielectric.constant * untinted.constant);
+    if (p.specTrans.isZero()) {
+        LobeDescription lobe = weighted(facets(p, LOBE_GGX, reflected), dielectric * untinted);
         lobe.device.eta = grey(p.eta);
         lobe.device.k = {0, 0, 0};
         if (p.eta > 1) lobes.front.push_back(lobe);
         return;
     }
-    const double share = p.specTrans * p.dielectric();
-    const Rgb base = p.base.scale;
-    const Rgb root = {std::sqrt(base.r), std::sqrt(base.g), std::sqrt(base.b)};
+    const Share passing = share(p.specTrans) * dielectric;
+    const Share colored = p.textured() ? ofBase(p, WEIGHT_ROOT) : Share{};
     LobeDescription lobe = facets(p, LOBE_GGXDIELECTRIC, reflected);
-    lobe.device.transmittance = root * static_cast<float>(share);
+    lobe.device.transmittance = passedColor(p) * static_cast<float>(passing.constant);
     lobe.device.eta = grey(p.eta);
-    lobes.front.push_back(lobe);
-    lobe.device.reflectance = grey(share);
+    LobeDescription front = weighted(lobe, dielectric * untinted, WEIGHS_REFLECTED);
+    lobes.front.push_back(weighted(front, passing * colored, WEIGHS_TRANSMITTED));
+    lobe.device.reflectance = grey(passing.constant);
     lobe.device.eta = grey(1 / p.eta);
-    lobes.back.push_back(lobe);
+    lobes.back.push_back(weighted(weighted(lobe, passing), colored, WEIGHS_TRANSMITTED));
 }
 
-/// Metal and tint, whose reflectances go by Schlick.
-void addSchlick(const Principled& p, BsdfLobes& lobes) {
-    if (p.textured()) {
-        Reflectance metal = p.base;
-        metal.scale = metal.scale * static_cast<float>(p.metallic);
-        lobes.front.push_back(schlick(p, metal, grey(1), grey(0)));
-        lobes.front.push_back(schlick(p, grey(p.metallic), grey(0), grey(1)));
-        return;
-    }
-    const double tinted = p.dielectric() * p.specTint, r = (p.eta - 1) / (p.eta + 1);
-    const Rgb normal =
-        sum(p.base.scale * static_cast<float>(p.metallic), p.tint() * static_cast<float>(tinted * r * r));
-    if (p.metallic + tinted > 0) lobes.front.push_back(schlick(p, grey(1), normal, grey(p.metallic + tinted)));
-}
+double clearcoatAlpha(double gloss) { return 0.1 + (0.001 - 0.1) * gloss; }
 
 void addClearcoat(const Principled& p, BsdfLobes& lobes) {
-    const double alpha = 0.1 + (0.001 - 0.1) * p.clearcoatGloss;
+    if (p.clearcoat.isZero()) return;
+    const double alpha = clearcoatAlpha(p.clearcoatGloss.value);
+    const Share by = share(p.clearcoat);
     // Half of D cos lies within tan² = alpha.
-    LobeDescription lobe = makeLobe(LOBE_CLEARCOAT, "clearcoat", grey(p.clearcoat), 2 * std::atan(std::sqrt(alpha)));
+    LobeDescription lobe = makeLobe(LOBE_CLEARCOAT, "clearcoat", grey(by.constant), 2 * std::atan(std::sqrt(alpha)));
     lobe.device.alphaU = static_cast<float>(alpha);
-    lobes.front.push_back(lobe);
+    if (p.clearcoatGloss.texture) {
+        lobe.levelTextures = {{*p.clearcoatGloss.texture, clearcoatAlpha(0), clearcoatAlpha(1) - clearcoatAlpha(0)}};
+        lobe.setLevel = [](shared::Lobe& device, const std::vector<double>& values) {
+            device.alphaU = static_cast<float>(values.front());
+        };
+    }
+    lobes.front.push_back(weighted(lobe, by));
 }
 
 } // namespace
 
 BsdfLobes readPrincipled(Properties& properties) {
     const Principled p = readParameters(properties);
-    check(p, properties);
+    const Share dielectric = rest(p.metallic);
     BsdfLobes lobes;
-    addDiffuse(p, p.dielectric() * (1 - p.specTrans), p.dielectric(), lobes.front);
+    addDiffuse(p, dielectric * rest(p.specTrans), dielectric, lobes.front);
     addDielectric(p, lobes);
-    addSchlick(p, lobes);
+    addSchlick(p, share(p.metallic), dielectric * share(p.specTint), lobes.front);
     addClearcoat(p, lobes);
     return lobes;
 }

@@ -15,44 +15,121 @@ Rgb mix(Rgb a, Rgb b, double share) {
     return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
 }
 
+/// `squaredAspect`: of the facets' ellipse.
+double alphaAlong(double roughness, double squaredAspect, bool u) {
+    const double aspect = std::sqrt(squaredAspect);
+    return std::max(leastAlpha, u ? roughness * roughness / aspect : roughness * roughness * aspect);
+}
+
+double squaredAspect(const Principled& p) { return 1 - 0.9 * p.anisotropic.value; }
+
+/// Where textures say roughness or anisotropy, the lobe's alphas go by them.
+void setFacetLevels(const Principled& p, LobeDescription& lobe) {
+    if (p.roughness.texture) lobe.levelTextures.push_back({*p.roughness.texture});
+    if (p.anisotropic.texture) lobe.levelTextures.push_back({*p.anisotropic.texture, 1, -0.9});
+    if (lobe.levelTextures.empty()) return;
+    lobe.setLevel = [p](shared::Lobe& device, const std::vector<double>& values) {
+        const double roughness = p.narrowing * (p.roughness.texture ? values.front() : p.roughness.value);
+        const double aspect = p.anisotropic.texture ? values.back() : squaredAspect(p);
+        device.alphaU = static_cast<float>(alphaAlong(roughness, aspect, true));
+        device.alphaV = static_cast<float>(alphaAlong(roughness, aspect, false));
+    };
+}
+
+LobeDescription diffuseLobe(const Principled& p, const Share& by, double flatness) {
+    Reflectance base = p.base;
+    base.scale = base.scale * static_cast<float>(by.constant);
+    LobeDescription lobe = makeLobe(LOBE_PRINCIPLEDDIFFUSE, "diffuse", base, lambertHalfWidth);
+    lobe.device.alphaU = static_cast<float>(p.roughness.value);
+    lobe.device.exponent = static_cast<float>(flatness);
+    if (p.roughness.texture) {
+        lobe.levelTextures = {{*p.roughness.texture}};
+        lobe.setLevel = [](shared::Lobe& device, const std::vector<double>& values) {
+            device.alphaU = static_cast<float>(values.front());
+        };
+    }
+    return weighted(lobe, by);
+}
+
+void addSheen(const Principled& p, const Share& by, std::vector<LobeDescription>& lobes) {
+    const auto add = [&](Rgb color, const Share& of) {
+        lobes.push_back(
+            weighted(makeLobe(LOBE_SHEEN, "sheen", color * static_cast<float>(of.constant), lambertHalfWidth), of));
+    };
+    const Share sheen = share(p.sheen) * by;
+    if (!p.textured() && !p.sheenTint.texture) {
+        add(mix(grey(1), p.tint(), p.sheenTint.value), sheen);
+        return;
+    }
+    add(grey(1), sheen * rest(p.sheenTint));
+    const Share tinted = sheen * share(p.sheenTint);
+    p.textured() ? add(grey(1), tinted * ofBase(p, WEIGHT_TINT)) : add(p.tint(), tinted);
+}
+
+/// From `color` of a texture, times `normal`, to white. The two ends are weighed apart.
+void addTexturedSchlick(const Principled& p, const Reflectance& color, double normal, const Share& by,
+                        std::vector<LobeDescription>& lobes) {
+    Reflectance scaled = color;
+    scaled.scale = scaled.scale * static_cast<float>(by.constant * normal);
+    lobes.push_back(weighted(schlick(p, scaled, grey(1), grey(0)), by));
+}
+
 } // namespace
 
-double Principled::aspect() const { return std::sqrt(1 - 0.9 * anisotropic); }
-double Principled::alphaU() const { return std::max(leastAlpha, roughness * roughness / aspect()); }
-double Principled::alphaV() const { return std::max(leastAlpha, roughness * roughness * aspect()); }
+double Principled::alphaU() const { return alphaAlong(narrowing * roughness.value, squaredAspect(*this), true); }
+double Principled::alphaV() const { return alphaAlong(narrowing * roughness.value, squaredAspect(*this), false); }
 
 Rgb Principled::tint() const {
     const auto brightness = static_cast<float>(luminance(base.scale));
     return brightness > 0 ? base.scale * (1 / brightness) : Rgb{1, 1, 1};
 }
 
+double Principled::normalReflectance() const {
+    const double r = (eta - 1) / (eta + 1);
+    return r * r;
+}
+
+Share Share::operator*(const Share& other) const {
+    Share product{constant * other.constant, weights};
+    product.weights.insert(product.weights.end(), other.weights.begin(), other.weights.end());
+    return product;
+}
+
+Share share(const Scalar& parameter) {
+    if (!parameter.texture) return {parameter.value, {}};
+    return {1, {weightBy(*parameter.texture)}};
+}
+
+Share rest(const Scalar& parameter, double factor) {
+    if (!parameter.texture) return {1 - factor * parameter.value, {}};
+    return {1, {weightBy(*parameter.texture, 1, -factor)}};
+}
+
+Share ofBase(const Principled& p, unsigned function) {
+    Share share{1, {weightBy(p.base.texture - 1)}};
+    share.weights.front().function = function;
+    return share;
+}
+
+LobeDescription weighted(LobeDescription lobe, const Share& by, unsigned parts) {
+    for (shared::LobeWeight weight : by.weights) {
+        weight.parts = parts;
+        lobe.weights.push_back(weight);
+    }
+    return lobe;
+}
+
 Principled readSharedParameters(Properties& properties) {
     Principled p;
     p.base = readReflectance(properties, "base_color", 0.5f);
-    p.anisotropic = properties.share("anisotropic", 0);
-    p.specTrans = properties.share("spec_trans", 0);
-    p.specTint = properties.share("spec_tint", 0);
-    p.sheen = properties.share("sheen", 0);
-    p.sheenTint = properties.share("sheen_tint", 0);
-    p.flatness = properties.share("flatness", 0);
+    p.roughness = readShare(properties, "roughness", 0.5f);
+    p.anisotropic = readShare(properties, "anisotropic", 0);
+    p.specTrans = readShare(properties, "spec_trans", 0);
+    p.specTint = readShare(properties, "spec_tint", 0);
+    p.sheen = readShare(properties, "sheen", 0);
+    p.sheenTint = readShare(properties, "sheen_tint", 0);
+    p.flatness = readShare(properties, "flatness", 0);
     return p;
-}
-
-void readPrincipledRoughness(Properties& properties, Principled& p) {
-    LoadContext& context = properties.context();
-    const Scalar roughness = readShare(properties, "roughness", 0.5f);
-    p.roughness = roughness.value;
-    if (!roughness.texture) return;
-    const TextureDescription& texture = context.scene.textures[*roughness.texture];
-    if (!texture.attribute.empty() || texture.volume || texture.device.texture0 > 0 || texture.device.texture1 > 0)
-        throw InputError(texture.where, "a roughness of principled that varies must be a 'bitmap' or a 'checkerboard' "
-                                        "of two numbers; bake it into an image.");
-    p.roughness = meanNumber(texture, 0.5f, context.scene);
-    const auto squared = [&](double factor) {
-        return squaredTexture(*roughness.texture, static_cast<float>(factor), static_cast<float>(leastAlpha), context);
-    };
-    p.alphaTextureU = squared(1 / p.aspect());
-    p.alphaTextureV = squared(p.aspect());
 }
 
 double readPrincipledIndex(Properties& properties) {
@@ -60,14 +137,6 @@ double readPrincipledIndex(Properties& properties) {
     if (eta < 1)
         throw InputError(properties.where("eta"), fmt::format("parameter 'eta' is {}; it must be at least 1.", eta));
     return eta;
-}
-
-void checkOneColor(const Principled& p, const char* coloured, Properties& properties) {
-    if (p.textured() && coloured)
-        throw InputError(properties.where(coloured),
-                         fmt::format("{}: {} needs one colour, and base_color is a texture; give it as <rgb>, "
-                                     "or leave {} out.",
-                                     properties.plugin(), coloured, coloured));
 }
 
 Rgb grey(double value) {
@@ -81,8 +150,7 @@ LobeDescription facets(const Principled& p, unsigned type, const Reflectance& re
     LobeDescription lobe = makeLobe(type, "specular", reflectance, ggxHalfWidth(std::max(p.alphaU(), p.alphaV())));
     lobe.device.alphaU = static_cast<float>(p.alphaU());
     lobe.device.alphaV = static_cast<float>(p.alphaV());
-    lobe.alphaTextureU = p.alphaTextureU;
-    lobe.alphaTextureV = p.alphaTextureV;
+    setFacetLevels(p, lobe);
     return lobe;
 }
 
@@ -93,16 +161,40 @@ LobeDescription schlick(const Principled& p, const Reflectance& scale, Rgb norma
     return lobe;
 }
 
-void addDiffuse(const Principled& p, double diffuseShare, double sheenShare, std::vector<LobeDescription>& lobes) {
-    Reflectance base = p.base;
-    base.scale = base.scale * static_cast<float>(diffuseShare);
-    LobeDescription lobe = makeLobe(LOBE_PRINCIPLEDDIFFUSE, "diffuse", base, lambertHalfWidth);
-    lobe.device.alphaU = static_cast<float>(p.roughness);
-    lobe.device.exponent = static_cast<float>(p.flatness);
-    lobes.push_back(lobe);
-    if (p.sheen == 0) return;
-    const Rgb color = mix(grey(1), p.textured() ? grey(1) : p.tint(), p.sheenTint);
-    lobes.push_back(makeLobe(LOBE_SHEEN, "sheen", color * static_cast<float>(p.sheen * sheenShare), lambertHalfWidth));
+void addSchlick(const Principled& p, const Share& metal, const Share& tinted, std::vector<LobeDescription>& lobes) {
+    const double tintedNormal = p.normalReflectance();
+    const bool areConstant = metal.weights.empty() && tinted.weights.empty();
+    const auto addGrazing = [&](const Share& by) {
+        lobes.push_back(weighted(schlick(p, grey(by.constant), grey(0), grey(1)), by));
+    };
+    if (p.textured()) {
+        addTexturedSchlick(p, p.base, 1, metal, lobes);
+        addTexturedSchlick(p, grey(1), tintedNormal, tinted * ofBase(p, WEIGHT_TINT), lobes);
+        if (areConstant) return addGrazing({metal.constant + tinted.constant, {}});
+        addGrazing(metal);
+        addGrazing(tinted);
+        return;
+    }
+    const auto add = [&](Rgb normal, const Share& by) {
+        lobes.push_back(weighted(schlick(p, grey(1), normal, grey(by.constant)), by));
+    };
+    const Rgb ofMetal = p.base.scale * static_cast<float>(metal.constant);
+    const Rgb ofTint = p.tint() * static_cast<float>(tinted.constant * tintedNormal);
+    if (areConstant) {
+        if (metal.constant + tinted.constant > 0) add(sum(ofMetal, ofTint), {metal.constant + tinted.constant, {}});
+        return;
+    }
+    if (!metal.isZero()) add(ofMetal, metal);
+    if (!tinted.isZero()) add(ofTint, tinted);
+}
+
+void addDiffuse(const Principled& p, const Share& diffuse, const Share& sheen, std::vector<LobeDescription>& lobes) {
+    if (p.flatness.texture) {
+        lobes.push_back(diffuseLobe(p, diffuse * rest(p.flatness), 0));
+        lobes.push_back(diffuseLobe(p, diffuse * share(p.flatness), 1));
+    } else
+        lobes.push_back(diffuseLobe(p, diffuse, p.flatness.value));
+    if (!p.sheen.isZero()) addSheen(p, sheen, lobes);
 }
 
 } // namespace quasilux

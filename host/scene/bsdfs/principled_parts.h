@@ -8,39 +8,54 @@ namespace quasilux {
 /// Their parameters, each with the name of its own; those that only one of them has are 0 for the other.
 struct Principled {
     Reflectance base{Rgb{0.5f, 0.5f, 0.5f}};
-    double roughness = 0.5, anisotropic = 0, metallic = 0, specTrans = 0, specTint = 0, sheen = 0, sheenTint = 0,
-           flatness = 0, clearcoat = 0, clearcoatGloss = 0;
+    Scalar roughness{0.5}, anisotropic, metallic, specTrans, specTint, sheen, sheenTint, flatness, clearcoat,
+        clearcoatGloss;
     double eta = 1.5;
-    std::optional<unsigned> alphaTextureU,
-        alphaTextureV; ///< of facets, where the roughness is a texture; `roughness` is its mean then
+    double narrowing = 1; ///< a factor on the roughness of facets
 
-    double dielectric() const { return 1 - metallic; }
     bool textured() const { return base.texture != 0; }
+    /// Of the facets; where textures say them, of their means.
     double alphaU() const;
     double alphaV() const;
     /// The base colour at luminance 1; white where it is black.
     Rgb tint() const;
-    /// alphaV over alphaU is the square of it.
-    double aspect() const;
+    /// Reflectance of the sheet or body at normal incidence.
+    double normalReflectance() const;
 };
 
-/// Those that both have, but for the index and the roughness.
+/// A product of shares, some of which go by textures.
+struct Share {
+    double constant = 1;
+    std::vector<shared::LobeWeight> weights;
+
+    Share operator*(const Share& other) const;
+    Share operator*(double factor) const { return {constant * factor, weights}; }
+    bool isZero() const { return constant == 0; }
+};
+Share share(const Scalar& parameter);
+/// 1 less `factor` times the parameter.
+Share rest(const Scalar& parameter, double factor = 1);
+
+/// Those that both have, but for the index.
 Principled readSharedParameters(Properties& properties);
-/// `roughness`, a number or a texture.
-void readPrincipledRoughness(Properties& properties, Principled& p);
 /// `eta`, an index of at least 1.
 double readPrincipledIndex(Properties& properties);
-/// Throws InputError where `coloured`, a parameter or nullptr, needs one colour and the base has a texture.
-void checkOneColor(const Principled& p, const char* coloured, Properties& properties);
 
 Rgb grey(double value);
 Rgb sum(Rgb a, Rgb b);
+
+/// The lobe with the textures of a share, on those parts of it; not with its constant.
+LobeDescription weighted(LobeDescription lobe, const Share& by, unsigned parts = WEIGHS_REFLECTED | WEIGHS_TRANSMITTED);
+/// The function of the base's texture as a weight.
+Share ofBase(const Principled& p, unsigned function);
 
 /// GGX facets of this type.
 LobeDescription facets(const Principled& p, unsigned type, const Reflectance& reflectance);
 /// Those whose reflectance goes by Schlick from `normal` at normal incidence to `grazing`.
 LobeDescription schlick(const Principled& p, const Reflectance& scale, Rgb normal, Rgb grazing);
+/// Metal, of the base colour, and what has its tint, whose reflectances go by Schlick, times these shares.
+void addSchlick(const Principled& p, const Share& metal, const Share& tinted, std::vector<LobeDescription>& lobes);
 /// Diffuse reflection and sheen, times these shares.
-void addDiffuse(const Principled& p, double diffuseShare, double sheenShare, std::vector<LobeDescription>& lobes);
+void addDiffuse(const Principled& p, const Share& diffuse, const Share& sheen, std::vector<LobeDescription>& lobes);
 
 } // namespace quasilux

@@ -7,8 +7,9 @@ namespace quasilux {
 
 namespace {
 
-/// Of the diffuse light the share that is transmitted; the parameter goes up to 2.
-double readTransmittedShare(Properties& properties) {
+/// Twice the share of the diffuse light that is transmitted: a texture, or a number up to 2.
+Scalar readTwiceTransmitted(Properties& properties) {
+    if (properties.texture("diff_trans")) return readShare(properties, "diff_trans", 0);
     const double value = properties.numberAbove("diff_trans", 0, 0, false);
     if (value > 2)
         throw InputError(
@@ -16,29 +17,29 @@ double readTransmittedShare(Properties& properties) {
             fmt::format("parameter 'diff_trans' is {}; expected 0 (all of the diffuse light is reflected) to "
                         "2 (all of it is transmitted).",
                         value));
-    return value / 2;
+    return {value, std::nullopt};
 }
 
 /// A lobe that transmits the base colour times a share.
-LobeDescription transmitting(const Principled& p, LobeDescription lobe, double share) {
-    lobe.device.transmittance = p.base.scale * static_cast<float>(share);
+LobeDescription transmitting(const Principled& p, LobeDescription lobe, const Share& by) {
+    lobe.device.transmittance = p.base.scale * static_cast<float>(by.constant);
     lobe.device.transmittanceTexture = p.base.texture;
-    return lobe;
+    return weighted(std::move(lobe), by);
 }
 
 void addSpecular(const Principled& p, std::vector<LobeDescription>& lobes) {
-    if (p.eta > 1 && p.specTint < 1) {
-        LobeDescription lobe = facets(p, LOBE_GGX, grey(p.specTrans * (1 - p.specTint)));
+    const Share specular = share(p.specTrans), untinted = specular * rest(p.specTint);
+    if (p.eta > 1 && !untinted.isZero()) {
+        LobeDescription lobe = facets(p, LOBE_GGX, grey(untinted.constant));
         lobe.device.eta = grey(p.eta);
         lobe.device.k = {0, 0, 0};
-        lobes.push_back(lobe);
+        lobes.push_back(weighted(lobe, untinted));
     }
-    const double tinted = p.specTrans * p.specTint, r = (p.eta - 1) / (p.eta + 1);
-    if (tinted > 0) lobes.push_back(schlick(p, grey(1), p.tint() * static_cast<float>(tinted * r * r), grey(tinted)));
+    addSchlick(p, Share{0, {}}, specular * share(p.specTint), lobes);
     // Both faces bend: what passes is spread less than what is reflected (there, fig. 15).
     Principled passed = p;
-    passed.roughness = (0.65 * p.eta - 0.35) * p.roughness;
-    LobeDescription lobe = transmitting(p, facets(passed, LOBE_THINGGX, grey(0)), p.specTrans);
+    passed.narrowing = 0.65 * p.eta - 0.35;
+    LobeDescription lobe = transmitting(p, facets(passed, LOBE_THINGGX, grey(0)), specular);
     lobe.device.eta = grey(p.eta);
     lobes.push_back(lobe);
 }
@@ -47,23 +48,18 @@ void addSpecular(const Principled& p, std::vector<LobeDescription>& lobes) {
 
 BsdfLobes readPrincipledThin(Properties& properties) {
     Principled p = readSharedParameters(properties);
-    p.roughness = properties.share("roughness", 0.5);
     p.eta = readPrincipledIndex(properties);
-    const double transmitted = readTransmittedShare(properties);
+    const Scalar twice = readTwiceTransmitted(properties);
     properties.accept({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
                        "specular_transmittance_sampling_rate", "diffuse_transmittance_sampling_rate"});
-    checkOneColor(p,
-                  p.specTrans > 0 && p.specTint > 0 ? "spec_tint"
-                  : p.sheen > 0 && p.sheenTint > 0  ? "sheen_tint"
-                                                    : nullptr,
-                  properties);
-    const double diffuse = 1 - p.specTrans, reflected = diffuse * (1 - transmitted);
+    const Share diffuse = rest(p.specTrans), reflected = diffuse * rest(twice, 0.5),
+                transmitted = diffuse * share(twice) * 0.5;
     BsdfLobes lobes;
-    if (reflected > 0) addDiffuse(p, reflected, reflected, lobes.front);
-    if (diffuse * transmitted > 0)
-        lobes.front.push_back(transmitting(p, makeLobe(LOBE_DIFFUSETRANSMISSION, "diffuse", grey(0), lambertHalfWidth),
-                                           diffuse * transmitted));
-    if (p.specTrans > 0) addSpecular(p, lobes.front);
+    if (!reflected.isZero()) addDiffuse(p, reflected, reflected, lobes.front);
+    if (!transmitted.isZero())
+        lobes.front.push_back(
+            transmitting(p, makeLobe(LOBE_DIFFUSETRANSMISSION, "diffuse", grey(0), lambertHalfWidth), transmitted));
+    if (!p.specTrans.isZero()) addSpecular(p, lobes.front);
     lobes.back = lobes.front;
     return lobes;
 }

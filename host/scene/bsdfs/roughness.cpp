@@ -28,7 +28,8 @@ Scalar readAlphaOrTexture(Properties& properties, const std::string& name, doubl
     if (!texture) return {readAlpha(properties, name, missing, smooth), std::nullopt};
     const unsigned index = useScalarTexture(*texture, properties.context());
     const Scene& scene = properties.context().scene;
-    return {std::max(meanNumber(scene.textures[index], defaultAlpha, scene), static_cast<float>(smallestAlpha)), index};
+    return {std::max(meanOfNumbers(scene.textures[index], scene, defaultAlpha), static_cast<float>(smallestAlpha)),
+            index};
 }
 
 } // namespace
@@ -41,8 +42,14 @@ double Roughness::halfWidth() const {
 void Roughness::applyTo(LobeDescription& lobe) const {
     lobe.device.alphaU = alphaU;
     lobe.device.alphaV = alphaV;
-    lobe.alphaTextureU = alphaTextureU;
-    lobe.alphaTextureV = alphaTextureV;
+    const bool isOne = alphaTextureU == alphaTextureV;
+    if (alphaTextureU) lobe.levelTextures.push_back({*alphaTextureU});
+    if (alphaTextureV && !isOne) lobe.levelTextures.push_back({*alphaTextureV});
+    lobe.setLevel = [u = alphaTextureU.has_value(), v = alphaTextureV.has_value()](shared::Lobe& device,
+                                                                                   const std::vector<double>& alphas) {
+        if (u) device.alphaU = static_cast<float>(alphas.front());
+        if (v) device.alphaV = static_cast<float>(alphas.back());
+    };
 }
 
 Roughness readRoughness(Properties& properties, const std::string& smooth, bool byTexture) {
@@ -58,8 +65,8 @@ Roughness readRoughness(Properties& properties, const std::string& smooth, bool 
     const Scalar v = readAlphaOrTexture(properties, "alpha_v", alpha.value, smooth, byTexture);
     Roughness roughness;
     roughness.ggx = properties.choice("distribution", "beckmann", {"beckmann", "ggx"}) == "ggx";
-    roughness.alphaU = u.value;
-    roughness.alphaV = v.value;
+    roughness.alphaU = static_cast<float>(u.value);
+    roughness.alphaV = static_cast<float>(v.value);
     roughness.alphaTextureU = anisotropic ? u.texture : alpha.texture;
     roughness.alphaTextureV = anisotropic ? v.texture : alpha.texture;
     properties.accept({"sample_visible"});

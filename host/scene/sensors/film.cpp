@@ -8,7 +8,8 @@ namespace quasilux {
 
 namespace {
 
-constexpr int64_t maximumSize = 32768; // pixels along one side
+constexpr std::string_view ldrName = "ldrfilm"; // of Mitsuba 0.x
+constexpr int64_t maximumSize = 32768;          // pixels along one side
 
 unsigned readSize(Properties& properties, const std::string& name, unsigned missing) {
     const int64_t size = properties.integer(name, missing);
@@ -60,8 +61,13 @@ PixelFormat readPixelFormat(Properties& properties) {
 }
 
 void readFileFormats(Properties& properties, LoadContext& context) {
-    const std::string file = readChoice(properties, "file_format", "openexr", {"openexr", "exr", "rgbe", "pfm"});
-    if (file == "rgbe" || file == "pfm")
+    const bool isToneMapped = properties.plugin() == ldrName;
+    const Names known = isToneMapped ? Names{"png", "jpeg"} : Names{"openexr", "exr", "rgbe", "pfm"};
+    const std::string file = readChoice(properties, "file_format", std::string(known.front()), known);
+    if (isToneMapped)
+        context.warn(properties.element().where, "film 'ldrfilm' of Mitsuba 0.x: the image is an OpenEXR file that is "
+                                                 "not tone mapped; 'quasilux render --png' makes a picture of it.");
+    else if (file == "rgbe" || file == "pfm")
         context.warn(properties.where("file_format"),
                      fmt::format("file_format '{}': images are written as OpenEXR.", file));
     readChoice(properties, "component_format", "float16", {"float16", "float32", "uint32"});
@@ -76,7 +82,7 @@ void readFilm(const Element& element, LoadContext& context, Sensor& sensor) {
     if (element.get("type") == "specfilm")
         throw InputError(element.where, "film 'specfilm' records spectral bands, and light is linear RGB here; use "
                                         "<film type=\"hdrfilm\">.");
-    if (element.get("type") != "hdrfilm")
+    if (element.get("type") != "hdrfilm" && element.get("type") != ldrName)
         throw InputError(element.where, fmt::format("unknown film plugin '{}'.{}", element.get("type"),
                                                     knownNames(element.get("type"), {"hdrfilm"})));
     Properties properties(element, context);
@@ -92,7 +98,8 @@ void readFilm(const Element& element, LoadContext& context, Sensor& sensor) {
     sensor.filterEnds = !properties.boolean("sample_border", true);
     sensor.pixelFormat = readPixelFormat(properties);
     readFileFormats(properties, context);
-    properties.accept({"banner", "high_quality_edges", "compensate"});
+    properties.accept({"banner", "high_quality_edges", "compensate", "attach_log"});
+    if (properties.plugin() == ldrName) properties.accept({"gamma", "exposure", "key", "burn", "tonemap_method"});
     properties.finish();
 }
 

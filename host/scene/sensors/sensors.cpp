@@ -34,6 +34,8 @@ void checkPlace(const SensorPlugin& plugin, const Element& element, bool inShape
 
 /// Any of Mitsuba's: quasilux draws its own numbers.
 const Names samplers = {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"};
+/// And those of Mitsuba 0.x.
+const Names formerSamplers = {"sobol", "halton", "hammersley"};
 
 const Names batch = {"batch"}; // placeSensors takes it apart
 
@@ -79,7 +81,10 @@ Sensor readSensor(const PlacedSensor& placed, LoadContext& context) {
 
 void readSampler(const Element& element, LoadContext& context) {
     Properties properties(element, context);
-    if (std::find(samplers.begin(), samplers.end(), properties.plugin()) == samplers.end())
+    const auto isIn = [&](const Names& names) {
+        return std::find(names.begin(), names.end(), properties.plugin()) != names.end();
+    };
+    if (!isIn(samplers) && !isIn(formerSamplers))
         throw InputError(element.where, fmt::format("unknown sampler plugin '{}'.{}", properties.plugin(),
                                                     knownNames(properties.plugin(), samplers)));
     properties.acceptAll();

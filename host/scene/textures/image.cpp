@@ -19,7 +19,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr int64_t maximumPixels = 1 << 26; // 800 MB of texels
+constexpr int64_t maximumPixels = 1 << 28; // 3.2 GB of texels
 
 [[noreturn]] void failImage(const std::string& path, const std::string& why, const SourceLocation& where) {
     throw InputError(where, fmt::format("cannot read the image '{}': {}", path, why));

@@ -46,8 +46,10 @@ EmissionColor readEmission(Properties& properties, const std::string& name, Rgb 
 
 /// A number as the scene gives it, or a texture of numbers.
 struct Scalar {
-    float value = 0;
-    std::optional<unsigned> texture; ///< index into Scene::textures, of equal channels; `value` has no meaning then
+    double value = 0;                ///< of a texture its mean
+    std::optional<unsigned> texture; ///< index into Scene::textures, of equal channels
+
+    bool isZero() const { return !texture && value == 0; }
 };
 
 /// Index into Scene::textures of the colours that `element` gives; read once however often it is used.
@@ -55,11 +57,8 @@ unsigned useColorTexture(const Element& element, LoadContext& context);
 /// And of the numbers, as readShare takes them.
 unsigned useScalarTexture(const Element& element, LoadContext& context);
 
-/// Index into Scene::textures of the squares of the numbers at `index`, a bitmap or a checkerboard of two of them, times `factor`, but from
-/// `least` to 1.
-unsigned squaredTexture(unsigned index, float factor, float least, LoadContext& context);
-/// Mean of numbers as the lookup of a texture at random places has it; of an attribute of meshes, not known here yet, `missing`.
-float meanNumber(const TextureDescription& texture, float missing, const Scene& scene);
+/// Mean of numbers as the lookup of a texture at random places has it; of an attribute of meshes, not known yet, `missing`.
+float meanOfNumbers(const TextureDescription& texture, const Scene& scene, float missing);
 
 /// The parameter `name`, a number or a texture within [0, 1], such as a weight; `missing` where it is not given. Of the
 /// colours of a texture it takes, as Mitsuba, the luminance (bitmap) or the mean of the channels (others); a checkerboard's

@@ -51,46 +51,6 @@ int useTexture(const Element& element, LoadContext& context, TextureUse use = Te
     return index;
 }
 
-bool isGrey(Rgb color) { return color.r == color.g && color.r == color.b; }
-
-bool isGreyBitmap(const TextureDescription& texture) {
-    const auto grey = [](Rgb color) { return isGrey(color); };
-    return std::all_of(texture.texels.begin(), texture.texels.end(), grey);
-}
-
-Rgb greyOf(float value) { return {value, value, value}; }
-Rgb meanOf(Rgb color) { return greyOf((color.r + color.g + color.b) / 3); }
-Rgb luminanceOf(Rgb color) { return greyOf(0.212671f * color.r + 0.715160f * color.g + 0.072169f * color.b); }
-
-/// Index of the texture of numbers that the one of colours at `index` is where numbers are wanted.
-unsigned scalarTexture(unsigned index, LoadContext& context) {
-    std::vector<TextureDescription>& textures = context.scene.textures;
-    const unsigned type = textures[index].device.type;
-    if (type == TEXTURE_BITMAP && isGreyBitmap(textures[index])) return index;
-    const auto known = context.scalarTextureIndex.find(static_cast<int>(index));
-    if (known != context.scalarTextureIndex.end()) return known->second;
-    TextureDescription grey = textures[index];
-    grey.isNumber = true;
-    if (type == TEXTURE_CHECKERBOARD) {
-        // Mitsuba 3.9 has the squares the other way round where it asks a checkerboard for numbers.
-        std::swap(grey.device.color0, grey.device.color1);
-        std::swap(grey.device.texture0, grey.device.texture1);
-        grey.device.color0 = meanOf(grey.device.color0);
-        grey.device.color1 = meanOf(grey.device.color1);
-        for (unsigned* number : {&grey.device.texture0, &grey.device.texture1})
-            if (*number > 0) *number = scalarTexture(*number - 1, context) + 1;
-    }
-    if (grey.volume && grey.volume->device.channels != 1)
-        grey.volume = std::make_shared<const VolumeDescription>(meanOfChannels(*grey.volume));
-    std::vector<Rgb> luminances(grey.texels.size());
-    std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
-    grey.texels = std::move(luminances);
-    textures.push_back(std::move(grey));
-    const auto copy = static_cast<unsigned>(textures.size() - 1);
-    context.scalarTextureIndex.emplace(static_cast<int>(index), copy);
-    return copy;
-}
-
 } // namespace
 
 Names texturePluginNames() { return namesOf(texturePlugins, constantTextureNames()); }
@@ -143,51 +103,6 @@ EmissionColor readEmission(Properties& properties, const std::string& name, Rgb 
 
 unsigned useColorTexture(const Element& element, LoadContext& context) {
     return static_cast<unsigned>(useTexture(element, context));
-}
-
-unsigned useScalarTexture(const Element& element, LoadContext& context) {
-    return scalarTexture(static_cast<unsigned>(useTexture(element, context)), context);
-}
-
-unsigned squaredTexture(unsigned index, float factor, float least, LoadContext& context) {
-    const auto [known, isNew] = context.squaredTextureIndex.emplace(
-        std::pair(index, factor), static_cast<unsigned>(context.scene.textures.size()));
-    if (!isNew) return known->second;
-    TextureDescription squares = context.scene.textures[index];
-    const auto squareOf = [&](const Rgb& value) {
-        return greyOf(std::min(std::max(value.r * value.r * factor, least), 1.0f));
-    };
-    std::vector<Rgb> pixels;
-    pixels.reserve(squares.texels.size());
-    for (const Rgb& texel : squares.texels) pixels.push_back(squareOf(texel));
-    squares.texels = std::move(pixels);
-    squares.device.color0 = squareOf(squares.device.color0);
-    squares.device.color1 = squareOf(squares.device.color1);
-    context.scene.textures.push_back(std::move(squares));
-    return known->second;
-}
-
-float meanNumber(const TextureDescription& texture, float missing, const Scene& scene) {
-    if (!texture.attribute.empty()) return missing;
-    if (texture.device.type == TEXTURE_CHECKERBOARD) {
-        const auto ofSquares = [&](const Rgb& color, unsigned number) {
-            return number > 0 ? meanNumber(scene.textures[number - 1], missing, scene) : color.r;
-        };
-        return 0.5f * (ofSquares(texture.device.color0, texture.device.texture0) +
-                       ofSquares(texture.device.color1, texture.device.texture1));
-    }
-    double sum = 0;
-    if (texture.volume) {
-        for (const float value : texture.volume->values) sum += value;
-        return static_cast<float>(sum / double(texture.volume->values.size()));
-    }
-    for (const Rgb& texel : texture.texels) sum += texel.r;
-    return static_cast<float>(sum / double(texture.texels.size()));
-}
-
-Scalar readShare(Properties& properties, const std::string& name, float missing) {
-    if (const Element* texture = properties.texture(name)) return {0, useScalarTexture(*texture, properties.context())};
-    return {static_cast<float>(properties.share(name, missing)), std::nullopt};
 }
 
 } // namespace quasilux

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <unordered_set>
 
 namespace quasilux {
 
@@ -55,8 +56,9 @@ void checkValues(const ShapeDescription& shape, const MeshAttribute& attribute, 
 
 std::vector<unsigned> withNested(const Scene& scene, const std::vector<unsigned>& textures) {
     std::vector<unsigned> all;
+    std::unordered_set<unsigned> known; // there may be thousands
     const auto add = [&](unsigned index) {
-        if (std::find(all.begin(), all.end(), index) == all.end()) all.push_back(index);
+        if (known.insert(index).second) all.push_back(index);
     };
     for (const unsigned index : textures) add(index);
     for (size_t k = 0; k < all.size(); ++k) {
