@@ -27,10 +27,11 @@ glm::dvec3 colorOf(const tinygltf::Light& light, const SourceLocation& where) {
 }
 
 void addCone(Element& emitter, const tinygltf::SpotLight& spot, const SourceLocation& where) {
+    constexpr double widest = std::numbers::pi / 2, rounding = 1e-6; // exporters write single precision
     const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
-    if (!(inner >= 0 && inner < outer && outer <= std::numbers::pi / 2))
-        throw InputError(where, fmt::format("innerConeAngle {} and outerConeAngle {}; expected 0 <= inner < outer <= "
-                                            "1.5708 radians.",
+    if (!(inner >= 0 && inner <= outer && outer > 0 && outer <= widest + rounding))
+        throw InputError(where, fmt::format("innerConeAngle {} and outerConeAngle {}; expected 0 <= inner <= outer <= "
+                                            "1.5708 radians, outer above 0.",
                                             inner, outer));
     addNumber(emitter, "cutoff_angle", outer * gltfDegrees);
     addNumber(emitter, "beam_width", inner * gltfDegrees);
