@@ -85,7 +85,7 @@ def furniture():
         for y in (-0.1, 0.5):
             box("leg", (x, y, 0.36), (0.05, 0.05, 0.72), wood)
     for height in (0.4, 0.8, 1.2, 1.6):
-        box("shelf", (-1.4, 1.3, height), (1.1, 0.36, 0.03), wood)
+        box("shelf", (-1.4, 1.3, height), (1.09, 0.34, 0.03), wood)
     for x in (-1.96, -0.84):
         box("side", (x, 1.3, 0.85), (0.03, 0.36, 1.7), wood)
     books = [material("red book", (0.5, 0.08, 0.06)), material("blue book", (0.06, 0.12, 0.4)), dark]

@@ -105,10 +105,4 @@ MadeImage GltfImages::make(int index, PixelCode code, const std::string& meaning
     return made;
 }
 
-double GltfImages::leastAlpha(int index) {
-    double least = 1;
-    for (const glm::vec4& pixel : pixelsOf(index).values) least = std::min(least, double(pixel.w));
-    return least;
-}
-
 } // namespace quasilux

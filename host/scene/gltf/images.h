@@ -30,9 +30,6 @@ public:
     /// The image with all pixels changed. `meaning` tells changes apart, so that each is made once. Throws InputError.
     MadeImage make(int image, PixelCode code, const std::string& meaning, const PixelChange& change);
 
-    /// Of the alpha of all pixels the least.
-    double leastAlpha(int image);
-
 private:
     struct Pixels {
         unsigned width = 0, height = 0;

@@ -97,9 +97,8 @@ const GltfShapes::Made& GltfShapes::materialOf(const tinygltf::Primitive& primit
     return entry->second;
 }
 
-std::string GltfShapes::meshOf(const tinygltf::Primitive& primitive, const Made& material,
+std::string GltfShapes::meshOf(std::string name, const tinygltf::Primitive& primitive, const Made& material,
                                const std::vector<double>& weights, const SourceLocation& where) {
-    std::string name = where.file.substr(context_.path.size() + 2);
     if (!primitive.targets.empty() && !weights.empty()) name += fmt::format(" {}", fmt::join(weights, ","));
     const auto [entry, isNew] = context_.parts.meshes.try_emplace(name);
     if (isNew)
@@ -150,9 +149,10 @@ void GltfShapes::add(const PlacedNode& placed) {
     const std::vector<glm::dmat4> places = placesOfMesh(context_, placed);
     for (size_t p = 0; p < mesh.primitives.size(); ++p) {
         const tinygltf::Primitive& primitive = mesh.primitives[p];
-        const SourceLocation place = context_.at(fmt::format("meshes[{}].primitives[{}]", node.mesh, p));
+        const std::string number = fmt::format("meshes[{}].primitives[{}]", node.mesh, p);
+        const SourceLocation place = context_.at(number);
         const Made material = materialOf(primitive, place);
-        const std::string name = meshOf(primitive, material, morphWeights(node, mesh), place);
+        const std::string name = meshOf(number, primitive, material, morphWeights(node, mesh), place);
         if (name.empty()) continue;
         for (const glm::dmat4& toWorld : places) {
             if (isRegular(toWorld))

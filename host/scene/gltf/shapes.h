@@ -35,8 +35,8 @@ private:
     Made makeMaterial(const GltfMaterial& material, const PrimitiveSurface& primitive, int texCoord);
     std::optional<GltfParameter> emissionOf(const GltfMaterial& material, bool hasUvs);
     int texCoordOf(const GltfMaterial& material);
-    std::string meshOf(const tinygltf::Primitive& primitive, const Made& material, const std::vector<double>& weights,
-                       const SourceLocation& where);
+    std::string meshOf(std::string name, const tinygltf::Primitive& primitive, const Made& material,
+                       const std::vector<double>& weights, const SourceLocation& where);
     void addShape(const std::string& mesh, const tinygltf::Primitive& primitive, const Made& material,
                   const std::string& name, const glm::dmat4& toWorld, const SourceLocation& where);
     void enlargeBox(const MeshSource& mesh, const glm::dmat4& toWorld);

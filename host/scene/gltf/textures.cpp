@@ -57,10 +57,6 @@ int GltfTextures::imageOf(const tinygltf::TextureInfo& texture, const SourceLoca
     return found.source;
 }
 
-double GltfTextures::leastAlpha(const tinygltf::TextureInfo& texture, const SourceLocation& where) {
-    return images_.leastAlpha(imageOf(texture, where));
-}
-
 GltfParameter GltfTextures::make(const tinygltf::TextureInfo& texture, PixelCode code, const std::string& meaning,
                                  const PixelChange& change, const SourceLocation& where) {
     const MadeImage image = images_.make(imageOf(texture, where), code, meaning, change);

@@ -22,8 +22,6 @@ public:
     /// The texture with `change` made to its pixels; it is put into the scene once. `where`: of the material. Throws InputError.
     GltfParameter make(const tinygltf::TextureInfo& texture, PixelCode code, const std::string& meaning,
                        const PixelChange& change, const SourceLocation& where);
-    /// Of the alpha of its pixels the least.
-    double leastAlpha(const tinygltf::TextureInfo& texture, const SourceLocation& where);
     /// The set of texture coordinates that it is laid out by.
     static int texCoordOf(const tinygltf::TextureInfo& texture, const SourceLocation& where);
 
