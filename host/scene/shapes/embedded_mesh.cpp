@@ -9,13 +9,9 @@ namespace quasilux {
 
 void readEmbeddedMesh(Properties& properties, ShapeDescription& shape) {
     const std::string name = properties.string("name", "");
-    const EmbeddedParts* const parts = properties.context().embedded;
-    if (!parts)
-        throw InputError(properties.element().where,
-                         "shape 'mesh' is made of arrays, which XML cannot hold; write them "
-                         "to a file and use <shape type=\"ply\">.");
-    const auto found = parts->meshes.find(name);
-    if (found == parts->meshes.end())
+    const EmbeddedParts& parts = *properties.context().embedded;
+    const auto found = parts.meshes.find(name);
+    if (found == parts.meshes.end())
         throw InputError(properties.where("name"), fmt::format("the scene holds no mesh '{}'.", name));
     const bool faceNormals = properties.boolean("face_normals", false);
     shape.mesh =

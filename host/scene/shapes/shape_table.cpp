@@ -29,10 +29,16 @@ constexpr ShapePlugin shapePlugins[] = {
     {"obj", readObj},
     {"ply", readPly},
     {"serialized", readSerialized},
-    {"mesh", readEmbeddedMesh},
     {"bsplinecurve", readBsplineCurve, false},
     {"linearcurve", readLinearCurve, false},
 };
+
+/// Of scenes that hold meshes themselves; XML knows none.
+constexpr ShapePlugin embeddedMesh = {"mesh", readEmbeddedMesh};
+
+bool isEmbeddedMesh(const Element& element, const LoadContext& context) {
+    return context.embedded && element.get("type") == embeddedMesh.name;
+}
 
 /// Plugins that readShapes takes apart.
 Names compoundShapes() { return {"instance", "shapegroup", "merge"}; }
@@ -61,11 +67,13 @@ void checkFlat(const ShapeDescription& shape) {
 Names shapePluginNames() { return namesOf(shapePlugins, compoundShapes()); }
 
 bool leavesOutShape(const Element& element, LoadContext& context) {
-    return !findPlugin(shapePlugins, element, context, "left out", compoundShapes());
+    return !isEmbeddedMesh(element, context) &&
+           !findPlugin(shapePlugins, element, context, "left out", compoundShapes());
 }
 
 ShapeDescription readShape(const Element& element, LoadContext& context, const Element*& sensor) {
-    const ShapePlugin& plugin = findPlugin(shapePlugins, element, compoundShapes());
+    const ShapePlugin& plugin =
+        isEmbeddedMesh(element, context) ? embeddedMesh : findPlugin(shapePlugins, element, compoundShapes());
     Properties properties(element, context);
     ShapeDescription shape;
     shape.id = idOf(element);
