@@ -119,6 +119,12 @@ std::shared_ptr<const MeshSource> readPrimitive(GltfContext& context, const tiny
         context.withoutEffect.insert("primitives without POSITION");
         return nullptr;
     }
+    // Where --lenient forgives that an extension is required: what it compresses has no buffer.
+    const tinygltf::Accessor& stored = gltfEntry(context.model.accessors, "accessors", positions, use.where);
+    if (stored.bufferView < 0 && !stored.sparse.isSparse) {
+        context.withoutEffect.insert("primitives whose POSITION has no buffer");
+        return nullptr;
+    }
     MeshSource mesh;
     mesh.positions = vectorsOf(readAttribute(context, positions, {3}, 0, "POSITION", use.where));
     const size_t vertices = mesh.positions.size();
