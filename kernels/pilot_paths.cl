@@ -153,7 +153,7 @@ inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* st
 
 /* Emission that the path runs into. */
 inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, uint index, uint element,
-                        float distance, float3 normal, float2 uv, float3 end) {
+                        float distance, float3 normal, TexturePoint place, float3 end) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
     const EmitterData data = emitterData(world->tables, scene);
@@ -164,7 +164,7 @@ inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, 
                         probability * emitterPdfSolidAngle(emitter, &data, state->from, state->ray.direction,
                                                            state->passed + distance, normal));
     const int isDirect = state->gathers && state->events == 0;
-    const float3 radiance = emitterRadiance(emitter, &data, state->ray.direction, uv);
+    const float3 radiance = emitterRadiance(emitter, &data, state->ray.direction, &place);
     foundEmission(path, state, isDirect, share * meanOf(state->throughput * radiance), 1, probability, index, element,
                   end, state->ray.direction, &state->rng);
 }
@@ -234,7 +234,7 @@ inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* sta
     const int isHidden = s.emitter != QL_NONE && pilotLooksThrough(state);
     if (s.emitter != QL_NONE && s.front && !isHidden)
         meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
-                    hit.t, s.geometricNormal, uvOf(&s), s.position);
+                    hit.t, s.geometricNormal, placeOf(&s), s.position);
     if (s.isNull || isHidden) {
         passPilot(world, state, &s, hit.t);
         return 1;
@@ -328,7 +328,8 @@ inline int followPilot(const World* world, PilotPath* path, PilotState* state) {
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
     const uint surroundings = emitterOfSurroundings(emitters, scene->emitterCount);
     if (surroundings != QL_NONE && !pilotLooksThrough(state))
-        meetEmitter(world, path, state, surroundings, 0, INFINITY, -state->ray.direction, 0, state->ray.origin);
+        meetEmitter(world, path, state, surroundings, 0, INFINITY, -state->ray.direction, texturePointOf(0),
+                    state->ray.origin);
     return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "support/wrong_learning.h"
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
@@ -96,15 +97,17 @@ constexpr double half = 0.3;
 constexpr dvec2 middle(0.4, 0.2);
 
 /// A floor of albedo 0.5 below the emitter; the camera looks at it from below that.
+std::string floorText(const std::string& emitter) {
+    return R"(<scene version="3.0.0"><integrator type="path"/><sensor type="orthographic"><transform name="to_world">
+        <scale value="0.3"/><rotate y="1" angle="180"/><translate x="0.4" y="0.2" z="1.3"/></transform><film type="hdrfilm"><rfilter type="box"/>
+        <integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="rectangle"><bsdf type="diffuse"/></shape>)" +
+           emitter + "</scene>";
+}
+
 Scene floorUnder(const Case& c) {
     test::SceneFiles files;
     writeQuarters(files);
-    return loadScene(files.write(
-        "scene.xml",
-        R"(<scene version="3.0.0"><integrator type="path"/><sensor type="orthographic"><transform name="to_world">
-        <scale value="0.3"/><rotate y="1" angle="180"/><translate x="0.4" y="0.2" z="1.3"/></transform><film type="hdrfilm"><rfilter type="box"/>
-        <integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="rectangle"><bsdf type="diffuse"/></shape>)" +
-            emitting(c.shape, c.parameters) + "</scene>"));
+    return loadScene(files.write("scene.xml", floorText(emitting(c.shape, c.parameters))));
 }
 
 /// Mean radiance of the image, by sums over the emitter.
@@ -151,6 +154,42 @@ TEST_P(TexturedShape, HasThePowerOfItsTexture) {
 INSTANTIATE_TEST_SUITE_P(Shapes, TexturedShape, testing::ValuesIn(cases),
                          [](const auto& row) { return std::string(row.param.name); });
 
+/// The quarters on a mesh of 2 x 2 squares, by an attribute of its faces.
+void writeQuarterFaces(const std::string& path) {
+    std::ofstream file(path);
+    file << "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\nelement "
+            "face "
+            "8\nproperty list uchar int vertex_indices\nproperty float glow_r\nproperty float glow_g\nproperty float "
+            "glow_b\nend_header\n";
+    for (int k = 0; k < 9; ++k) file << k % 3 - 1 << " " << k / 3 - 1 << " 0\n";
+    for (int k = 0; k < 4; ++k) {
+        const int a = 3 * (k / 2) + k % 2;
+        const double value = values[k / 2][k % 2];
+        file << "3 " << a << " " << a + 1 << " " << a + 4 << " " << value << " " << value << " " << value << "\n";
+        file << "3 " << a << " " << a + 4 << " " << a + 3 << " " << value << " " << value << " " << value << "\n";
+    }
+}
+
+// Not held against Mitsuba: where its `path` samples emitters, attributes of meshes are black to it.
+TEST(TexturedShapes, AttributesOfAMeshLightAFloorAsAnImageDoes) {
+    const Case& rectangle = cases[0];
+    test::SceneFiles files;
+    writeQuarterFaces(files.path("quarters.ply"));
+    std::string scene = floorText(
+        R"(<shape type="ply"><string name="filename" value="quarters.ply"/>)" + std::string(rectangle.parameters) +
+        R"(<emitter type="area"><texture type="mesh_attribute" name="radiance"><string name="name" value="face_glow_color"/></texture></emitter></shape>)");
+    const Scene loaded = loadScene(files.write("scene.xml", scene));
+    const double truth = floorRadiance(rectangle, valueAt);
+    const double even = floorRadiance(rectangle, [](const dvec2&) { return evenValue; });
+    for (const DirectLight direct : {DirectLight::emitters, DirectLight::photons}) {
+        const auto result = meanOfImage(loaded, direct, false);
+        const double allowed = 4 * result.standardError + 0.005 * truth;
+        EXPECT_NEAR(result.mean, truth, allowed) << "photons " << (direct == DirectLight::photons);
+        EXPECT_GT(std::abs(result.mean - even), allowed) << "negative control";
+    }
+    EXPECT_NEAR(lastEmitter(loaded).power, pi * rectangle.area * evenValue, 1e-5);
+}
+
 TEST(TexturedShapes, AreSeenAsTheirTexture) {
     // From above, image to the right along +x: u to the right, v upwards; mirrored in x where it is turned about y.
     const std::pair<const char*, bool> placements[] = {
@@ -187,9 +226,10 @@ TEST(TexturedShapes, SayWhatIsWrong) {
         {"<shape type=\"rectangle\">" + checkers +
              "<float name=\"color0\" value=\"0\"/><float name=\"color1\" value=\"0\"/></texture></emitter></shape>",
          "scene.xml:5:1: the texture 'radiance' of emitter 'area' is black"},
-        {"<shape type=\"rectangle\">" + checkers +
-             "<texture type=\"checkerboard\" name=\"color0\"/></texture></emitter></shape>",
-         "scene.xml:5:1: the texture 'radiance' of emitter 'area' gives what is emitted"}};
+        {"<shape type=\"obj\" id=\"m\"><string name=\"filename\" value=\"m.obj\"/><emitter type=\"area\">\n<texture "
+         "type=\"mesh_attribute\" name=\"radiance\"><string name=\"name\" "
+         "value=\"vertex_color\"/></texture></emitter></shape>",
+         "scene.xml:4:1: shape 'm' has no attribute 'vertex_color', which a texture of its bsdf or emitter shows"}};
     for (const auto& [body, message] : bad)
         EXPECT_THAT(test::errorOf(files.write("scene.xml", test::sceneWith(body))), HasSubstr(message));
 }

@@ -293,10 +293,11 @@ TEST(SpotReader, SaysWhatIsWrong) {
         {spot("<rgb name=\"texture\" value=\"0\"/>"), {"scene.xml:5:1", "parameter 'texture'", "positive channel"}},
         {spot("<texture type=\"mesh_attribute\" name=\"texture\"><string name=\"name\" "
               "value=\"vertex_color\"/></texture>"),
-         {"scene.xml:5:1", "the texture 'texture' of emitter 'spot' gives what is emitted", "bake it into an image"}},
-        {spot("<texture type=\"checkerboard\" name=\"texture\"><texture type=\"checkerboard\" "
+         {"scene.xml:5:1", "the texture 'texture' of emitter 'spot' gives what is emitted from one point",
+          "use a 'bitmap'"}},
+        {spot("<texture type=\"checkerboard\" name=\"texture\"><texture type=\"volume\" "
               "name=\"color0\"/></texture>"),
-         {"scene.xml:5:1", "gives what is emitted"}},
+         {"scene.xml:5:1", "gives what is emitted from one point"}},
         {spot("<texture type=\"bitmap\" name=\"texture\"/>"), {"scene.xml:5:1", "needs <string name=\"filename\""}},
         {spot("<float name=\"cutof_angle\" value=\"1\"/>"), {"scene.xml:5:1", "Did you mean 'cutoff_angle'"}}};
     test::expectErrors(files, cases);

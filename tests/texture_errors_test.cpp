@@ -157,10 +157,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(MeshAttributes, OfAShapeThatLacksThemAreSaid) {
     SceneFiles files;
     files.write("m.ply", plyWith(three("float", "r g b q_x q_y"), ".1 .2 .3 .4 .5", three("float", "w_x"), ".5"));
-    EXPECT_THAT(
-        test::errorOf(files.write("scene.xml", showing("vertex_colour"))),
-        HasSubstr("scene.xml:4:1: shape 'm' has no attribute 'vertex_colour', which a texture of its bsdf shows. It "
-                  "has: vertex_color, face_w."));
+    EXPECT_THAT(test::errorOf(files.write("scene.xml", showing("vertex_colour"))),
+                HasSubstr("scene.xml:4:1: shape 'm' has no attribute 'vertex_colour', which a texture of its bsdf or "
+                          "emitter shows. It "
+                          "has: vertex_color, face_w."));
     const std::string error = test::errorOf(files.write(
         "scene.xml",
         withTexture("diffuse", "<texture type=\"mesh_attribute\" name=\"reflectance\"><string name=\"name\" "

@@ -99,10 +99,10 @@ Rgb meanOfRadiance(const ShapeDescription& shape, const Scene& scene) {
     if (!shape.emitter->texture) return {1, 1, 1};
     const TextureDescription& texture = scene.textures[*shape.emitter->texture];
     if (shape.sphere) // even in azimuth and in the cosine of the angle to its axis
-        return meanOfTexture(texture, [](double x, double y) {
+        return meanOfTexture(texture, scene.textures, [](double x, double y) {
             return TexturePlace{{x, std::acos(1 - 2 * y) / pi}, 1};
         });
-    return meanOfTexture(texture, shape.mesh);
+    return meanOfTexture(texture, scene.textures, shape.mesh);
 }
 
 /// Of its intensity over that on the axis: 2 pi times the integral of min(1, (cutoff - angle) / (cutoff - beam)) sin(angle).
@@ -112,11 +112,12 @@ double solidAngleOf(const PointEmitter::Spot& spot) {
 }
 
 /// Mean of the picture's texture over the spot's intensity without it.
-Rgb meanOfPicture(const TextureDescription& texture, const PointEmitter& point) {
+Rgb meanOfPicture(const TextureDescription& texture, const PointEmitter& point,
+                  const std::vector<TextureDescription>& all) {
     const PointEmitter::Spot& spot = *point.spot;
     const glm::dvec3 axis(spot.axis), u(point.picture->u), v(point.picture->v);
     const glm::dvec3 s = glm::normalize(u), t = glm::normalize(v);
-    return meanOfTexture(texture, [&](double x, double y) {
+    return meanOfTexture(texture, all, [&](double x, double y) {
         const double cosine = 1 - x * 2 * std::pow(std::sin(spot.cutoffAngle / 2), 2), azimuth = 2 * pi * y;
         const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
         const glm::dvec3 d = cosine * axis + sine * (std::cos(azimuth) * s + std::sin(azimuth) * t);
@@ -160,8 +161,8 @@ Rgb meanOfPicture(const PointEmitter& point, const shared::Emitter& emitter,
                   const std::vector<TextureDescription>& all) {
     if (emitter.texture == 0) return {1, 1, 1};
     const TextureDescription& texture = all[emitter.texture - 1];
-    if (point.spot) return meanOfPicture(texture, point);
-    return meanOfTexture(texture, [](double x, double y) { return TexturePlace{{x, y}, 1}; });
+    if (point.spot) return meanOfPicture(texture, point, all);
+    return meanOfTexture(texture, all, [](double x, double y) { return TexturePlace{{x, y}, 1}; });
 }
 
 /// Completes the record and returns the flux over the intensity.

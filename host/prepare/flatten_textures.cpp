@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <map>
 
 namespace quasilux {
@@ -39,7 +40,8 @@ void appendAttribute(const TextureDescription& texture, const Mesh& mesh, std::v
                      [&](const MeshAttribute& attribute) { return attribute.name == texture.attribute; });
     const auto append = [&](size_t index) {
         const Rgb value = shown->values.at(index) * texture.attributeScale;
-        appendColor({std::min(value.r, 1.0f), std::min(value.g, 1.0f), std::min(value.b, 1.0f)}, words);
+        const float most = texture.use == TextureUse::emission ? std::numeric_limits<float>::max() : 1.0f;
+        appendColor({std::min(value.r, most), std::min(value.g, most), std::min(value.b, most)}, words);
     };
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (shown->isOfFaces())
@@ -56,7 +58,7 @@ unsigned appendAttributes(unsigned index, const Scene& scene, std::vector<uint32
     for (size_t k = 0; k < scene.shapes.size(); ++k) {
         const ShapeDescription& shape = scene.shapes[k];
         if (shape.mesh.attributes.empty()) continue;
-        const auto shown = withNested(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)].textures());
+        const auto shown = texturesOf(scene, shape);
         if (std::find(shown.begin(), shown.end(), index) == shown.end()) continue;
         words[directory + k] = static_cast<uint32_t>(words.size());
         appendAttribute(scene.textures[index], shape.mesh, words);
@@ -125,7 +127,8 @@ bool hasUvLayers(const Scene& scene) {
 }
 
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape) {
-    const bool isShown = hasUvLayers(scene) || (shape.emitter && shape.emitter->texture);
+    const bool isShown = hasUvLayers(scene) ||
+                         (shape.emitter && shape.emitter->texture && needTexCoords(scene, {*shape.emitter->texture}));
     if (!isShown && (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)]))) return 0;
     return shape.sphere ? 9u : static_cast<unsigned>(2 * shape.mesh.cornerUvs.size());
 }

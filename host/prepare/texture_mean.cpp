@@ -47,8 +47,19 @@ constexpr unsigned leastSamples = 64, mostSamples = 1024;
 
 unsigned samplesAlong(unsigned pixels) { return std::clamp(2 * pixels, leastSamples, mostSamples); }
 
+/// Of all voxels.
+glm::dvec3 meanOfVolume(const VolumeDescription& volume) {
+    const size_t channels = volume.device.channels;
+    glm::dvec3 sum(0);
+    for (size_t k = 0; k < volume.values.size(); k += channels)
+        sum += channels == 1 ? glm::dvec3(volume.values[k])
+                             : glm::dvec3(volume.values[k], volume.values[k + 1], volume.values[k + 2]);
+    return sum * (double(channels) / double(volume.values.size()));
+}
+
 /// Of all pixels, or both colours.
 glm::dvec3 meanOfAll(const TextureDescription& texture) {
+    if (texture.volume) return meanOfVolume(*texture.volume);
     if (texture.texels.empty()) return 0.5 * (wide(texture.device.color0) + wide(texture.device.color1));
     glm::dvec3 sum(0);
     for (const Rgb& value : texture.texels) sum += wide(value);
@@ -57,11 +68,12 @@ glm::dvec3 meanOfAll(const TextureDescription& texture) {
 
 class WeightedMean {
 public:
-    explicit WeightedMean(const TextureDescription& texture) : texture_(texture) {}
+    WeightedMean(const TextureDescription& texture, const std::vector<TextureDescription>& all)
+        : texture_(texture), all_(all) {}
 
     void add(const TexturePlace& place) {
         if (!(place.weight > 0) || !std::isfinite(place.uv.x) || !std::isfinite(place.uv.y)) return;
-        sum_ += place.weight * textureValue(texture_, place.uv);
+        sum_ += place.weight * textureValue(texture_, all_, place.uv);
         weights_ += place.weight;
     }
     Rgb mean() const {
@@ -72,9 +84,28 @@ public:
 
 private:
     const TextureDescription& texture_;
+    const std::vector<TextureDescription>& all_;
     glm::dvec3 sum_{0};
     double weights_ = 0;
 };
+
+/// Mean by area of what the mesh file says.
+Rgb meanOfAttribute(const TextureDescription& texture, const Mesh& mesh) {
+    const auto shown = std::find_if(mesh.attributes.begin(), mesh.attributes.end(),
+                                    [&](const MeshAttribute& known) { return known.name == texture.attribute; });
+    glm::dvec3 sum(0);
+    double areas = 0;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const glm::uvec3& corners = mesh.triangles[t];
+        const auto at = [&](unsigned k) { return wide(shown->values.at(k)); };
+        const glm::dvec3 p0 = mesh.positions[corners.x], e1 = glm::dvec3(mesh.positions[corners.y]) - p0,
+                         e2 = glm::dvec3(mesh.positions[corners.z]) - p0;
+        const double area = glm::length(glm::cross(e1, e2));
+        sum += area * (shown->isOfFaces() ? at(unsigned(t)) : (at(corners.x) + at(corners.y) + at(corners.z)) / 3.0);
+        areas += area;
+    }
+    return narrow(areas > 0 ? double(texture.attributeScale) * sum / areas : sum);
+}
 
 /// The unit square onto a triangle, keeping shares of area; weights of its second and third corner.
 glm::dvec2 onTriangle(double x, double y) {
@@ -83,26 +114,31 @@ glm::dvec2 onTriangle(double x, double y) {
 
 } // namespace
 
-glm::dvec3 textureValue(const TextureDescription& texture, glm::dvec2 uv) {
+glm::dvec3 textureValue(const TextureDescription& texture, const std::vector<TextureDescription>& all, glm::dvec2 uv) {
     const shared::Texture& t = texture.device;
+    if (texture.volume || !texture.attribute.empty()) return meanOfAll(texture);
     const glm::dvec2 at(t.toU[0] * uv.x + t.toU[1] * uv.y + t.toU[2], t.toV[0] * uv.x + t.toV[1] * uv.y + t.toV[2]);
     if (t.type == TEXTURE_BITMAP) return bitmapValue(texture, at);
     const bool same = (at.x - std::floor(at.x) > 0.5) == (at.y - std::floor(at.y) > 0.5);
-    return wide(same ? t.color0 : t.color1);
+    const unsigned within = same ? t.texture0 : t.texture1;
+    return within > 0 ? textureValue(all[within - 1], all, uv) : wide(same ? t.color0 : t.color1);
 }
 
-Rgb meanOfTexture(const TextureDescription& texture, const std::function<TexturePlace(double x, double y)>& placeAt) {
+Rgb meanOfTexture(const TextureDescription& texture, const std::vector<TextureDescription>& all,
+                  const std::function<TexturePlace(double x, double y)>& placeAt) {
     const unsigned columns = samplesAlong(texture.device.width), rows = samplesAlong(texture.device.height);
-    WeightedMean mean(texture);
+    WeightedMean mean(texture, all);
     for (unsigned j = 0; j < rows; ++j)
         for (unsigned i = 0; i < columns; ++i) mean.add(placeAt((i + 0.5) / columns, (j + 0.5) / rows));
     return mean.mean();
 }
 
-Rgb meanOfTexture(const TextureDescription& texture, const Mesh& mesh) {
+Rgb meanOfTexture(const TextureDescription& texture, const std::vector<TextureDescription>& all, const Mesh& mesh) {
+    if (!texture.attribute.empty()) return meanOfAttribute(texture, mesh);
+    if (mesh.cornerUvs.empty()) return narrow(meanOfAll(texture)); // it shows attributes or volumes only
     const double samples = double(samplesAlong(texture.device.width)) * samplesAlong(texture.device.height);
     const auto side = static_cast<unsigned>(std::ceil(std::sqrt(samples / double(mesh.triangles.size()))));
-    WeightedMean mean(texture);
+    WeightedMean mean(texture, all);
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         const glm::uvec3& triangle = mesh.triangles[t];
         const glm::dvec3 p0 = mesh.positions[triangle.x], e1 = glm::dvec3(mesh.positions[triangle.y]) - p0,

@@ -4,8 +4,8 @@
 inline EmitterData dataOf(__global const Texture* texture, __global const Rgb* texels) {
     EmitterData data;
     data.triangles = 0;
-    data.textures = texture;
-    data.texels = texels;
+    data.textures.textures = texture;
+    data.textures.texels = texels;
     return data;
 }
 

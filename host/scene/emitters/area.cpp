@@ -7,7 +7,7 @@ namespace quasilux {
 
 AreaEmitter readArea(Properties& properties) {
     AreaEmitter emitter;
-    const EmissionColor radiance = readEmission(properties, "radiance", {1, 1, 1});
+    const EmissionColor radiance = readEmission(properties, "radiance", {1, 1, 1}, true);
     emitter.radiance = radiance.scale;
     emitter.texture = radiance.texture;
     emitter.where = properties.element().where;

@@ -48,7 +48,7 @@ void readSpot(Properties& properties) {
     PointEmitter emitter = pointEmitterAt(transformPoint(toWorld, glm::dvec3(0)), properties);
     emitter.spot = {glm::vec3(glm::normalize(transformVector(toWorld, {0, 0, 1}))),
                     std::min(beam * radians, cutoff * radians * (1 - leastTransition)), cutoff * radians};
-    const EmissionColor picture = readEmission(properties, "texture", {1, 1, 1});
+    const EmissionColor picture = readEmission(properties, "texture", {1, 1, 1}, false);
     emitter.intensity = emitter.intensity * picture.scale;
     if (picture.texture)
         emitter.picture = {acrossCone(toWorld, 0, cutoff), acrossCone(toWorld, 1, cutoff), picture.texture};

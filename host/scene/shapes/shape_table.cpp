@@ -95,12 +95,13 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     if (interior) shape.interior = useMedium(*interior, context);
     if (exterior) shape.exterior = useMedium(*exterior, context);
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
-    keepShownAttributes(shape, context);
     if (needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
         checkTexCoords(shape, "bsdf");
+    if (emitter) shape.emitter = readShapeEmitter(*emitter, context);
+    keepShownAttributes(shape, context);
     if (emitter) {
-        shape.emitter = readShapeEmitter(*emitter, context);
-        if (shape.emitter->texture) checkTexCoords(shape, "emitter");
+        if (shape.emitter->texture && needTexCoords(context.scene, {*shape.emitter->texture}))
+            checkTexCoords(shape, "emitter");
         if (shape.emitter->alongNormal) checkFlat(shape);
         if (!(static_cast<float>(areaOf(shape)) > 0))
             throw InputError(

@@ -6,6 +6,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -57,6 +58,23 @@ std::unique_ptr<OIIO::ImageInput> openPlain(const std::string& path, const OIIO:
               where);
 }
 
+/// Decodes sRGB. Of files of bytes there are 256 values, which are decoded once: powers are most of the time that a large image takes.
+class Decoder {
+public:
+    explicit Decoder(bool ofBytes) : ofBytes_(ofBytes) { known_.fill(-1); }
+
+    float operator()(float value) {
+        if (!ofBytes_ || !(value >= 0 && value <= 1)) return decodeSrgb(value);
+        float& known = known_[static_cast<size_t>(255 * value + 0.5f)];
+        if (known < 0) known = decodeSrgb(value);
+        return known;
+    }
+
+private:
+    bool ofBytes_;
+    std::array<float, 256> known_{};
+};
+
 Image readWithin(const Range& range, const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard) {
     readFile(path, where, "image"); // says what is wrong with the name
     OIIO::ImageSpec asStored;
@@ -78,6 +96,7 @@ Image readWithin(const Range& range, const std::string& path, bool raw, const So
         failImage(path, file->geterror(), where);
 
     const bool encoded = !raw && !spec.format.is_floating_point();
+    Decoder decode(spec.format == OIIO::TypeDesc::UINT8);
     const auto step = static_cast<size_t>(channels);
     const size_t green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2; // one channel, or grey and alpha
     Image image{static_cast<unsigned>(spec.width), static_cast<unsigned>(spec.height), {}, 0};
@@ -92,7 +111,7 @@ Image readWithin(const Range& range, const std::string& path, bool raw, const So
                           fmt::format("pixel {}, {} has the value {}; {}.", i / step % image.width,
                                       i / step / image.width, value, range.rule),
                           where);
-            if (encoded) value = decodeSrgb(value);
+            if (encoded) value = decode(value);
             beyond |= value < range.least || value > range.most;
             value = std::min(std::max(value, range.least), range.most);
         }

@@ -41,8 +41,9 @@ struct EmissionColor {
     std::optional<unsigned> texture; ///< index into Scene::textures
 };
 
-/// The parameter `name`, a colour or a texture; `missing` where it is not given. What is black all over is refused.
-EmissionColor readEmission(Properties& properties, const std::string& name, Rgb missing);
+/// The parameter `name`, a colour or a texture; `missing` where it is not given. What is black all over is refused, and of an emitter that
+/// is no shape what is looked up by place.
+EmissionColor readEmission(Properties& properties, const std::string& name, Rgb missing, bool ofShape);
 
 /// A number as the scene gives it, or a texture of numbers.
 struct Scalar {

@@ -2,6 +2,7 @@
 #include "scene/plugin_lookup.h"
 #include "scene/textures/constant_texture.h"
 #include "scene/textures/texture_plugin.h"
+#include "scene/textures/texture_use.h"
 #include "scene/transform.h"
 
 #include <algorithm>
@@ -83,17 +84,19 @@ Reflectance readReflectance(Properties& properties, const std::string& name, flo
     return {static_cast<unsigned>(index) + 1, largestValue(read)};
 }
 
-EmissionColor readEmission(Properties& properties, const std::string& name, Rgb missing) {
+EmissionColor readEmission(Properties& properties, const std::string& name, Rgb missing, bool ofShape) {
     const Element* texture = properties.texture(name);
     if (!texture) return {properties.emission(name, missing), std::nullopt};
     if (replacesTexture(*texture, properties.context())) return {{0.5f, 0.5f, 0.5f}, std::nullopt};
     const int index = useTexture(*texture, properties.context(), TextureUse::emission);
     const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
-    if (!read.attribute.empty() || read.volume || read.device.texture0 > 0 || read.device.texture1 > 0)
-        throw InputError(texture->where,
-                         fmt::format("the texture '{}' of {} gives what is emitted, so it must be a 'bitmap' or a "
-                                     "'checkerboard' of two colours; bake it into an image.",
-                                     name, properties.describe()));
+    const Scene& scene = properties.context().scene;
+    for (const unsigned shown : withNested(scene, {static_cast<unsigned>(index)}))
+        if (!ofShape && (!scene.textures[shown].attribute.empty() || scene.textures[shown].volume))
+            throw InputError(texture->where,
+                             fmt::format("the texture '{}' of {} gives what is emitted from one point, which has no "
+                                         "attributes and no place in a volume; use a 'bitmap' or a 'checkerboard'.",
+                                         name, properties.describe()));
     if (isBlack(largestValue(read)))
         throw InputError(texture->where,
                          fmt::format("the texture '{}' of {} is black, so it emits nothing; remove the emitter.", name,

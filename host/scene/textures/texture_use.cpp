@@ -26,12 +26,16 @@ const MeshAttribute& findAttribute(const ShapeDescription& shape, const std::str
     if (found != all.end()) return *found;
     const std::string known = all.empty() ? "It has none; those of the vertices and faces of PLY files are read."
                                           : fmt::format("It has: {}.", joinNames(namesOf(all)));
-    throw InputError(shape.where, fmt::format("shape '{}' has no attribute '{}', which a texture of its bsdf shows. {}",
-                                              shape.id, name, known));
+    throw InputError(shape.where,
+                     fmt::format("shape '{}' has no attribute '{}', which a texture of its bsdf or emitter shows. {}",
+                                 shape.id, name, known));
 }
 
 /// Throws InputError for values that are no reflectances, warns of those that are too large.
-void checkValues(const ShapeDescription& shape, const MeshAttribute& attribute, float scale, LoadContext& context) {
+void checkValues(const ShapeDescription& shape, const MeshAttribute& attribute, const TextureDescription& texture,
+                 LoadContext& context) {
+    const float scale = texture.attributeScale;
+    const bool emits = texture.use == TextureUse::emission;
     size_t above = 0;
     for (size_t k = 0; k < attribute.values.size(); ++k) {
         const Rgb& value = attribute.values[k];
@@ -39,10 +43,11 @@ void checkValues(const ShapeDescription& shape, const MeshAttribute& attribute, 
             if (!std::isfinite(channel) || channel < 0)
                 throw InputError(shape.where,
                                  fmt::format("attribute '{}' of shape '{}', times the texture's scale, is {} at {} {}; "
-                                             "reflectances lie within [0, 1].",
+                                             "{}.",
                                              attribute.name, shape.id, channel,
-                                             attribute.isOfFaces() ? "triangle" : "vertex", k));
-        above += scale * std::max({value.r, value.g, value.b}) > 1;
+                                             attribute.isOfFaces() ? "triangle" : "vertex", k,
+                                             emits ? "radiance is at least 0" : "reflectances lie within [0, 1]"));
+        above += !emits && scale * std::max({value.r, value.g, value.b}) > 1;
     }
     if (above == 0 || !context.brightAttributes.insert(fmt::format("{} {} {}", shape.id, attribute.name, scale)).second)
         return;
@@ -70,17 +75,26 @@ std::vector<unsigned> withNested(const Scene& scene, const std::vector<unsigned>
 }
 
 bool needsTexCoords(const Scene& scene, const Bsdf& bsdf) {
-    if (bsdf.frontRelief || bsdf.backRelief) return true;
-    const std::vector<unsigned> shown = withNested(scene, bsdf.textures());
+    return bsdf.frontRelief || bsdf.backRelief || needTexCoords(scene, bsdf.textures());
+}
+
+bool needTexCoords(const Scene& scene, const std::vector<unsigned>& textures) {
+    const std::vector<unsigned> shown = withNested(scene, textures);
     return std::any_of(shown.begin(), shown.end(), [&](unsigned index) {
         return !isAttribute(scene.textures[index]) && !scene.textures[index].volume;
     });
 }
 
+std::vector<unsigned> texturesOf(const Scene& scene, const ShapeDescription& shape) {
+    std::vector<unsigned> all = scene.bsdfs[static_cast<size_t>(shape.bsdf)].textures();
+    if (shape.emitter && shape.emitter->texture) all.push_back(*shape.emitter->texture);
+    return withNested(scene, all);
+}
+
 void keepShownAttributes(ShapeDescription& shape, LoadContext& context) {
     const Scene& scene = context.scene;
     std::vector<MeshAttribute> kept;
-    for (const unsigned index : withNested(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)].textures())) {
+    for (const unsigned index : texturesOf(scene, shape)) {
         const TextureDescription& texture = scene.textures[index];
         if (!isAttribute(texture)) continue;
         const MeshAttribute& attribute = findAttribute(shape, texture.attribute);
@@ -88,7 +102,7 @@ void keepShownAttributes(ShapeDescription& shape, LoadContext& context) {
             throw InputError(shape.where, fmt::format("attribute '{}' of shape '{}' has {} channels, but a number is "
                                                       "wanted of it; use an attribute of one channel.",
                                                       attribute.name, shape.id, attribute.channels));
-        checkValues(shape, attribute, texture.attributeScale, context);
+        checkValues(shape, attribute, texture, context);
         const auto same = [&](const MeshAttribute& other) { return other.name == attribute.name; };
         if (std::none_of(kept.begin(), kept.end(), same)) kept.push_back(attribute);
     }

@@ -1,4 +1,4 @@
-// What the textures of a bsdf need of the shapes that it is on.
+// What textures of bsdfs and emitters need of the shapes that they are on.
 #pragma once
 
 #include "scene/load_context.h"
@@ -11,7 +11,12 @@ std::vector<unsigned> withNested(const Scene& scene, const std::vector<unsigned>
 /// Whether texture coordinates are asked for: attributes of meshes need none.
 bool needsTexCoords(const Scene& scene, const Bsdf& bsdf);
 
-/// Of a shape's attributes leaves those that its bsdf shows. Throws InputError at the shape where it lacks one, or where one does not fit.
+bool needTexCoords(const Scene& scene, const std::vector<unsigned>& textures);
+
+/// What its bsdf and emitter show, nested ones too, each once.
+std::vector<unsigned> texturesOf(const Scene& scene, const ShapeDescription& shape);
+
+/// Of a shape's attributes leaves those that its bsdf and emitter show. Throws InputError at the shape where it lacks one, or where one does not fit.
 void keepShownAttributes(ShapeDescription& shape, LoadContext& context);
 
 } // namespace quasilux

@@ -30,8 +30,10 @@ void readVolumeTexture(Properties& properties, TextureDescription& texture) {
     size_t above = 0;
     float largest = 0;
     for (float& value : volume.values) {
-        above += value > 1;
-        value = std::min(value, 1.0f);
+        if (texture.use == TextureUse::reflectance) {
+            above += value > 1;
+            value = std::min(value, 1.0f);
+        }
         largest = std::max(largest, value);
     }
     if (above > 0)
