@@ -52,36 +52,6 @@ std::pair<float, float> alphasAt(const DeviceScene& scene, double u, double v) {
     return {lobe.alphaU, lobe.alphaV};
 }
 
-TEST(AlphaTexture, OfPrincipledIsItsRoughnessSquared) {
-    const auto principled = [](const std::string& plugin, const std::string& content) {
-        return withBsdf("<bsdf type=\"" + plugin + "\">" + content + "</bsdf>");
-    };
-    const std::string squares = "<texture type=\"checkerboard\" name=\"roughness\"><float name=\"color0\" "
-                                "value=\"0.6\"/><float name=\"color1\" value=\"0.01\"/></texture>";
-    const auto alphas = [](const Scene& scene, bool alongU) {
-        for (const LobeDescription& lobe : scene.bsdfs.at(0).front)
-            if (lobe.name == "specular") {
-                const auto& device =
-                    scene.textures.at((alongU ? lobe.alphaTextureU : lobe.alphaTextureV).value()).device;
-                return std::pair(std::min(device.color0.r, device.color1.r),
-                                 std::max(device.color0.r, device.color1.r));
-            }
-        return std::pair(0.f, 0.f);
-    };
-    const Scene round = principled("principled", squares);
-    EXPECT_EQ(alphas(round, true), std::pair(0.001f, 0.6f * 0.6f)); // the least that it has
-    EXPECT_EQ(alphas(round, true), alphas(round, false));
-    EXPECT_TRUE(flattened(round).features.alphaTextures);
-    const Scene along = principled("principled", squares + "<float name=\"anisotropic\" value=\"0.5\"/>");
-    const double aspect = std::sqrt(1 - 0.9 * 0.5);
-    EXPECT_NEAR(alphas(along, true).second, 0.36 / aspect, 1e-6);
-    EXPECT_NEAR(alphas(along, false).second, 0.36 * aspect, 1e-6);
-    EXPECT_THROW(principled("principledthin", squares), InputError);
-    EXPECT_THROW(principled("principled", "<texture type=\"mesh_attribute\" name=\"roughness\"><string name=\"name\" "
-                                          "value=\"vertex_a\"/></texture>"),
-                 InputError);
-}
-
 TEST(AlphaTexture, HasALobeNearEachValue) {
     const DeviceScene one = flattened(withBsdf("<bsdf type=\"roughconductor\">" + rampAs("alpha") + "</bsdf>"));
     EXPECT_TRUE(one.features.alphaTextures);
