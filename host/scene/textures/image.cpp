@@ -65,7 +65,7 @@ public:
 
     float operator()(float value) {
         if (!ofBytes_ || !(value >= 0 && value <= 1)) return decodeSrgb(value);
-        float& known = known_[static_cast<size_t>(255 * value + 0.5f)];
+        float& known = known_[static_cast<size_t>(std::lround(255 * value))];
         if (known < 0) known = decodeSrgb(value);
         return known;
     }
