@@ -127,8 +127,8 @@ TEST_F(GltfScene, LuminairesAndSettingsByExtras) {
     const double lumens = scene.luminaireTypes.at(0).goniogram.lumens() * scene.pointEmitters[0].intensity.g;
     EXPECT_NEAR(lumens, 1000, 0.01); // candela, as the units are photometric
     EXPECT_EQ(scene.settings.bdd, 1u);
-    ASSERT_TRUE(scene.grid);
-    EXPECT_EQ(scene.grid->ny, 3u);
+    ASSERT_EQ(scene.grids.size(), 1u);
+    EXPECT_EQ(scene.grids.front().ny, 3u);
     EXPECT_EQ(scene.sensor.meter, MeterKind::grid); // without a camera
 }
 
