@@ -232,8 +232,8 @@ TEST_F(Gltf, TexturesByTheirMeaning) {
     const TextureDescription emission = textureOf([](const auto& t) { return t.use == TextureUse::emission; });
     EXPECT_NEAR(emission.texels[0].r, 10, 1e-5);
     ASSERT_TRUE(scene.shapes[0].emitter);
-    // Roughness is linear, in green, and squared for alpha; metal is in blue; and the mask cuts at one half.
-    textureOf([](const auto& t) { return std::abs(t.texels[1].r - 0.25f) < 1e-6; });
+    // Roughness is linear, in green; metal is in blue; and the mask cuts at one half.
+    textureOf([](const auto& t) { return std::abs(t.texels[1].r - 0.5f) < 1e-6 && t.texels[0].r == 0; });
     textureOf([](const auto& t) { return std::abs(t.texels[1].r - 64 / 255.f) < 1e-6 && t.texels[0].r == 0; });
     textureOf([](const auto& t) { return t.texels[0].r == 1 && t.texels[3].r == 0 && t.texels[2].r == 1; });
     EXPECT_EQ(bsdfOf(scene).plugin, "mask");

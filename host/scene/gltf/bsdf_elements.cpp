@@ -88,7 +88,7 @@ Element thinSheet(const GltfMaterial& material, const GltfSurface& surface) {
     }
     Element sheet = newObject("bsdf", "principledthin", "", material.where);
     addColorOrTexture(sheet, "base_color", surface.transmitted);
-    addNumber(sheet, "roughness", surface.roughness.isTextured() ? material.roughness : surface.roughness.value.x);
+    addShare(sheet, "roughness", surface.roughness);
     addNumber(sheet, "spec_trans", 1);
     addNumber(sheet, "eta", index);
     return sheet;
