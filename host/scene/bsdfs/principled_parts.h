@@ -8,8 +8,8 @@ namespace quasilux {
 /// Their parameters, each with the name of its own; those that only one of them has are 0 for the other.
 struct Principled {
     Reflectance base{Rgb{0.5f, 0.5f, 0.5f}};
-    Scalar roughness{0.5}, anisotropic, metallic, specTrans, specTint, sheen, sheenTint, flatness, clearcoat,
-        clearcoatGloss;
+    Scalar roughness{0.5, std::nullopt}, anisotropic, metallic, specTrans, specTint, sheen, sheenTint, flatness,
+        clearcoat, clearcoatGloss;
     double eta = 1.5;
     double narrowing = 1; ///< a factor on the roughness of facets
 
