@@ -128,12 +128,11 @@ private:
 
     nlohmann::json readingJson(PixelRange range) const {
         const MeterReading reading = meanReading(image_, range, isPhotometric_);
-        nlohmann::json components = nlohmann::json::object();
+        nlohmann::json byClass = nlohmann::json::object();
         for (unsigned k = 0; k < FILM_COMPONENTS; ++k)
-            if (!image_.components[k].empty()) components[componentName(k)] = reading.components[k];
-        nlohmann::json json{{"value", reading.value},
-                            {"standardError", known(image_, reading.standardError)},
-                            {"components", components}};
+            if (!image_.components[k].empty()) byClass[componentName(k)] = reading.components[k];
+        nlohmann::json json{
+            {"value", reading.value}, {"standardError", known(image_, reading.standardError)}, {"components", byClass}};
         const std::string key = isIrradiance(record_.meter) ? "illuminance" : "luminance";
         json[key] = reading.photometricValue;
         json[key + "StandardError"] = known(image_, reading.photometricStandardError);
