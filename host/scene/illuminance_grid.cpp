@@ -15,7 +15,7 @@ constexpr unsigned maximumPoints = 32768; // along one side, as of a film
 
 std::string nameOf(const InstructionValues& values, const Instruction& instruction,
                    const std::vector<IlluminanceGrid>& others) {
-    const std::string name = values.has("name") ? values.text("name") : fmt::format("grid {}", others.size() + 1);
+    std::string name = values.has("name") ? values.text("name") : fmt::format("grid {}", others.size() + 1);
     if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
         throw InputError(
             instruction.where,
