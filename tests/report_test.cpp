@@ -85,7 +85,7 @@ TEST_F(ReportTest, IsOnePageWithAllParts) {
 // the eye's indirect light is that of the floor.
 TEST_F(ReportTest, ItsFiguresHold) {
     const auto figures = figuresOf({"--time", "2"});
-    const auto& measured = figures["grid"];
+    const auto& measured = figures["grids"][0];
     const double middle = 720 / 6.25;
     EXPECT_NEAR(measured["maximum"]["value"].get<double>(), middle, 0.03 * middle);
     EXPECT_GT(measured["maximum"]["standardError"].get<double>(), 0);
@@ -121,7 +121,7 @@ TEST_F(ReportTest, NeedsNeitherCameraNorGrid) {
     EXPECT_TRUE(figures["observers"].empty());
     EXPECT_FALSE(figures.contains("picture"));
     write("room.xml", camera + lamp);
-    EXPECT_TRUE(figuresOf({"--time", "0.5"})["grid"].is_null());
+    EXPECT_TRUE(figuresOf({"--time", "0.5"})["grids"].empty());
     EXPECT_TRUE(holds(readText(folder / "room.html"), "no illuminance-grid and no observer"));
 }
 
