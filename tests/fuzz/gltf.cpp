@@ -7,13 +7,7 @@
 namespace quasilux::fuzz {
 
 void readGltf(std::string_view input) {
-    LoadChoice choice;
-    choice.unknown = input.size() % 2 == 0 ? Unknown::refused : Unknown::forgiven;
-    choice.limits.emplace();
-    choice.limits->elements = 2000;
-    choice.limits->pixels = 1 << 20;
-    choice.limits->seconds = 20;
-    expectInputErrors([&] { loadScene(write("scene.glb", input), {}, choice); });
+    expectInputErrors([&] { loadScene(write("scene.glb", input), {}, choiceOf(input)); });
 }
 
 } // namespace quasilux::fuzz

@@ -31,13 +31,7 @@ void readXml(std::string_view input) {
         if (!isPlain(name)) continue;
         files.push_back(write(std::string(name), input.substr(end, at == std::string_view::npos ? at : at - end)));
     }
-    LoadChoice choice;
-    choice.unknown = input.size() % 2 == 0 ? Unknown::refused : Unknown::forgiven;
-    choice.limits.emplace();
-    choice.limits->elements = 2000;
-    choice.limits->pixels = 1 << 20;
-    choice.limits->seconds = 20;
-    expectInputErrors([&] { loadScene(write("scene.xml", scene), {}, choice); });
+    expectInputErrors([&] { loadScene(write("scene.xml", scene), {}, choiceOf(input)); });
     for (const std::string& file : files) std::filesystem::remove(file);
 }
 
