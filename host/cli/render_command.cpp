@@ -143,8 +143,8 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
     if (record.meter != MeterKind::none) fmt::print("{}", meterText(record, image));
     for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
     if (written.curve)
-        fmt::print("exposure scale {:.6g} per W sr^-1 m^-2, white at {:.6g}\n", written.curve->scale,
-                   written.curve->white);
+        fmt::print("exposure scale {:.6g} per {}, white at {:.6g}\n", written.curve->scale,
+                   record.settings.photometric ? "cd/m2" : "W sr^-1 m^-2", written.curve->white);
 }
 
 /// A render that is over, and what it needs while its files are written.
