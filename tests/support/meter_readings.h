@@ -49,7 +49,7 @@ inline Reading measure(const Scene& scene, const Method& method, unsigned passes
 
 /// `biased`: a density estimate takes part.
 inline bool agrees(const Reading& reading, double truth, bool biased) {
-    const double rounding = 1e-5 * truth; // of single precision: readings of direct light have less noise
+    const double rounding = 4e-6 * truth; // of single precision: readings of direct light have less noise
     return std::abs(reading.value - truth) <= 3 * reading.standardError + (biased ? densityBias * truth : 0) + rounding;
 }
 
