@@ -1,6 +1,5 @@
 // What a glTF file means: the scene that it gives is that of XML which says the same.
 #include "support/gltf_files.h"
-#include "support/scene_files.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -14,11 +13,8 @@ using test::GltfFile;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class Gltf : public testing::Test {
+class Gltf : public test::GltfTest {
 protected:
-    Scene load(const GltfFile& file, const LoadChoice& choice = {}) const {
-        return loadScene(files.write("scene.glb", file.binary()), {}, choice);
-    }
     /// A square with this material.
     static GltfFile squareOf(const json& material, GltfFile file = {}) {
         file.add("materials", material);
@@ -43,7 +39,6 @@ protected:
         std::ifstream file(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
     }
-    test::SceneFiles files;
 };
 
 void expectSameLobes(const std::vector<LobeDescription>& a, const std::vector<LobeDescription>& b) {

@@ -1,6 +1,5 @@
 // Lights, cameras, extras and what stands in for missing ones, of glTF files.
 #include "support/gltf_files.h"
-#include "support/scene_files.h"
 
 #include <fmt/format.h>
 #include <numbers>
@@ -13,17 +12,13 @@ using test::GltfFile;
 using testing::Contains;
 using testing::HasSubstr;
 
-class GltfScene : public testing::Test {
+class GltfScene : public test::GltfTest {
 protected:
-    Scene load(const GltfFile& file, const LoadChoice& choice = {}) const {
-        return loadScene(files.write("scene.glb", file.binary()), {}, choice);
-    }
     static GltfFile square() {
         GltfFile file;
         file.addNode({{"mesh", file.addSquare()}, {"name", "plate"}});
         return file;
     }
-    test::SceneFiles files;
 };
 
 TEST_F(GltfScene, PunctualLights) {

@@ -72,10 +72,11 @@ py::dict layerArrays(const RenderedPointer& owner) {
 py::list readingsOf(const Rendered& rendered) {
     const FilmImage& image = rendered.image;
     const std::vector<IlluminanceGrid>& grids = rendered.record.grids;
+    const std::vector<PixelRange> ranges = rangesOf(grids);
     py::list readings;
     if (grids.empty()) readings.append(readingArrays(rendered, 0, image.width, image.height, nullptr));
     for (size_t k = 0; k < grids.size(); ++k)
-        readings.append(readingArrays(rendered, rangesOf(grids)[k].first, grids[k].nx, grids[k].ny, &grids[k]));
+        readings.append(readingArrays(rendered, ranges[k].first, grids[k].nx, grids[k].ny, &grids[k]));
     return readings;
 }
 

@@ -135,14 +135,13 @@ Buffer<float>& Film::sums() {
 }
 
 Film::Pass Film::beginPass(unsigned pass) {
+    if (pass < singlePasses) return beginBatch();
     isWhole_ = false;
-    Pass now{0, 1};
-    const bool single = pass < singlePasses;
-    if (!single) now.biasWeight = pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f;
+    Pass now{0, pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f};
     counts_.biasPasses += now.biasWeight;
     counts_.openBiasPasses += now.biasWeight;
     counts_.openPasses += 1;
-    if (single || pass % batchPasses == batchPasses - 1) {
+    if (pass % batchPasses == batchPasses - 1) {
         now.batchWeight = static_cast<float>(1 / counts_.openPasses);
         counts_ = counts_.closed();
     }
@@ -154,8 +153,9 @@ Film::Pass Film::beginBatch() {
     counts_.biasPasses += 1;
     counts_.openBiasPasses += 1;
     counts_.openPasses += 1;
+    const auto batchWeight = static_cast<float>(1 / counts_.openPasses);
     counts_ = counts_.closed();
-    return {1, 1};
+    return {batchWeight, 1};
 }
 
 FilmImage Film::develop(unsigned passes) const {

@@ -1,6 +1,8 @@
 // glTF files made in memory: JSON whose arrays lie in one buffer.
 #pragma once
 
+#include "support/scene_files.h"
+
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -93,6 +95,15 @@ private:
     }
 
     std::vector<char> bytes_;
+};
+
+/// Tests that load such files.
+class GltfTest : public testing::Test {
+protected:
+    Scene load(const GltfFile& file, const LoadChoice& choice = {}) const {
+        return loadScene(files.write("scene.glb", file.binary()), {}, choice);
+    }
+    SceneFiles files;
 };
 
 } // namespace quasilux::test

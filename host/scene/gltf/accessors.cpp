@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 namespace quasilux {
 
@@ -90,11 +91,10 @@ GltfBytes elementsOf(const GltfContext& context, int view, size_t offset, size_t
     return {bytes.data + offset, bytes.size - offset, stride};
 }
 
-void readDense(const GltfContext& context, const tinygltf::Accessor& accessor, GltfNumbers& numbers,
+/// Those of its buffer.
+void readDense(const GltfBytes& bytes, const tinygltf::Accessor& accessor, GltfNumbers& numbers,
                const SourceLocation& where) {
     const size_t each = bytesOf(accessor.componentType, where);
-    const GltfBytes bytes =
-        elementsOf(context, accessor.bufferView, accessor.byteOffset, numbers.count, each * numbers.components, where);
     for (size_t i = 0; i < numbers.count; ++i)
         for (unsigned c = 0; c < numbers.components; ++c)
             numbers.values[i * numbers.components + c] =
@@ -156,11 +156,12 @@ GltfNumbers readAccessor(const GltfContext& context, int index, std::initializer
     if (accessor.bufferView < 0 && numbers.count > mostWithoutBuffer)
         throw InputError(place, fmt::format("{} elements without a bufferView; expected at most {}.", numbers.count,
                                             mostWithoutBuffer));
-    if (accessor.bufferView >= 0) // before memory is taken for them
-        elementsOf(context, accessor.bufferView, accessor.byteOffset, numbers.count,
-                   bytesOf(accessor.componentType, place) * numbers.components, place);
+    std::optional<GltfBytes> dense; // known to be there before memory is taken for them
+    if (accessor.bufferView >= 0)
+        dense = elementsOf(context, accessor.bufferView, accessor.byteOffset, numbers.count,
+                           bytesOf(accessor.componentType, place) * numbers.components, place);
     numbers.values.resize(numbers.count * numbers.components);
-    if (accessor.bufferView >= 0) readDense(context, accessor, numbers, place);
+    if (dense) readDense(*dense, accessor, numbers, place);
     if (accessor.sparse.isSparse) applySparse(context, accessor, numbers, place);
     for (size_t k = 0; k < numbers.values.size(); ++k)
         if (!std::isfinite(numbers.values[k]))
