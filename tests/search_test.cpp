@@ -124,6 +124,27 @@ TEST(Search, ComparesWithTheCameraPathsThatServeEachBest) {
     EXPECT_EQ(withOne.settings.cameraPaths, 1u);
 }
 
+// There is time for the first method alone, but the noise of its own passes says that more paths serve the image: three quarters of it are theirs.
+TEST(Search, ChoosesCameraPathsWithoutTimeForOthers) {
+    const auto worldOf = [](double shareOfPhotonSeconds, double noiseOfPhotons) -> World {
+        return [=](const RenderSettings&) {
+            Truth truth{1, 1};
+            truth.shareOfPhotonSeconds = shareOfPhotonSeconds;
+            truth.noiseOfPhotons = noiseOfPhotons;
+            return truth;
+        };
+    };
+    const Freedom methodsAndPaths{true, true, true, false, false, true};
+    const Found found = search(worldOf(0.8, 0.25), 20, methodsAndPaths);
+    EXPECT_TRUE(found.report.outOfTime);
+    EXPECT_EQ(found.report.rows.size(), 1u);
+    EXPECT_GT(found.settings.cameraPaths, 1u);
+    EXPECT_EQ(found.report.rows[0].settings.cameraPaths, found.settings.cameraPaths);
+    // Controls: photons have the noise; camera paths are so dear that the passes are better kept.
+    EXPECT_EQ(search(worldOf(0.8, 1), 20, methodsAndPaths).settings.cameraPaths, 1u);
+    EXPECT_EQ(search(worldOf(0.2, 0.25), 20, methodsAndPaths).settings.cameraPaths, 1u);
+}
+
 TEST(Search, CostCountsAsMuchAsVariance) {
     const World world = [](const RenderSettings& s) { return s.bdd == 1 ? Truth{0.3, 0.5} : Truth{0.1, 1}; };
     EXPECT_EQ(search(world, 200).settings.bdd, 0u);

@@ -38,7 +38,7 @@ double radianceByFlux(const SceneReport& report) {
 } // namespace
 
 void RendererPilot::renderPass() {
-    if (passes() == 0) secondsWithoutGathering_ = renderer_->secondsWithoutGathering();
+    secondsOfPath();
     const double photonsBefore = photonSeconds(device_);
     const RenderCounters before = renderer_->counters();
     renderer_->renderPass(passes());
@@ -50,6 +50,11 @@ void RendererPilot::renderPass() {
     if (const uint64_t paths = after.radiusPaths - before.radiusPaths; paths > 0)
         seconds.wideCamera = radius * double(after.cameraPaths - before.cameraPaths) / double(paths);
     passes_.push_back(seconds);
+}
+
+double RendererPilot::secondsOfPath() {
+    if (!secondsOfPath_) secondsOfPath_ = renderer_->secondsWithoutGathering();
+    return *secondsOfPath_;
 }
 
 PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const {
@@ -66,7 +71,8 @@ PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const 
 
 // The part of a pass's `cameraSeconds` that gathering takes; 0 where it was not measured.
 double RendererPilot::gatheringSeconds(double cameraSeconds) const {
-    return secondsWithoutGathering_ > 0 ? std::max(0.0, cameraSeconds - cameraPaths_ * secondsWithoutGathering_) : 0;
+    const double ofPath = secondsOfPath_.value_or(0);
+    return ofPath > 0 ? std::max(0.0, cameraSeconds - cameraPaths_ * ofPath) : 0;
 }
 
 double RendererPilot::secondsPerPass() const {

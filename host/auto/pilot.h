@@ -14,6 +14,8 @@ public:
     virtual unsigned passes() const = 0;
     /// Errors relative to `brightness`, or to the pilot's own image where that is empty (errorByTile).
     virtual PilotMeasure measure(const std::vector<float>& brightness) const = 0;
+    /// Of a camera path of each pixel that gathers no photons, before the first pass; 0 where it was not measured.
+    virtual double secondsOfPath() = 0;
     /// Of all pixels.
     virtual std::vector<float> radiance() const = 0;
     virtual unsigned photonsPerPass() const = 0;
@@ -30,6 +32,7 @@ public:
     void renderPass() override;
     unsigned passes() const override { return static_cast<unsigned>(renderer_->counters().passes); }
     PilotMeasure measure(const std::vector<float>& brightness) const override;
+    double secondsOfPath() override;
     std::vector<float> radiance() const override { return renderer_->develop().radiance; }
     unsigned photonsPerPass() const override { return renderer_->report().photonsPerPass; }
     double openingSeconds() const override;
@@ -53,7 +56,7 @@ private:
     unsigned cameraPaths_; // of a pixel in a pass
     bool hasMedia_;
     std::vector<PassSeconds> passes_;
-    double secondsWithoutGathering_ = 0; // of one camera path of each pixel
+    std::optional<double> secondsOfPath_;
 };
 
 } // namespace quasilux

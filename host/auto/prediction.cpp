@@ -108,8 +108,9 @@ struct Common {
     }
 };
 
-// More camera paths than this leave too few passes for the estimate of the error, whatever else they do.
-constexpr unsigned fewestPassesOfImage = 32, mostCameraPaths = 64;
+// Fewer passes than this do not know their error well. Where one camera path leaves fewer, more paths leave half of these, but never less than the last.
+constexpr double fewestPassesOfImage = 32, fewestPassesOfAny = 8;
+constexpr unsigned mostCameraPaths = 64;
 
 // A few passes know nothing of light that paths seldom meet, and camera paths that gather nothing are cheap: for so much of what the photons of a pass cost
 // there are always some.
@@ -198,6 +199,10 @@ Prediction predictAfter(const PilotMeasure& pilot, double seconds) {
     return predictAfterPasses(pilot, passesAfter(pilot, seconds));
 }
 
+Prediction predictAnew(const PilotMeasure& pilot, double seconds) {
+    return predictAfterPasses(pilot, std::max(1.0, passesAfter(pilot, seconds) - pilot.passes));
+}
+
 std::vector<double> predictedErrors(const std::vector<PilotMeasure>& pilots, double seconds) {
     const auto biases = biasesOf(pilots);
     std::vector<double> errors;
@@ -232,14 +237,16 @@ unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double
     const double ofOnePath = (pilot.secondsPerPass - pilot.secondsOfPhotons) / cameraPaths;
     const auto tooFew = [&](unsigned paths) { return 2 * paths * ofOnePath <= shareOfUnseen * pilot.secondsOfPhotons; };
     unsigned best = 1;
-    double least = INFINITY;
+    double least = INFINITY, fewest = 0;
     for (unsigned paths = 1; paths <= mostCameraPaths; paths *= 2) {
         const PilotMeasure changed = withCameraPaths(pilot, double(paths) / cameraPaths);
-        const double passes = passesAfter(changed, seconds) - pilot.passes; // those of the pilot are discarded
-        if (paths > 1 && passes < fewestPassesOfImage) break;
-        const double error = predictAfterPasses(changed, std::max(passes, 1.0)).relativeMse();
-        if (error < least || tooFew(best)) {
-            least = error;
+        const Prediction predicted = predictAnew(changed, seconds);
+        if (paths == 1)
+            fewest = std::clamp(predicted.passes / 2, fewestPassesOfAny, fewestPassesOfImage);
+        else if (predicted.passes < fewest)
+            break;
+        if (predicted.relativeMse() < least || tooFew(best)) {
+            least = predicted.relativeMse();
             best = paths;
         }
     }

@@ -41,6 +41,8 @@ struct Prediction {
 Prediction predictAfterPasses(const PilotMeasure& pilot, double passes);
 /// After `seconds` more on the clock.
 Prediction predictAfter(const PilotMeasure& pilot, double seconds);
+/// The same without the passes so far, which are discarded.
+Prediction predictAnew(const PilotMeasure& pilot, double seconds);
 
 /// Mean of images of the same scene (radiance of all pixels), weights inverse to their noise.
 class Brightness {

@@ -23,8 +23,10 @@ constexpr unsigned mostAtFirst = 32; // before any is given up
 constexpr double shareOfMethods = 0.75;
 constexpr double farWorse = 4; // times the least relMSE: given up whatever the others have
 constexpr double mostPhotonsFactor = 16, mostRadiusFactor = 2; // either way from where the search starts
-constexpr double leastSeconds = 1;                             // renders shorter than this are not worth a search
-constexpr double longestHorizon = 86400;                       // seconds, where only an error was asked for
+// The time of a render, in camera paths of all pixels, from which on it may lose a few passes.
+constexpr double leastPathsOfTime = 64;
+constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
+constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
 
 constexpr uint64_t pilotSeed = 0x9E3779B97F4A7C15ull; // added: what decides must be no part of the image
 
@@ -43,7 +45,10 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     report_.freedom = freedom_;
     const double limit = stop_.seconds.value_or(longestHorizon);
     report_.horizon = limit;
-    Contender first{settings, std::move(start), {}, rowOf(settings, startPhotons_)};
+    Contender first{settings, nullptr, {}, rowOf(settings, startPhotons_)};
+    if (mayDiscard(*start)) first.pilot = openBeside(settings);
+    std::unique_ptr<Pilot> kept;
+    (first.pilot ? kept : first.pilot) = std::move(start);
     bool begun = renderUpTo(first, fewestPasses);
     if (begun && stop_.relativeError)
         report_.horizon = std::min(limit, world_.clock() + secondsToError(first.measure, *stop_.relativeError, limit));
@@ -57,7 +62,9 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
         all.size() > 1 || freedom_.cameraPaths || !numbersBeside(start_, startPhotons_, freedom_).empty();
     report_.outOfTime = hasOthers && 2 * fewestPasses * startPassSeconds_ > ofMethods;
     if (!begun || !hasOthers || report_.outOfTime || report_.horizon < leastSeconds)
-        return {start_, report_, std::move(first.pilot)};
+        return kept && begun ? withItsPaths(first, std::move(kept))
+                             : SearchResult{start_, report_, kept ? std::move(kept) : std::move(first.pilot)};
+    kept.reset();
     first.pilot.reset();
 
     report_.rows[first.row].passes = 0;
@@ -75,6 +82,31 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     report_.chosen = best_.row;
     RenderSettings chosen = best_.settings;
     chosen.seed = settings.seed;
+    return {chosen, report_, nullptr};
+}
+
+// Passes by which settings are chosen are no part of the image. Where a pass may take a large part of the time, those of the start are to be kept: nothing
+// is chosen then.
+bool Search::mayDiscard(Pilot& start) const {
+    return freedom_.cameraPaths && report_.horizon >= leastSeconds &&
+           leastPathsOfTime * start.secondsOfPath() < report_.horizon;
+}
+
+// Null where there is too little memory for it.
+std::unique_ptr<Pilot> Search::openBeside(RenderSettings settings) const {
+    settings.seed += pilotSeed;
+    std::unique_ptr<Pilot> pilot;
+    const auto why = failureOf([&] { pilot = world_.open(settings); });
+    return why ? nullptr : std::move(pilot);
+}
+
+// Of a search that had time for `first` alone: at least how many camera paths serve the image best is known. `kept`: the start without passes.
+SearchResult Search::withItsPaths(const Contender& first, std::unique_ptr<Pilot> kept) {
+    const unsigned paths = cameraPathsOf(first);
+    report_.passes += first.pilot->passes();
+    if (paths == start_.cameraPaths) return {start_, report_, std::move(kept)};
+    RenderSettings chosen = start_;
+    chosen.cameraPaths = report_.rows[first.row].settings.cameraPaths = paths;
     return {chosen, report_, nullptr};
 }
 

@@ -62,6 +62,9 @@ private:
     /// be given up for what it is with one path.
     PilotMeasure atItsBest(const Contender& contender) const;
     void chooseCameraPaths();
+    bool mayDiscard(Pilot& start) const;
+    std::unique_ptr<Pilot> openBeside(RenderSettings settings) const;
+    SearchResult withItsPaths(const Contender& first, std::unique_ptr<Pilot> kept);
     /// Among the best ones so far and those beside it; whether one of these has won.
     bool raceOfNumbers(double seconds);
     Field enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain, double middle,

@@ -35,6 +35,7 @@ public:
         ++passes_;
     }
     unsigned passes() const override { return passes_; }
+    double secondsOfPath() override { return (1 - truth_.shareOfPhotonSeconds) * truth_.secondsPerPass; }
     std::vector<float> radiance() const override { return {}; }
     PilotMeasure measure(const std::vector<float>&) const override {
         const bool lies = passes_ < truth_.honestFrom;
