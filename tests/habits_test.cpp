@@ -247,6 +247,27 @@ TEST_F(WatchTest, RendersWhenAFileOfTheSceneChanges) {
     EXPECT_NEAR(pixels[0], 3, 0.1) << "of the last file: a corner that sees the surroundings";
 }
 
+TEST_F(WatchTest, RendersWhenAGltfFileOrItsBufferChanges) {
+    const std::string good = readText(QUASILUX_SOURCE_DIR "/tests/data/lit_floor.gltf");
+    const size_t begin = good.find("data:"), length = good.find('"', begin) - begin;
+    const float corners[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    const uint16_t faces[] = {0, 1, 2, 0, 2, 3};
+    std::ofstream(folder / "floor.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(corners), sizeof corners)
+        .write(reinterpret_cast<const char*>(faces), sizeof faces);
+    std::string scene = good;
+    scene.replace(begin, length, "floor.bin");
+    std::ofstream(folder / "floor.gltf") << scene;
+    const pid_t process = start({"render", "floor.gltf", "--fixed", "--photons", "1000", "--passes", "1", "--watch"});
+    EXPECT_TRUE(waitFor([&] { return renders() == 1; })) << readText(root / "stderr");
+    std::ofstream(folder / "floor.bin") << "cut off";
+    EXPECT_TRUE(waitFor([&] { return readText(root / "stderr").find("floor.gltf: ") != std::string::npos; }));
+    std::ofstream(folder / "floor.gltf") << good;
+    EXPECT_TRUE(waitFor([&] { return renders() == 2; }));
+    kill(process, SIGINT);
+    EXPECT_EQ(end(process).exitCode, 0);
+}
+
 TEST_F(WatchTest, GivesUpARenderWhoseSceneChanges) {
     const pid_t process =
         start({"render", "whole.xml", "--fixed", "--time", "500", "-o", "{scene}.exr", "--watch", "--json"});
