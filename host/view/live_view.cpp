@@ -45,6 +45,7 @@ void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& s
     record_.workGroupSize = device.workGroupSize();
     record_.stop = stop;
     record_.meter = scene.sensor.meter;
+    record_.fisheye = fisheyeViewOf(scene.sensor);
     record_.pixelFormat = scene.sensor.pixelFormat;
     state_.begin({record_.scene, scene.sensor.width, scene.sensor.height, isEndless, isIrradiance(scene.sensor.meter)});
     state_.setSettings(settings);
