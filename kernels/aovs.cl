@@ -97,6 +97,7 @@ __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveB
         const FilterPlace place = filterPlace(camera, tables, pixel, pixelPlace(pixel, sample, seed));
         const float2 lens = lensNumbers(pixel, sample, seed);
         const Ray ray = cameraRay(camera, pixel, place.offset, lens);
+        if (isBeyondImage(&ray)) continue;
         const Hit hit = intersectClosest(nodes, blocks, ray);
         if (hit.primitive == QL_NONE) continue;
         const Surface s = addAovs(sums, &ray, hit, place.weight, blocks, tables, &params.scene);

@@ -159,6 +159,7 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     path.roulette.survival = 1;
 #endif
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
+    if (isBeyondImage(&path.ray)) return -1;
 #ifdef HAS_DEPTH_LIMIT
     if (params->maxDepth == 0) return -1; /* not even emitters are seen */
 #endif

@@ -377,7 +377,7 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     state.ray = pilotRay(&params.camera, tables, pixel, &state.rng);
 #endif
     state.from = state.ray.origin;
-    uint event = 0;
+    uint event = isBeyondImage(&state.ray) ? PILOT_EVENTS_MAX : 0;
     while (event < PILOT_EVENTS_MAX && followPilot(&world, &path, &state)) ++event;
     paths[index] = path;
 }

@@ -354,13 +354,23 @@ typedef struct {
     float value;     /* of f */
 } FilterStep;
 
+/* How far from the middle of the image, in half widths r, a fisheye shows the angle theta; h is its `halfAngle`. */
+#define FISHEYE_NONE 0u
+#define FISHEYE_EQUIDISTANT 1u  /* r = theta / h */
+#define FISHEYE_EQUISOLID 2u    /* r = sin(theta / 2) / sin(h / 2): each pixel has the same solid angle */
+#define FISHEYE_ORTHOGRAPHIC 3u /* r = sin(theta) / sin(h): each pixel has the same share of the illuminance */
+
 typedef struct {
-    Packed3 origin;       /* orthographic: centre of the near plane */
-    Packed3 corner;       /* direction to the upper left corner of the image, at depth 1; orthographic: offset to it */
-    Packed3 stepX, stepY; /* direction per pixel, to the right and down; orthographic: offset */
-    Packed3 forward;      /* unit */
-    float nearClip, farClip; /* depths along `forward` */
+    Packed3 origin; /* orthographic: centre of the near plane */
+    Packed3
+        corner; /* direction to the upper left corner of the image, at depth 1; orthographic: offset to it; fisheye: place of it
+                           * about the middle, in half widths, on the axes to the right and up */
+    Packed3 stepX, stepY;    /* direction per pixel, to the right and down; orthographic, fisheye: offset */
+    Packed3 forward;         /* unit */
+    float nearClip, farClip; /* depths along `forward`; fisheye: distances */
     unsigned int orthographic;
+    unsigned int fisheye; /* FISHEYE_* */
+    float halfAngle;      /* that a fisheye shows at the half width of its film */
     Packed3 lensX, lensY; /* from the centre of a thin lens to its rim; 0: a pinhole */
     float focusDistance;  /* of a thin lens: depth of the plane that is sharp */
     unsigned int width, height;

@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+bash scripts/setup.sh --program file dpkg-dev
 cmake --preset release
 cmake --build --preset release --target quasilux
 rm -f build/release/quasilux_*.deb

@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
-# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [--program] [--mpi] [PACKAGE...].
+# Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [--program | --python] [--mpi] [PACKAGE...].
 # --program: only what it takes to build and run it; without it also what tests and reports need, which is twice as much.
+# --python: what it takes to build the program and, by `pip install .`, the Python package.
 # --mpi: also Open MPI, and build/mpi is set up for a release build with it: cmake --build --preset mpi.
 # Needs root or sudo; does nothing where everything is there already.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 mpi=()
+python=()
 onlyProgram=0
 while [[ ${1:-} == --* ]]; do
     case $1 in
         --program) onlyProgram=1 ;;
+        --python) onlyProgram=1; python=(python3-dev python3-venv python3-numpy) ;;
         --mpi) mpi=(libopenmpi-dev openmpi-bin) ;;
-        *) echo "setup: unknown option $1, expected --program or --mpi" >&2; exit 2 ;;
+        *) echo "setup: unknown option $1, expected --program, --python or --mpi" >&2; exit 2 ;;
     esac
     shift
 done
@@ -26,7 +29,7 @@ tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools oclgr
 reports=(python3 python3-numpy python3-openimageio python3-matplotlib)
 packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}")
 ((onlyProgram)) || packages+=("${tests[@]}" "${reports[@]}")
-packages+=("${mpi[@]}" "$@")
+packages+=("${python[@]}" "${mpi[@]}" "$@")
 
 missing=()
 for package in "${packages[@]}"; do

@@ -43,7 +43,7 @@ double thetaOf(Projection projection, double width, double r) {
 
 /// 50 cd/m² everywhere, and 20,000 cd/m² in cones of half angle 0.1 about `lamps`.
 LuminanceImage imageOf(const View& view, unsigned size, const std::vector<glm::dvec3>& lamps) {
-    LuminanceImage image{size, size, {}, {}, false, ""};
+    LuminanceImage image{size, size, {}, {}, false, "", std::nullopt};
     for (unsigned j = 0; j < size; ++j)
         for (unsigned i = 0; i < size; ++i) {
             const double x = (i + 0.5) / (size / 2.0) - 1, y = 1 - (j + 0.5) / (size / 2.0), r = std::hypot(x, y);

@@ -1,11 +1,9 @@
 // UGR against rooms computed by hand, and Guth's position index against his table. docs/method/glare.md has the same room.
 #include "photometry/glare.h"
-#include "render/renderer.h"
-#include "report/figures.h"
 #include "scene/observer.h"
+#include "support/eye_readings.h"
 #include "support/luminaire_files.h"
 #include "support/meter_scenes.h"
-#include "support/test_kernels.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -90,22 +88,7 @@ Scene sceneOf(const test::SceneFiles& files, const std::string& body) {
         files.write("scene.xml", std::string("<scene version=\"3.0.0\">") + test::minimalSensor + body + "</scene>"));
 }
 
-GlareSources sourcesOf(const Scene& scene) {
-    return glareSources(scene, scene.observers.at(0), Occlusion(scene), false);
-}
-
-BatchedReadings readingsAtEye(Scene scene, const Observer& observer, EyeLight light) {
-    measureAtEye(scene, observer, light);
-    RenderSettings settings = settingsFromScene(scene);
-    settings.photonsPerPass = 20000;
-    Renderer renderer(testDevice(), scene, settings);
-    BatchedReadings readings(false);
-    for (unsigned pass = 0; pass < 32; ++pass) {
-        renderer.renderPass(pass);
-        readings.add(renderer.develop());
-    }
-    return readings;
-}
+GlareSources sourcesOf(const Scene& scene) { return test::sourcesSeenBy(scene, scene.observers.at(0)); }
 
 // In a white ball with reflectance 1/2 all walls have the same luminance where the luminaire shines alike in all directions from
 // the centre: E = I / r² = 4 lx by direct light, 8 lx with all reflections, so L = 4 / pi cd/m², and at every place and in every direction
@@ -128,8 +111,7 @@ TEST(Glare, OfARoomComputedByHand) {
     EXPECT_NEAR(source.positionIndex, p, 0.02);
     EXPECT_EQ(source.visible, 1);
 
-    const ObserverFigures figures = observerFigures(observer, sources, readingsAtEye(scene, observer, EyeLight::direct),
-                                                    readingsAtEye(scene, observer, EyeLight::all));
+    const ObserverFigures figures = test::figuresOf(scene, observer, 32);
     // Four standard errors: 1 in 16,000 by chance; and 0.5 % for the radius of the density estimate.
     EXPECT_NEAR(figures.indirect.value, 4, 4 * figures.indirect.standardError + 0.02);
     EXPECT_NEAR(figures.direct.value, 100 / 5.0 * 2 / std::sqrt(5), 0.05);

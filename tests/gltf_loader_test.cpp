@@ -234,6 +234,56 @@ TEST_F(Gltf, TexturesByTheirMeaning) {
     EXPECT_EQ(bsdfOf(scene).plugin, "mask");
 }
 
+/// Bitmaps of the scene by the red of their pixels.
+bool hasBitmap(const Scene& scene, const std::vector<float>& reds) {
+    return std::any_of(scene.textures.begin(), scene.textures.end(), [&](const TextureDescription& each) {
+        if (each.texels.size() != reds.size()) return false;
+        for (size_t k = 0; k < reds.size(); ++k)
+            if (std::abs(each.texels[k].r - reds[k]) > 1e-4f) return false;
+        return true;
+    });
+}
+
+TEST_F(Gltf, TexturesOfCoatAndSpecular) {
+    const auto sceneOf = [&](const json& extensions) {
+        GltfFile file;
+        file.addImage(png({255, 0, 0, 128, 0, 255, 64, 255, 0, 128, 0, 255, 0, 64, 0, 0}));
+        file.add("textures", {{"source", 0}});
+        return load(squareOf(
+            {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.5}}}, {"extensions", extensions}},
+            file));
+    };
+    const json texture = {{"index", 0}};
+    const Scene coated = sceneOf({{"KHR_materials_clearcoat",
+                                   {{"clearcoatFactor", 0.5},
+                                    {"clearcoatRoughnessFactor", 0.3},
+                                    {"clearcoatTexture", texture},
+                                    {"clearcoatRoughnessTexture", texture}}}});
+    // The coat is in red; its roughness r in green, of which Mitsuba's gloss is (0.1 - r²) / 0.099.
+    EXPECT_TRUE(hasBitmap(coated, {0.5f, 0, 0, 0}));
+    const auto gloss = [](double green) { return static_cast<float>((0.1 - 0.09 * green * green) / 0.099); };
+    EXPECT_TRUE(hasBitmap(coated, {1, gloss(1), gloss(128 / 255.0), gloss(64 / 255.0)}));
+    EXPECT_FALSE(hasBitmap(coated, {1, gloss(0), gloss(1), gloss(0)})) << "control";
+    EXPECT_THAT(coated.warnings, testing::Not(testing::Contains(HasSubstr("clearcoat"))));
+    const auto coats = [](const Scene& scene) {
+        const Bsdf bsdf = bsdfOf(scene);
+        return std::count_if(bsdf.front.begin(), bsdf.front.end(),
+                             [](const LobeDescription& lobe) { return lobe.name == "clearcoat"; });
+    };
+    EXPECT_EQ(coats(coated), 1);
+    EXPECT_EQ(coats(sceneOf({{"KHR_materials_clearcoat", {{"clearcoatTexture", texture}}}})), 0) << "a factor of 0";
+
+    const Scene specular = sceneOf({{"KHR_materials_specular", {{"specularTexture", texture}}}});
+    EXPECT_EQ(bsdfOf(specular).plugin, "blendbsdf");
+    EXPECT_TRUE(hasBitmap(specular, {128 / 255.f, 1, 1, 0})) << "in alpha";
+    const Scene byColor = sceneOf({{"KHR_materials_specular", {{"specularColorTexture", texture}}}});
+    const auto linear = [](double code) { return std::pow((code / 255 + 0.055) / 1.055, 2.4); };
+    EXPECT_TRUE(
+        hasBitmap(byColor, {0.2126f, static_cast<float>(0.7152 + 0.0722 * linear(64)),
+                            static_cast<float>(0.7152 * linear(128)), static_cast<float>(0.7152 * linear(64))}));
+    EXPECT_THAT(byColor.warnings, testing::Contains(HasSubstr("colours of specularColorTexture")));
+}
+
 TEST_F(Gltf, VertexColors) {
     GltfFile file;
     file.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 1, 1}}}}, {"alphaMode", "BLEND"}});

@@ -1,5 +1,4 @@
-// What makes `quasilux render` handy: names by pattern, several scenes, watching files, warnings as errors, terminals.
-#include "cli/file_names.h"
+// What makes `quasilux render` handy: several scenes, watching files, warnings as errors, terminals.
 #include "cli/terminal_picture.h"
 #include "output/progress_line.h"
 #include "scene/scene.h"
@@ -24,31 +23,6 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-
-TEST(FileNames, AreFilledInSteps) {
-    const std::string pattern = "out/{scene}_{sensor}_{seed}_{passes}.exr";
-    const std::string early = fillName(pattern, {{"scene", "a/b"}, {"sensor", "1"}});
-    EXPECT_EQ(early, "out/a_b_1_{seed}_{passes}.exr");
-    EXPECT_EQ(fillName(early, namePartsOf(7, 42)), "out/a_b_1_7_42.exr");
-    EXPECT_THAT(namePartsOf("x/box.xml").at("date"), testing::MatchesRegex("20[0-9][0-9]-[01][0-9]-[0-3][0-9]"));
-    EXPECT_EQ(namePartsOf("x/box.xml").at("scene"), "box");
-    EXPECT_EQ(inFolder("out", "a.exr"), "out/a.exr");
-    EXPECT_EQ(inFolder("out", "b/a.exr"), "b/a.exr");
-    EXPECT_EQ(inFolder("", "a.exr"), "a.exr");
-}
-
-std::string whyNot(const std::string& pattern, NameNeeded when = NameNeeded::whenWritten) {
-    return failureOf([&] { checkNamePattern(pattern, "--output", when); }).value_or("");
-}
-
-TEST(FileNames, WhatCannotBeFilledIsRefused) {
-    EXPECT_EQ(whyNot("out/{date}/{scene}_{passes}.exr"), "");
-    EXPECT_THAT(whyNot("{scne}.exr"), HasSubstr("unknown {scne}, expected scene, sensor, date, seed or passes, did "
-                                                "you mean 'scene'?"));
-    EXPECT_THAT(whyNot("{scene.exr"), HasSubstr("without '}'"));
-    EXPECT_THAT(whyNot("{passes}/a.exr"), HasSubstr("too late to be part of a folder's name"));
-    EXPECT_THAT(whyNot("{seed}.ckpt", NameNeeded::beforeLoading), HasSubstr("known too late for this name"));
-}
 
 TEST(ReadFiles, AreAllThatASceneWasReadFrom) {
     const test::SceneFiles files;
@@ -245,6 +219,27 @@ TEST_F(WatchTest, RendersWhenAFileOfTheSceneChanges) {
     std::vector<float> pixels(4 * 4 * 3);
     ASSERT_TRUE(image && image->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, pixels.data()));
     EXPECT_NEAR(pixels[0], 3, 0.1) << "of the last file: a corner that sees the surroundings";
+}
+
+TEST_F(WatchTest, RendersWhenAGltfFileOrItsBufferChanges) {
+    const std::string good = readText(QUASILUX_SOURCE_DIR "/tests/data/lit_floor.gltf");
+    const size_t begin = good.find("data:"), length = good.find('"', begin) - begin;
+    const float corners[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    const uint16_t faces[] = {0, 1, 2, 0, 2, 3};
+    std::ofstream(folder / "floor.bin", std::ios::binary)
+        .write(reinterpret_cast<const char*>(corners), sizeof corners)
+        .write(reinterpret_cast<const char*>(faces), sizeof faces);
+    std::string scene = good;
+    scene.replace(begin, length, "floor.bin");
+    std::ofstream(folder / "floor.gltf") << scene;
+    const pid_t process = start({"render", "floor.gltf", "--fixed", "--photons", "1000", "--passes", "1", "--watch"});
+    EXPECT_TRUE(waitFor([&] { return renders() == 1; })) << readText(root / "stderr");
+    std::ofstream(folder / "floor.bin") << "cut off";
+    EXPECT_TRUE(waitFor([&] { return readText(root / "stderr").find("floor.gltf: ") != std::string::npos; }));
+    std::ofstream(folder / "floor.gltf") << good;
+    EXPECT_TRUE(waitFor([&] { return renders() == 2; }));
+    kill(process, SIGINT);
+    EXPECT_EQ(end(process).exitCode, 0);
 }
 
 TEST_F(WatchTest, GivesUpARenderWhoseSceneChanges) {

@@ -4,6 +4,7 @@
 #include "view/edits.h"
 #include "view/errands.h"
 #include "view/frame.h"
+#include "view/frame_pace.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -164,6 +165,28 @@ TEST(Edits, DeeplyNestedAreRefused) {
     EXPECT_THAT(message("{\"lamps\":" + deep + "}"), testing::HasSubstr("at most 8 levels"));
     EXPECT_THAT(message("{\"lamps\":[1}"), testing::HasSubstr("expected JSON"));
     EXPECT_EQ(parseEdits(std::string("{\"bdd\":2}")).bdd, 2u); // control
+}
+
+// However slow the machine is, pictures of a large film come twice a second and take 3 % of the time, by fewer pixels.
+TEST(FramePace, PicturesHaveAsManyPixelsAsTimeAllows) {
+    using Seconds = std::chrono::duration<double>;
+    const auto pauseOf = [](double secondsPerPixel) {
+        FramePace pace;
+        const FramePace::Clock::time_point start{};
+        const auto after = [&](double seconds) {
+            return start + std::chrono::duration_cast<FramePace::Clock::duration>(Seconds(seconds));
+        };
+        pace.note(1, pace.mostPixels(), start, after(2)); // has compiled the kernel: no sign of what pixels cost
+        EXPECT_EQ(Seconds(pace.next(1) - start).count(), secondsBetweenFrames);
+        EXPECT_EQ(pace.mostPixels(), size_t{1} << 20);
+        for (int picture = 0; picture < 20; ++picture)
+            pace.note(1, pace.mostPixels(), start, after(secondsPerPixel * static_cast<double>(pace.mostPixels())));
+        EXPECT_EQ(pace.next(2), FramePace::Clock::time_point{}) << "of another render";
+        return Seconds(pace.next(1) - start).count();
+    };
+    for (const double slow : {1e-9, 3e-8, 1e-7}) EXPECT_NEAR(pauseOf(slow), 0.4, 1e-3) << slow;
+    EXPECT_NEAR(pauseOf(1e-6), 65536 * 1e-6 / 0.03, 1e-3)
+        << "with the fewest pixels: at most 3 % of the time all the same";
 }
 
 TEST(Errands, AreDoneByTheOtherThreadWhenTheyAreDue) {

@@ -18,11 +18,12 @@ namespace {
 constexpr double enoughOfField = 0.98;
 constexpr size_t listedSources = 10;
 
-View viewOf(const DgpOptions& options) {
-    const Projection projection = parseProjection(options.projection);
+View viewOf(const DgpOptions& options, const LuminanceImage& image) {
+    const auto& stated = image.fisheye;
+    const Projection projection = parseProjection(options.projection.value_or(stated ? stated->first : "equidistant"));
     if (projection == Projection::perspective && !options.degrees)
         throw InputError("--projection perspective: the image does not say how wide it is; give --fov DEGREES");
-    const double degrees = options.degrees.value_or(180);
+    const double degrees = options.degrees.value_or(stated && !options.projection ? stated->second : 180);
     if (projection == Projection::perspective && degrees > 175)
         throw InputError(fmt::format("--fov {}: a perspective image spans at most 175 degrees here", degrees));
     return {projection, degrees * std::numbers::pi / 180};
@@ -88,9 +89,9 @@ void printGlare(const DgpOptions& options, const DaylightGlare& glare) {
 } // namespace
 
 int dgpCommand(const DgpOptions& options) {
-    const View view = viewOf(options);
     const LuminanceImage image =
         readLuminance(options.input, options.photometric ? ImageUnits::photometric : ImageUnits::asHeaderSays);
+    const View view = viewOf(options, image);
     if (image.isIlluminance)
         throw InputError(fmt::format("{}: is an image of irradiance; DGP is of what a camera sees", options.input));
     if (!std::all_of(image.values.begin(), image.values.end(), [](float v) { return v >= 0 && v < 1e30F; }))

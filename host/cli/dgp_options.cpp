@@ -15,12 +15,15 @@ void declareDgp(CLI::App& app, DgpOptions& options) {
         ->type_name("FILE")
         ->required();
     command
-        .add_option("--projection", options.projection,
-                    "perspective, or of a fisheye equidistant, equisolid or orthographic (default: equidistant)")
+        .add_option(
+            "--projection", options.projection,
+            "perspective, or of a fisheye equidistant, equisolid or orthographic (default: what the image says, "
+            "else equidistant)")
         ->type_name("NAME")
         ->check(oneOf(projectionNames()));
     command
-        .add_option("--fov", options.degrees, "Angle that the image is wide, in degrees (default: 180 of a fisheye)")
+        .add_option("--fov", options.degrees,
+                    "Angle that the image is wide, in degrees (default: what the image says, else 180 of a fisheye)")
         ->type_name("DEGREES")
         ->check(numberAbove(0, 180));
     command.add_option("--threshold", options.threshold, "Luminance from which pixels glare, in cd/m2 (default: 2000)")

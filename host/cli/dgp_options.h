@@ -9,9 +9,9 @@ namespace quasilux {
 
 struct DgpOptions {
     std::string input;
-    std::string projection = "equidistant";
-    std::optional<double> degrees; ///< that the image is wide
-    double threshold = 2000;       ///< cd/m²
+    std::optional<std::string> projection; ///< both: else what the image's header says
+    std::optional<double> degrees;         ///< that the image is wide
+    double threshold = 2000;               ///< cd/m²
     std::optional<double> illuminance;
     bool photometric = false, json = false, quiet = false;
 };

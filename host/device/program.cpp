@@ -110,7 +110,7 @@ void Kernel::enqueue(size_t count, size_t asked) {
     try {
         for (size_t first = 0; first < global; first += lastCount_) {
             notePace();
-            lastCount_ = pace_.next(global - first, group, device_->longestLaunch());
+            lastCount_ = pace_.next(global - first, group, std::min(device_->longestLaunch(), longestPart_));
             last_ = enqueuePart(first, lastCount_, group);
             if (lastCount_ < global) last_.wait();
             if (afterPart_ && first + lastCount_ < count) afterPart_(first + lastCount_);

@@ -39,8 +39,12 @@ public:
         launchInGroupsOf(1, count, args...);
     }
 
-    /// Called when a part of the work-items is done, with the number so far, where launches are split; empty: no more.
-    void watchParts(std::function<void(size_t)> afterPart) { afterPart_ = std::move(afterPart); }
+    /// Called when a part of the work-items is done, with the number so far, where launches are split; empty: no more. A launch takes no
+    /// longer than `longest` seconds meanwhile.
+    void watchParts(std::function<void(size_t)> afterPart, double longest = longestLaunchSeconds) {
+        afterPart_ = std::move(afterPart);
+        longestPart_ = longest;
+    }
 
     /// The launches so far were of no work, made so that the runtime compiles the kernel.
     void forgetPace() { lastCount_ = 0; }
@@ -77,6 +81,7 @@ private:
     cl::Event last_; ///< the last launch
     size_t lastCount_ = 0;
     std::function<void(size_t)> afterPart_;
+    double longestPart_ = longestLaunchSeconds;
 };
 
 class Program {

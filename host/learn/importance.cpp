@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <numbers>
 #include <unordered_map>
 
 namespace quasilux {
@@ -76,7 +77,9 @@ shared::ImportanceGrid importanceGrid(const DeviceScene& scene, unsigned paths) 
     grid.eye = camera.origin;
     const double share = verticesOfCell / paths;
     const double ofScene = std::sqrt(share * scene.surfaceArea);
-    const double image = double(camera.width) * camera.height * length(camera.stepX) * length(camera.stepY);
+    const double image = camera.fisheye != FISHEYE_NONE
+                             ? 2 * std::numbers::pi * (1 - std::cos(camera.halfAngle))
+                             : double(camera.width) * camera.height * length(camera.stepX) * length(camera.stepY);
     const bool isCamera = scene.offsets.meter.kind == METER_NONE;
     const bool isPerspective = isCamera && !camera.orthographic;
     // Its image at distance 1, or its image as it is.

@@ -112,6 +112,10 @@ void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
     set("kernels", settings.genericKernels ? "generic" : "scene");
     set("quantity", quantityName(record.meter));
     set("units", settings.photometric ? "photometric" : "radiometric");
+    if (record.fisheye) {
+        set("projection", record.fisheye->projection);
+        set("fov", record.fisheye->degrees);
+    }
     describeError(spec, record.error);
 }
 

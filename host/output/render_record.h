@@ -14,6 +14,14 @@
 
 namespace quasilux {
 
+/// Of an image that `quasilux dgp` can rate without being told.
+struct FisheyeView {
+    std::string projection;
+    double degrees = 180; ///< that the image's width spans
+};
+/// None of another sensor, and of a crop window.
+std::optional<FisheyeView> fisheyeViewOf(const Sensor& sensor);
+
 struct RenderRecord {
     std::string version = QUASILUX_VERSION;
     std::string scene; ///< file name without its folder
@@ -27,6 +35,7 @@ struct RenderRecord {
     SearchReport search;                   ///< which settings were searched, and why these were chosen
     ErrorEstimate error;
     PixelFormat pixelFormat;            ///< what the image holds beside R, G, B
+    std::optional<FisheyeView> fisheye; ///< how the image shows directions, if by a fisheye in the middle of its film
     MeterKind meter = MeterKind::none;  ///< what the image's values are: radiance, or of area and grid irradiance
     std::vector<IlluminanceGrid> grids; ///< whose points the image has one after the other, where the file has them
     std::optional<double> unobstructedIlluminance; ///< lx, of which illuminances are stated as daylight factors too

@@ -1,6 +1,8 @@
 #include "photometry/daylight_glare.h"
 
 #include "photometry/position_index.h"
+#include "util/error.h"
+#include "util/nearest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -151,7 +153,7 @@ std::vector<std::string> projectionNames() { return {"perspective", "equidistant
 Projection parseProjection(const std::string& name) {
     const auto names = projectionNames();
     const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) throw std::logic_error("no projection " + name);
+    if (found == names.end()) throw InputError("projection " + name + " is unknown, " + expectedNames(name, names));
     return static_cast<Projection>(found - names.begin());
 }
 

@@ -25,6 +25,11 @@ std::string headerText(const std::string& path, const std::string& key) {
     return input ? std::string(input->spec().get_string_attribute(key)) : "";
 }
 
+double headerNumber(const std::string& path, const std::string& key) {
+    const auto input = OIIO::ImageInput::open(path);
+    return input ? input->spec().get_float_attribute(key) : 0;
+}
+
 } // namespace
 
 LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector<float>& rgb,
@@ -36,7 +41,8 @@ LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector
             photometricOf(standardError, efficacy),
             false,
             unitsArePhotometric ? "0.2126 R + 0.7152 G + 0.0722 B"
-                                : fmt::format("{:g} lm/W (0.2126 R + 0.7152 G + 0.0722 B)", luminousEfficacy)};
+                                : fmt::format("{:g} lm/W (0.2126 R + 0.7152 G + 0.0722 B)", luminousEfficacy),
+            std::nullopt};
 }
 
 LuminanceImage readLuminance(const std::string& path, ImageUnits units) {
@@ -44,6 +50,8 @@ LuminanceImage readLuminance(const std::string& path, ImageUnits units) {
     const bool photometric = units == ImageUnits::photometric || headerText(path, "quasilux:units") == "photometric";
     LuminanceImage found = luminanceImage(image.width, image.height, image.radiance, image.standardError, photometric);
     found.isIlluminance = headerText(path, "quasilux:quantity") == "irradiance";
+    const std::string projection = headerText(path, "quasilux:projection");
+    if (!projection.empty()) found.fisheye = {projection, headerNumber(path, "quasilux:fov")};
     return found;
 }
 

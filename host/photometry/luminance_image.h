@@ -1,7 +1,9 @@
 // Images in the units of engineers: luminance or illuminance of each pixel.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quasilux {
@@ -12,6 +14,8 @@ struct LuminanceImage {
     std::vector<float> standardError; ///< upper bounds; empty: unknown
     bool isIlluminance = false;
     std::string conversion; ///< by which it was made of R, G, B
+    /// Of a fisheye, if the header says so: how it shows directions, and how many degrees it is wide.
+    std::optional<std::pair<std::string, double>> fisheye;
 
     const char* unit() const { return isIlluminance ? "lx" : "cd/m²"; }
 };

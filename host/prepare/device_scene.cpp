@@ -65,6 +65,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     features.depthLimit = scene.maxDepth >= 0;
     features.hiddenEmitters = scene.hideEmitters && !isIrradiance(scene.sensor.meter);
     features.orthographicCamera = scene.sensor.orthographic;
+    features.fisheyeCamera = scene.sensor.fisheye != FISHEYE_NONE;
     features.thinLens = scene.sensor.apertureRadius > 0;
     features.filterTable = needsFilterTable(scene.sensor);
     features.radianceMeter = scene.sensor.meter == MeterKind::ray;

@@ -33,6 +33,7 @@ constexpr std::array flags = {
     Flag{&Features::borders, "HAS_BORDERS", "surface borders"},
     Flag{&Features::depthLimit, "HAS_DEPTH_LIMIT", "path depth limit"},
     Flag{&Features::orthographicCamera, "HAS_ORTHOGRAPHIC_CAMERA", "orthographic camera"},
+    Flag{&Features::fisheyeCamera, "HAS_FISHEYE_CAMERA", "fisheye camera"},
     Flag{&Features::thinLens, "HAS_THIN_LENS", "thin lens"},
     Flag{&Features::filterTable, "HAS_FILTER_TABLE", "tabulated reconstruction filter"},
     Flag{&Features::textures, "HAS_TEXTURES", "textures"},

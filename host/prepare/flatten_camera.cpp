@@ -45,6 +45,20 @@ void placeOrthographic(const Sensor& sensor, shared::Camera& camera) {
     camera.forward = pack(glm::normalize(axes[2]));
 }
 
+// As wide as the film; its middle is the film's.
+void placeFisheye(const Sensor& sensor, shared::Camera& camera) {
+    const glm::dmat3 axes(sensor.toWorld);
+    const glm::dvec3 left = glm::normalize(axes[0]), up = glm::normalize(axes[1]);
+    const double step = 2.0 / sensor.filmWidth;
+    camera.fisheye = sensor.fisheye;
+    camera.halfAngle = static_cast<float>(sensor.fovX / 2);
+    camera.origin = pack(glm::dvec3(sensor.toWorld[3]));
+    camera.stepX = pack(-left * step);
+    camera.stepY = pack(-up * step);
+    camera.corner = pack(step * (left * toCorner(sensor).x + up * toCorner(sensor).y));
+    camera.forward = pack(glm::normalize(axes[2]));
+}
+
 // One ray, whatever the place in the pixel.
 void placeRay(const Sensor& sensor, shared::Camera& camera) {
     camera.origin = pack(glm::dvec3(sensor.toWorld[3]));
@@ -59,6 +73,8 @@ shared::Camera flattenCamera(const Sensor& sensor, unsigned medium) {
         placeRay(sensor, camera);
     else if (sensor.orthographic)
         placeOrthographic(sensor, camera);
+    else if (sensor.fisheye != FISHEYE_NONE)
+        placeFisheye(sensor, camera);
     else
         placePerspective(sensor, camera);
     camera.medium = medium;

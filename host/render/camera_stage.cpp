@@ -4,6 +4,13 @@
 
 namespace quasilux {
 
+namespace {
+
+// Where somebody waits for rows of the film, so that pictures come twice a second (docs/notes/live-view.md).
+constexpr double longestAwaitedSeconds = 0.2;
+
+} // namespace
+
 CameraStage::CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params,
                          AdaptiveRadius* radii, SharedSamples* shared)
     : geometry_(geometry), film_(film), radii_(radii), shared_(shared), traceCameraPaths_(pass.kernel(cameraKernel)),
@@ -56,7 +63,8 @@ void CameraStage::runOn(Film& film, shared::CameraParams params, const Buffer<fl
         shared_->addPass(film, params, geometry_, tracer(film, radiusScales, photons));
     else
         for (Film::Part& part : film.parts()) {
-            traceCameraPaths_.watchParts([&](size_t pixels) { film.noteAhead(part.firstPixel + pixels); });
+            traceCameraPaths_.watchParts([&](size_t pixels) { film.noteAhead(part.firstPixel + pixels); },
+                                         film.isAwaited() ? longestAwaitedSeconds : longestLaunchSeconds);
             tracePart(film, part, params, part.pixels, radiusScales, photons);
             film.noteAhead(part.firstPixel + part.pixels);
         }

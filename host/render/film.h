@@ -84,7 +84,12 @@ public:
     }
     size_t pixelsAhead() const { return pixelsAhead_; }
     /// Called whenever more pixels have all of a pass, by the thread that renders; empty: no more. Who looks on changes nothing.
-    void watchRows(std::function<void()> onRows) const { onRows_ = std::move(onRows); }
+    /// `isAwaited`: somebody waits for them now.
+    void watchRows(std::function<void()> onRows, bool isAwaited = false) const {
+        onRows_ = std::move(onRows);
+        isAwaited_ = isAwaited;
+    }
+    bool isAwaited() const { return isAwaited_; }
     /// All passes that have begun have ended; or else a part of one may be in the sums.
     bool isWhole() const { return isWhole_; }
 
@@ -121,6 +126,7 @@ private:
     bool isWhole_ = true;
     size_t pixelsAhead_ = 0;
     mutable std::function<void()> onRows_;
+    mutable bool isAwaited_ = false;
     FilmCounts counts_;
     std::vector<Part> parts_;
     Buffer<shared::CameraCounters> counters_;

@@ -289,10 +289,11 @@ struct Sensor {
     SourceLocation where;
     std::string plugin = "perspective";
     MeterKind meter = MeterKind::none;
-    unsigned meterShape = 0;      ///< MeterKind::area: which lies on it
-    glm::dmat4 toWorld{1.0};      ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
-    bool orthographic = false;    ///< parallel rays from local x in [-1, 1]; else perspective
-    double fovX = 0;              ///< perspective: full horizontal angle, radians (fov_axis already resolved)
+    unsigned meterShape = 0;   ///< MeterKind::area: which lies on it
+    glm::dmat4 toWorld{1.0};   ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
+    bool orthographic = false; ///< parallel rays from local x in [-1, 1]; else perspective, or a fisheye
+    unsigned fisheye = FISHEYE_NONE;
+    double fovX = 0;              ///< perspective, fisheye: full horizontal angle, radians (fov_axis already resolved)
     glm::dvec2 principalPoint{0}; ///< perspective: of the film's size, by how much the view lies to the right and down
     double apertureRadius = 0;    ///< of a thin lens, scene units; 0: a pinhole
     double focusDistance = 0;     ///< and depth of the plane that is sharp

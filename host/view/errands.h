@@ -41,6 +41,8 @@ public:
 
     /// The thread that renders: does what is due. Nothing but a look at a number where nobody wants anything.
     void doDue(const RenderMoment& moment);
+    /// Whether somebody waits now.
+    bool areAwaited() const { return waiting_ > 0; }
     /// What waits for its time need not any more.
     void hurry();
     /// Wakes all who wait, for good.

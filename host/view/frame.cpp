@@ -11,20 +11,18 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned mostPixels = 1u << 21;  // of a frame
-constexpr unsigned mostThinned = 1u << 19; // of one of a film that is thinned, while the render goes on
-constexpr unsigned mostPixelsRead =
-    1u << 20; // of the film, for a frame of a render that goes on, where that is thinned
+constexpr unsigned mostPixels = 1u << 21;      // of a frame
+constexpr unsigned mostThinned = 1u << 19;     // of one of a film that is thinned, while the render goes on
 constexpr size_t pixelsForExposure = 1u << 14; // looked at for the automatic exposure
 constexpr float largestHalf = 65504;
 
 const std::string imageLayer = "image", noiseLayer = "stderr", biasLayer = "bias", ratioLayer = "relative_error";
 
 // As many pixels of the film as may be read.
-unsigned samplingOf(const FilmCutChoice& choice, bool goesOn) {
-    const uint64_t all = uint64_t{choice.width} * choice.height;
-    if (!goesOn || all <= mostPixelsRead) return CUT_ALL;
-    return all / choice.step <= mostPixelsRead ? CUT_DIAGONAL : CUT_MIDDLE;
+unsigned samplingOf(const FilmCutChoice& choice, std::optional<size_t> mostRead) {
+    const size_t all = size_t{choice.width} * choice.height;
+    if (!mostRead || all <= *mostRead) return CUT_ALL;
+    return all / choice.step <= *mostRead ? CUT_DIAGONAL : CUT_MIDDLE;
 }
 
 // Of the component with this name; FILM_COMPONENTS: it is none.
@@ -81,7 +79,7 @@ std::vector<std::string> layersOf(const FilmLayout& film) {
 
 bool isValueLayer(const std::string& layer) { return layer == imageLayer || componentOf(layer) < FILM_COMPONENTS; }
 
-FilmCutChoice cutFor(const FrameWish& wish, const Film& film, bool goesOn) {
+FilmCutChoice cutFor(const FrameWish& wish, const Film& film, std::optional<size_t> mostRead) {
     const auto layers = layersOf(film.layout());
     if (std::find(layers.begin(), layers.end(), wish.layer) == layers.end())
         throw InputError("layer '" + wish.layer + "' is not there, " + expectedNames(wish.layer, layers));
@@ -91,16 +89,22 @@ FilmCutChoice cutFor(const FrameWish& wish, const Film& film, bool goesOn) {
     choice.width = std::clamp(wish.width, 1u, film.width() - choice.x);
     choice.height = std::clamp(wish.height, 1u, film.height() - choice.y);
     choice.step = std::clamp(wish.step, 1u, std::max(choice.width, choice.height));
-    const auto exceeds = [&](unsigned most) {
-        return uint64_t(choice.width / choice.step) * (choice.height / choice.step) > most;
+    const auto exceeds = [&](size_t most) {
+        return size_t{choice.width / choice.step} * (choice.height / choice.step) > most;
     };
-    while (exceeds(mostPixels) || (goesOn && choice.step > 1 && exceeds(mostThinned))) ++choice.step;
+    const size_t mostOfThinned = std::min<size_t>(mostThinned, mostRead.value_or(mostPixels));
+    while (exceeds(mostPixels) || (mostRead && choice.step > 1 && exceeds(mostOfThinned))) ++choice.step;
     const unsigned component = componentOf(wish.layer);
     if (component < FILM_COMPONENTS) choice.component = component;
     const bool isValue = isValueLayer(wish.layer);
     if (!isValue) choice.content = FilmCutChoice::Content::errors;
-    choice.sampling = isValue ? samplingOf(choice, goesOn) : CUT_MIDDLE;
+    choice.sampling = isValue ? samplingOf(choice, mostRead) : CUT_MIDDLE;
     return choice;
+}
+
+size_t pixelsRead(const FilmCutChoice& choice) {
+    const size_t all = size_t{choice.width} * choice.height, step = choice.step;
+    return choice.sampling == CUT_ALL ? all : choice.sampling == CUT_DIAGONAL ? all / step : all / (step * step);
 }
 
 Frame makeFrame(const FrameWish& wish, const FilmCutChoice& choice, const FilmImage& cut, double mean) {

@@ -4,6 +4,7 @@
 #include "output/png.h"
 #include "render/film_cut.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ std::vector<std::string> layersOf(const FilmLayout& film);
 /// Whether a layer is of values, as image and components are; or else of errors.
 bool isValueLayer(const std::string& layer);
 
-/// The wish as far as the film goes, thinned to what a screen shows. While the render goes on large films are looked at in some of
-/// their pixels alone. Throws InputError where the film has no such layer.
-FilmCutChoice cutFor(const FrameWish& wish, const Film& film, bool goesOn);
+/// The wish as far as the film goes, thinned to what a screen shows. `mostRead`: while the render goes on, how many of the film's pixels
+/// may be read where the picture is thinned. Throws InputError where the film has no such layer.
+FilmCutChoice cutFor(const FrameWish& wish, const Film& film, std::optional<size_t> mostRead);
+/// How many pixels of the film that reads.
+size_t pixelsRead(const FilmCutChoice& choice);
 
 struct Frame {
     unsigned x = 0, y = 0, step = 1; ///< where it lies in the film

@@ -45,6 +45,7 @@ void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& s
     record_.workGroupSize = device.workGroupSize();
     record_.stop = stop;
     record_.meter = scene.sensor.meter;
+    record_.fisheye = fisheyeViewOf(scene.sensor);
     record_.pixelFormat = scene.sensor.pixelFormat;
     state_.begin({record_.scene, scene.sensor.width, scene.sensor.height, isEndless, isIrradiance(scene.sensor.meter)});
     state_.setSettings(settings);
@@ -58,9 +59,8 @@ void LiveView::onProgress(const Progress& progress) {
 void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
     syncSignal();
     const auto passes = static_cast<unsigned>(renderer.counters().passes);
-    renderer.film().watchRows(isLast ? std::function<void()>() : [this, &renderer, &soFar] {
-        errands_.doDue({renderer, soFar, ++moment_, true, true});
-    });
+    const auto onRows = [this, &renderer, &soFar] { errands_.doDue({renderer, soFar, ++moment_, true, true}); };
+    renderer.film().watchRows(isLast ? std::function<void()>() : onRows, errands_.areAwaited());
     const char* over = isStopped_ ? "stopped" : "done";
     if (passes == 0) { // the method has been chosen
         state_.setSettings(soFar.settings);

@@ -5,6 +5,7 @@
 #include "scene/xml/xml_document.h"
 #include "util/temporary_folder.h"
 #include "view/frame.h"
+#include "view/frame_pace.h"
 #include "view/page_files.h"
 
 #include <cmath>
@@ -24,8 +25,6 @@ using httplib::Response;
 // Threads, of which each request that waits for something new takes one.
 constexpr size_t serverThreads = 24;
 constexpr std::chrono::milliseconds patience{3000}, patienceOfSaving{600000};
-// Pictures of a render that goes on come no more often than this, and take at most this share of its time.
-constexpr double secondsBetweenFrames = 0.4, mostOfTime = 0.03;
 
 constexpr int badRequest = 400, forbidden = 403, notFound = 404, noContent = 204, unsupportedType = 415;
 
@@ -185,13 +184,13 @@ struct ViewServer::Http {
             [&](const RenderMoment& now) {
                 const auto start = Clock::now();
                 const Film& film = now.renderer.film();
-                choice = cutFor(wish, film, now.goesOn);
+                choice = cutFor(wish, film, now.goesOn ? std::optional(pace.mostPixels()) : std::nullopt);
                 isWhole = choice.width == film.width() && choice.height == film.height();
                 cut = view.cutter().develop(film, static_cast<unsigned>(now.renderer.counters().passes), choice);
                 moment = now.number;
-                noteCost(start);
+                pace.note(view.renders(), pixelsRead(choice), start, Clock::now());
             },
-            {after, after > 0 ? nextFrame() : Clock::time_point{}, isValueLayer(wish.layer)}, patience);
+            {after, after > 0 ? pace.next(view.renders()) : Clock::time_point{}, isValueLayer(wish.layer)}, patience);
         if (!isDone) {
             response.status = noContent;
             return;
@@ -306,28 +305,12 @@ struct ViewServer::Http {
         reply(response, nlohmann::json::object());
     }
 
-    // Both are called with errands' lock or without; a torn order would only shift a picture.
-    void noteCost(Clock::time_point start) {
-        // The very first one has compiled its kernel.
-        const bool isFirst = framedRender == 0;
-        const double cost = isFirst ? 0 : std::chrono::duration<double>(Clock::now() - start).count();
-        const double pause = std::max(secondsBetweenFrames, cost / mostOfTime);
-        framedRender = view.renders();
-        next = start.time_since_epoch() +
-               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(pause));
-    }
-    // The first picture of a render is not put off.
-    Clock::time_point nextFrame() const {
-        return framedRender == view.renders() ? Clock::time_point(next.load()) : Clock::time_point{};
-    }
-
     LiveView& view;
     Access access;
     std::string listen;
     int port = 0;
-    std::atomic<Clock::duration> next{};   // since the clock's epoch: when the next picture may be made
-    std::atomic<uint64_t> framedRender{0}; // which that was a picture of
-    std::atomic<double> meanRadiance{0};   // of the whole image, by its last picture
+    FramePace pace;
+    std::atomic<double> meanRadiance{0}; // of the whole image, by its last picture
     httplib::Server server;
     std::thread thread;
 };

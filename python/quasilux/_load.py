@@ -29,7 +29,7 @@ def load(
     lenient: bool = False,
     folder: str | os.PathLike[str] = ".",
 ) -> _core.Scene:
-    """Loads a scene: a Mitsuba 3 XML file, or a dict as Mitsuba's ``load_dict`` takes it.
+    """Loads a scene: a file of Mitsuba 3 XML or glTF 2.0, or a dict as Mitsuba's ``load_dict`` takes it.
 
     In a dict, objects are dicts with the name of a plugin as ``type``; their keys are their ids, which
     ``{"type": "ref", "id": ...}`` refers to. Numbers, bools, strings, three numbers (a point or vector), 4 x 4 arrays (a

@@ -162,6 +162,21 @@ class DoneRender(unittest.TestCase):
         self.view.wait(done)
 
 
+class GltfScene(unittest.TestCase):
+    def test_it_is_seen_and_loaded_again_when_it_is_saved(self):
+        with Viewed(PROGRAM, SOURCE + "/tests/data/lit_floor.gltf", "--passes", "2", "--photons", "4000") as view:
+            done = view.wait(lambda state: state["phase"] == "done")
+            self.assertEqual(done["scene"], "scene.gltf")
+            self.assertEqual([lamp["kind"] for lamp in done["lamps"]], ["area"])
+            before = view.frame()[1].mean()
+            good = view.scene.read_text()
+            view.scene.write_text(good.replace('"emissiveStrength": 8', '"emissiveStrength": 16'))
+            view.wait(lambda state: state["render"] > done["render"] and state["phase"] == "done")
+            self.assertAlmostEqual(view.frame()[1].mean() / before, 2, delta=0.02)
+            view.scene.write_text(good.replace('"camera": 0', '"camera": 7'))
+            self.assertIn("scene.gltf: nodes[2]", view.wait(lambda state: state["problem"])["problem"])
+
+
 class RunningRender(unittest.TestCase):
     def test_it_sharpens_and_stops(self):
         with Viewed(PROGRAM, SCENE, *SMALL) as view:

@@ -16,14 +16,14 @@ PATIENCE = 20  # seconds
 
 
 class Viewed:
-    """`command`: view or render. The scene is a copy, scene.xml in `folder`."""
+    """`command`: view or render. The scene is a copy, such as scene.xml, in `folder`."""
 
     def __init__(self, program, scene, *options, command="view"):
         self.temporary = tempfile.TemporaryDirectory(prefix="quasilux-view-")
         self.folder = Path(self.temporary.name)
-        self.scene = self.folder / "scene.xml"
+        self.scene = self.folder / ("scene" + Path(scene).suffix)
         shutil.copy(scene, self.scene)
-        arguments = [program, command, "scene.xml", "--no-browser", *options]
+        arguments = [program, command, self.scene.name, "--no-browser", *options]
         self.process = subprocess.Popen(arguments, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         stream = self.process.stdout if command == "view" else self.process.stderr
         self.address = re.search(r"http://\S+", stream.readline()).group(0)

@@ -80,6 +80,14 @@ class AgainstTheProgram(unittest.TestCase):
         turned["tall"]["to_world"] = turned["tall"]["to_world"] @ ql.rotate((0, 1, 0), 1)
         self.assertFalse(same_bits(self.picture.image, ql.render(ql.load(turned), passes=5, **CHOICE).image), "control")
 
+    def test_a_gltf_file_gives_the_same_bits(self):
+        scene = SOURCE + "/tests/data/lit_floor.gltf"
+        picture = ql.render(ql.load(scene), passes=2, **CHOICE)
+        program("render", scene, "--passes", "2", *OF_PROGRAM, "-o", str(self.folder / "floor.exr"))
+        for channel, letter in enumerate("RGB"):
+            self.assertTrue(same_bits(layers_of(self.folder / "floor.exr")[letter], numpy.ascontiguousarray(picture.image[:, :, channel])))
+        self.assertGreater(picture.image.mean(), 0)
+
     def test_same_record(self):
         written = json.loads((self.folder / "program.json").read_text())
         self.assertEqual(without_times(dict(self.picture.record)), without_times(written))

@@ -29,24 +29,22 @@ void addShare(Element& bsdf, const std::string& name, const GltfParameter& param
         addNumber(bsdf, name, parameter.value.x);
 }
 
-/// That whose reflectance at normal incidence is the material's index's, times its specular factor.
-double indexOf(const GltfMaterial& material) {
+/// That whose reflectance at normal incidence is the material's index's, times its specular factor and a share.
+double indexOf(const GltfMaterial& material, double share) {
     const double amplitude = (material.ior - 1) / (material.ior + 1);
-    const double root = std::sqrt(std::clamp(amplitude * amplitude * material.specular, 0.0, 0.98));
+    const double root = std::sqrt(std::clamp(amplitude * amplitude * material.specular * share, 0.0, 0.98));
     return (1 + root) / (1 - root);
 }
 
-Element principled(const GltfMaterial& material, const GltfSurface& surface, double metallic) {
+Element principled(const GltfMaterial& material, const GltfSurface& surface, double metallic, double specular) {
     Element bsdf = newObject("bsdf", "principled", "", material.where);
     addColorOrTexture(bsdf, "base_color", surface.base);
     addShare(bsdf, "roughness", surface.roughness);
     addNumber(bsdf, "metallic", metallic);
-    addNumber(bsdf, "eta", indexOf(material));
+    addNumber(bsdf, "eta", indexOf(material, specular));
     if (material.clearcoat > 0) {
-        // Disney's gloss goes linearly from alpha 0.1 to 0.001.
-        const double alpha = material.clearcoatRoughness * material.clearcoatRoughness;
-        addNumber(bsdf, "clearcoat", material.clearcoat);
-        addNumber(bsdf, "clearcoat_gloss", std::clamp((0.1 - alpha) / (0.1 - 0.001), 0.0, 1.0));
+        addShare(bsdf, "clearcoat", surface.coat);
+        addShare(bsdf, "clearcoat_gloss", surface.coatGloss);
     }
     return bsdf;
 }
@@ -65,10 +63,18 @@ Element wrapped(const char* plugin, Element nested) {
     return outer;
 }
 
+/// Of one share of metal. The index is no texture: between none of the reflectance and all of it.
+Element ofOneMetal(const GltfMaterial& material, const GltfSurface& surface, double metallic) {
+    if (!surface.specular.isTextured()) return principled(material, surface, metallic, surface.specular.value.x);
+    if (metallic == 1) return principled(material, surface, metallic, 1);
+    return blendOf(surface.specular, principled(material, surface, metallic, 0),
+                   principled(material, surface, metallic, 1), material.where);
+}
+
 /// What reflects alone.
 Element reflecting(const GltfMaterial& material, const GltfSurface& surface) {
-    if (!surface.metallic.isTextured()) return principled(material, surface, surface.metallic.value.x);
-    return blendOf(surface.metallic, principled(material, surface, 0), principled(material, surface, 1),
+    if (!surface.metallic.isTextured()) return ofOneMetal(material, surface, surface.metallic.value.x);
+    return blendOf(surface.metallic, ofOneMetal(material, surface, 0), ofOneMetal(material, surface, 1),
                    material.where);
 }
 

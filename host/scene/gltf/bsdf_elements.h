@@ -21,6 +21,8 @@ struct GltfSurface {
     std::optional<GltfParameter> normal;
     GltfParameter transmitted; ///< colour of what is transmitted at one border
     GltfParameter alpha;       ///< roughness squared
+    GltfParameter coat, coatGloss;
+    GltfParameter specular; ///< share of the reflectance that the material's index and factor have
 };
 
 GltfSurface surfaceOf(const GltfMaterial& material, const PrimitiveSurface& primitive, GltfContext& context,

@@ -53,12 +53,6 @@ private:
         return {source_.extensions, name, {fmt::format("{}.{}", material_.where.file, name)}};
     }
 
-    /// Parameters that would vary over a surface.
-    void leaveOutTextures(const GltfValues& extension, std::initializer_list<const char*> names) const {
-        for (const char* name : names)
-            if (extension.find(name)) context_.withoutEffect.insert(name);
-    }
-
     void readIndex() const {
         const double ior = values("KHR_materials_ior").number("ior", 1.5);
         // 0 stands for a reflectance of 1 at all angles, which exporters of an older workflow ask for.
@@ -90,7 +84,11 @@ private:
         const GltfValues coat = values("KHR_materials_clearcoat");
         material_.clearcoat = coat.numberWithin("clearcoatFactor", 0, 0, 1);
         material_.clearcoatRoughness = coat.numberWithin("clearcoatRoughnessFactor", 0, 0, 1);
-        leaveOutTextures(coat, {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"});
+        if (material_.clearcoat > 0) {
+            material_.clearcoatTexture = coat.texture("clearcoatTexture");
+            material_.clearcoatRoughnessTexture = coat.texture("clearcoatRoughnessTexture");
+        }
+        if (coat.find("clearcoatNormalTexture")) context_.withoutEffect.insert("clearcoatNormalTexture");
     }
 
     /// A colour counts by its luminance.
@@ -100,7 +98,13 @@ private:
         if (color.x != color.y || color.x != color.z) context_.withoutEffect.insert("colours of specularColorFactor");
         material_.specular =
             specular.numberWithin("specularFactor", 1, 0, 1) * std::max(luminanceOf(color.x, color.y, color.z), 0.0);
-        leaveOutTextures(specular, {"specularTexture", "specularColorTexture"});
+        if (material_.specular == 0) return;
+        material_.specularTexture = specular.texture("specularTexture");
+        material_.specularColorTexture = specular.texture("specularColorTexture");
+        if (material_.specularColorTexture.index < 0) return;
+        context_.withoutEffect.insert(material_.specularTexture.index < 0
+                                          ? "colours of specularColorTexture"
+                                          : "specularColorTexture beside specularTexture");
     }
 
     GltfContext& context_;
@@ -113,7 +117,8 @@ private:
 std::vector<const tinygltf::TextureInfo*> GltfMaterial::textures() const {
     std::vector<const tinygltf::TextureInfo*> all;
     for (const tinygltf::TextureInfo* texture :
-         {&baseTexture, &metallicRoughnessTexture, &normalTexture, &emissiveTexture, &transmissionTexture})
+         {&baseTexture, &metallicRoughnessTexture, &normalTexture, &emissiveTexture, &transmissionTexture,
+          &clearcoatTexture, &clearcoatRoughnessTexture, &specularTexture, &specularColorTexture})
         if (texture->index >= 0) all.push_back(texture);
     return all;
 }

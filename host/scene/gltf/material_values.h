@@ -32,7 +32,9 @@ struct GltfMaterial {
     double attenuationDistance = std::numeric_limits<double>::infinity();
     glm::dvec3 attenuationColor{1};
     double clearcoat = 0, clearcoatRoughness = 0;
-    double specular = 1; ///< factor on the reflectance at normal incidence
+    tinygltf::TextureInfo clearcoatTexture, clearcoatRoughnessTexture; ///< in red, in green
+    double specular = 1;                                         ///< factor on the reflectance at normal incidence
+    tinygltf::TextureInfo specularTexture, specularColorTexture; ///< in alpha, in R, G, B
 
     /// Of its textures, those that are there.
     std::vector<const tinygltf::TextureInfo*> textures() const;

@@ -1,5 +1,6 @@
 // The parameters of a material at a primitive: factors times textures or vertex colours.
 #include "scene/gltf/bsdf_elements.h"
+#include "scene/photometric_units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,9 @@ namespace quasilux {
 namespace {
 
 glm::dvec3 grey(double value) { return glm::dvec3(value); }
+
+/// Disney's gloss goes linearly from alpha 0.1 to 0.001.
+double glossOf(double roughness) { return std::clamp((0.1 - roughness * roughness) / (0.1 - 0.001), 0.0, 1.0); }
 
 std::string colorText(const glm::dvec3& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); }
 
@@ -39,6 +43,8 @@ public:
         surface.transmission = passed == 0 ? GltfParameter{grey(0), {}}
                                            : number(material_.transmissionTexture, "transmission", passed,
                                                     [=](const glm::dvec4& pixel) { return pixel.x * passed; });
+        readCoat(surface);
+        surface.specular = specular();
         surface.opacity = opacity();
         surface.normal = normal();
         return surface;
@@ -65,6 +71,25 @@ private:
         return textures_.make(
             texture, PixelCode::linear, fmt::format("{} {:.6g}", meaning, factor),
             [&](const glm::dvec4& pixel) { return grey(change(pixel)); }, material_.where);
+    }
+
+    void readCoat(GltfSurface& surface) {
+        const double coat = material_.clearcoat, rough = material_.clearcoatRoughness;
+        surface.coat =
+            number(material_.clearcoatTexture, "coat", coat, [=](const glm::dvec4& pixel) { return pixel.x * coat; });
+        surface.coatGloss = number(material_.clearcoatRoughnessTexture, "gloss of coat", rough,
+                                   [=](const glm::dvec4& pixel) { return glossOf(pixel.y * rough); });
+        if (!surface.coatGloss.isTextured()) surface.coatGloss.value = grey(glossOf(surface.coatGloss.value.x));
+    }
+
+    /// A colour counts by its luminance.
+    GltfParameter specular() {
+        if (isShown(material_.specularTexture) || !isShown(material_.specularColorTexture))
+            return number(material_.specularTexture, "specular", 1, [](const glm::dvec4& pixel) { return pixel.w; });
+        return textures_.make(
+            material_.specularColorTexture, PixelCode::srgb, "specular by colour",
+            [](const glm::dvec4& pixel) { return grey(std::max(luminanceOf(pixel.x, pixel.y, pixel.z), 0.0)); },
+            material_.where);
     }
 
     GltfParameter opacity() {

@@ -3,9 +3,15 @@
 #include "scene/sensors/sensors.h"
 #include "scene/transform.h"
 
+#include <algorithm>
+#include <fmt/format.h>
+
 namespace quasilux {
 
 namespace {
+
+/// By FISHEYE_*, from 1 on.
+const Names fisheyeNames{"equidistant", "equisolid", "orthographic"};
 
 /// A camera is moved and turned (or mirrored), not scaled.
 glm::dmat4 readPlacement(Properties& properties) {
@@ -45,5 +51,21 @@ void readOrthographic(Properties& properties, Sensor& sensor) {
     sensor.orthographic = true;
     sensor.toWorld = properties.transform("to_world");
 }
+
+/// <sensor type="quasilux_fisheye">: a circle as wide as the film, black about it.
+void readFisheye(Properties& properties, Sensor& sensor) {
+    sensor.toWorld = readPlacement(properties);
+    const std::string projection = properties.choice("projection", "equidistant", fisheyeNames);
+    sensor.fisheye = 1 + static_cast<unsigned>(std::find(fisheyeNames.begin(), fisheyeNames.end(), projection) -
+                                               fisheyeNames.begin());
+    const double degrees = properties.number("fov", 180), most = sensor.fisheye == FISHEYE_ORTHOGRAPHIC ? 180 : 360;
+    if (!(degrees > 0 && degrees <= most))
+        throw InputError(properties.where("fov"),
+                         fmt::format("parameter 'fov' is {}; expected degrees above 0 and up to {} of projection '{}'.",
+                                     degrees, most, projection));
+    sensor.fovX = glm::radians(degrees);
+}
+
+std::string fisheyeName(unsigned fisheye) { return std::string(fisheyeNames.at(fisheye - 1)); }
 
 } // namespace quasilux

@@ -18,9 +18,9 @@ struct SensorPlugin {
     bool isOnShape;
 };
 constexpr SensorPlugin sensorPlugins[] = {
-    {"perspective", readPerspective, true, false},         {"thinlens", readThinLens, true, false},
-    {"orthographic", readOrthographic, true, false},       {"radiancemeter", readRadiancemeter, false, false},
-    {"irradiancemeter", readIrradiancemeter, false, true},
+    {"perspective", readPerspective, true, false},      {"thinlens", readThinLens, true, false},
+    {"orthographic", readOrthographic, true, false},    {"quasilux_fisheye", readFisheye, true, false},
+    {"radiancemeter", readRadiancemeter, false, false}, {"irradiancemeter", readIrradiancemeter, false, true},
 };
 
 void checkPlace(const SensorPlugin& plugin, const Element& element, bool inShape) {

@@ -40,8 +40,12 @@ Names samplerPluginNames();
 void readPerspective(Properties& properties, Sensor& sensor);
 void readThinLens(Properties& properties, Sensor& sensor);
 void readOrthographic(Properties& properties, Sensor& sensor);
+void readFisheye(Properties& properties, Sensor& sensor);
 void readRadiancemeter(Properties& properties, Sensor& sensor);
 void readIrradiancemeter(Properties& properties, Sensor& sensor);
+
+/// "equidistant", "equisolid" or "orthographic", as quasilux_fisheye and `quasilux dgp` name projections.
+std::string fisheyeName(unsigned fisheye);
 
 /// Size, crop window, reconstruction filter, what the image holds.
 void readFilm(const Element& element, LoadContext& context, Sensor& sensor);
