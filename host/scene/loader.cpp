@@ -13,6 +13,7 @@
 #include "scene/phases/phase_plugin.h"
 #include "scene/sensors/sensors.h"
 #include "scene/settings.h"
+#include "scene/shapes/instance_levels.h"
 #include "scene/shapes/shape_plugin.h"
 #include "scene/textures/constant_texture.h"
 #include "scene/textures/texture_plugin.h"
@@ -244,9 +245,12 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
             readMeasurement(instruction, scene);
     scene.settings = parseSceneSettings(settings);
 
+    countPlaces(root, context);
+    chooseLevels(context);
     std::vector<PlacedSensor> sensors;
     std::vector<const Element*> integrators, nestedBsdfs;
     for (const Element& child : root.children) readObject(child, context, sensors, integrators);
+    appendGroups(context);
     collectNested(root, context, nestedBsdfs);
     checkUnusedGroups(root, context);
     checkUnusedBsdfs(root, context, nestedBsdfs);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bsdf/lobe_list.h"
+#include "scene/box.h"
 #include "scene/goniograms/goniogram.h"
 #include "scene/load_limits.h"
 #include "scene/setting_choices.h"
@@ -14,6 +15,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -181,6 +183,18 @@ struct ShapeDescription {
     std::optional<unsigned> interior, exterior; ///< media as stated, index into Scene::media
 };
 
+/// Shapes that are there once for all of their instances, in a space of their own: some of Scene::shapes, that follow each other.
+struct ShapeGroup {
+    unsigned firstShape = 0, shapeCount = 0;
+    Box box; ///< about them
+};
+
+/// A place of a group in the scene.
+struct Instance {
+    unsigned group = 0;       ///< index into Scene::groups
+    glm::mat4x3 toWorld{1.f}; ///< from the group's space
+};
+
 struct PointEmitter {
     std::string id;
     SourceLocation where;
@@ -320,6 +334,7 @@ struct SceneSettings {
     std::optional<unsigned> cameraPaths; ///< of a pixel in each pass
     std::optional<uint64_t> seed;
     std::optional<Units> units; ///< radiometric where not said
+    std::optional<InstanceLevels> instances;
 };
 
 /// What a layer of integrator 'aov' shows of the surface that a pixel's rays meet first.
@@ -346,7 +361,9 @@ struct Scene {
     std::string path;
     glm::dvec3 origin{0}; ///< coordinates here are those of the file less this (host/scene/origin.h)
     std::vector<Bsdf> bsdfs;
-    std::vector<ShapeDescription> shapes;
+    std::vector<ShapeDescription> shapes; ///< in the world; then, in spaces of their own, those of `groups`
+    std::vector<ShapeGroup> groups;
+    std::vector<Instance> instances;
     std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index
     std::vector<VolumeDescription> volumes;
     std::vector<MediumDescription> media;
@@ -367,6 +384,14 @@ struct Scene {
     std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
     std::vector<std::string>
         withoutEffect; ///< parameters that are given and accepted without effect and without a warning
+
+    /// Those that lie in the world.
+    std::span<const ShapeDescription> worldShapes() const {
+        return {shapes.data(), groups.empty() ? shapes.size() : groups.front().firstShape};
+    }
+    std::span<const ShapeDescription> shapesOf(const ShapeGroup& group) const {
+        return {shapes.data() + group.firstShape, group.shapeCount};
+    }
 };
 
 /// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is known.

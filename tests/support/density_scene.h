@@ -59,6 +59,8 @@ private:
     Scene scene_;
     float radius_;
     DeviceScene device_;
+    Buffer<shared::BvhNode> nodes_;
+    Buffer<shared::PrimitiveBlock> blocks_;
     Buffer<uint32_t> tables_;
 };
 
