@@ -6,6 +6,7 @@ typedef struct {
     Packed3 position, normal;
     uint primitive;
     float radius;
+    uint firstPatch;
 } RegionQuery;
 
 typedef struct {
@@ -25,7 +26,7 @@ inline Surface surfaceOf(__global const RegionQuery* query, __global const uint*
     Surface s;
     s.position = load3(query->position);
     s.geometricNormal = s.shadingNormal = load3(query->normal);
-    s.patch = SCENE_TABLE(tables, scene, PrimitiveInfo, primitives)[query->primitive].patch;
+    s.patch = query->firstPatch + SCENE_TABLE(tables, scene, PrimitiveInfo, primitives)[query->primitive].patch;
     s.front = 1;
     return s;
 }

@@ -16,6 +16,7 @@ struct RegionQuery {
     shared::Packed3 position, normal;
     unsigned primitive; ///< which the point lies on
     float radius;
+    unsigned firstPatch = 0; ///< of the primitive's instance
 };
 
 inline constexpr unsigned densitySectors = 32;
