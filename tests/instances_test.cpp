@@ -101,6 +101,14 @@ TEST(InstanceLevels, AreFlattenedWhereTheyCannotBeKept) {
               0u);
 }
 
+TEST(InstanceLevels, OfCurvesAreFlattened) {
+    SceneFiles files;
+    files.write("c.txt", "0 0 0 1\n1 0 0 1\n");
+    const std::string curves = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"linearcurve\"><string "
+                               "name=\"filename\" value=\"c.txt\"/></shape></shape>";
+    EXPECT_EQ(loadScene(files.write("scene.xml", sceneWith(asLevel + curves + instance("")))).instances.size(), 0u);
+}
+
 TEST(InstanceLevels, AreChosenWhereCopiesWouldBeAMillionTriangles) {
     SceneFiles files;
     std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
@@ -123,6 +131,32 @@ TEST(InstanceLevels, AreOneOfTwoWays) {
                 HasSubstr("instances: unknown value 'two'"));
     EXPECT_THAT(test::errorOf(files.write("scene.xml", sceneWith(asLevel + group + instance("<scale x=\"2\"/>")))),
                 HasSubstr("to_world of a sphere scales directions differently"));
+}
+
+// Those without an id are kept as places while the file is read (plain_instances.h), and are the same shapes in the same order.
+TEST(Instances, WithAndWithoutAnIdAreTheSame) {
+    SceneFiles files;
+    const std::string at = "<ref id=\"g\"/><transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/><translate "
+                           "x=\"3\"/></transform></shape>",
+                      with = "<shape type=\"instance\" id=\"i\">" + at, without = "<shape type=\"instance\">" + at;
+    files.write("part.xml",
+                "<scene version=\"3.0.0\"><shape type=\"cube\"/>" + without + "<shape type=\"cube\"/></scene>");
+    const auto load = [&](const std::string& one) {
+        return loadScene(
+            files.write("scene.xml", sceneWith(group + std::string("<shape type=\"disk\"/>") + one +
+                                               "<include filename=\"part.xml\"/><shape type=\"rectangle\"/>")));
+    };
+    const Scene a = load(with), b = load(without);
+    ASSERT_EQ(a.shapes.size(), 8u);
+    ASSERT_EQ(b.shapes.size(), 8u);
+    const std::vector<std::string> plugins = {"disk", "cube", "sphere", "cube", "cube", "sphere", "cube", "rectangle"};
+    for (size_t k = 0; k < plugins.size(); ++k) {
+        EXPECT_EQ(a.shapes[k].plugin, plugins[k]);
+        EXPECT_EQ(b.shapes[k].plugin, plugins[k]);
+        EXPECT_EQ(a.shapes[k].mesh.positions, b.shapes[k].mesh.positions);
+    }
+    EXPECT_EQ(b.shapes[1].id, "instance@4/box");
+    EXPECT_EQ(load(without + asLevel).instances.size(), 2u);
 }
 
 // As in Mitsuba: normals of an instance go by the inverse transpose, however its shapes have got theirs.

@@ -65,6 +65,7 @@ public:
     std::set<const Element*> usedGroups;   ///< shapegroups that an instance places
     std::optional<glm::dmat4> placement;   ///< of the instance whose shapes are being read
     std::unordered_map<const Element*, GroupUse> groupUse;
+    std::vector<const Element*> plainGroups;  ///< by PlainInstances::groupIds
     std::vector<const Element*> placedGroups; ///< all in groupUse, in the order of the file
     std::vector<GroupUse*> keptGroups;        ///< in the order of Scene::groups
     std::set<std::string> brightAttributes;   ///< of meshes, warned of

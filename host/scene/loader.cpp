@@ -70,6 +70,18 @@ void readObject(const Element& object, LoadContext& context, std::vector<PlacedS
                                      object.tag));
 }
 
+/// All, in the order of the file.
+void readObjects(const Element& root, LoadContext& context, std::vector<PlacedSensor>& sensors,
+                 std::vector<const Element*>& integrators) {
+    size_t next = 0;
+    for (size_t k = 0; k <= root.children.size(); ++k) {
+        for (; root.instances && next < root.instances->all.size() && root.instances->all[next].before == k; ++next)
+            for (ShapeDescription& shape : readPlainInstance(root.instances->all[next], context))
+                context.scene.shapes.push_back(std::move(shape));
+        if (k < root.children.size()) readObject(root.children[k], context, sensors, integrators);
+    }
+}
+
 /// Groups that no instance places, likewise.
 void checkUnusedGroups(const Element& root, LoadContext& context) {
     for (const Element& element : root.children)
@@ -249,7 +261,7 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
     chooseLevels(context);
     std::vector<PlacedSensor> sensors;
     std::vector<const Element*> integrators, nestedBsdfs;
-    for (const Element& child : root.children) readObject(child, context, sensors, integrators);
+    readObjects(root, context, sensors, integrators);
     appendGroups(context);
     collectNested(root, context, nestedBsdfs);
     checkUnusedGroups(root, context);

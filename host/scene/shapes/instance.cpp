@@ -62,15 +62,24 @@ glm::dmat4 placeOf(const Element& element, LoadContext& context) {
     return toWorld;
 }
 
-std::vector<PlacedShape> readInstance(const Element& element, LoadContext& context) {
-    const glm::dmat4 toWorld = placeOf(element, context);
-    const Element& group = *groupOf(element, context);
+/// An instance of the group at `toWorld`, in coordinates of the file.
+std::vector<PlacedShape> placeGroup(const Element& group, const glm::dmat4& toWorld, const Element& instance,
+                                    LoadContext& context) {
     context.usedGroups.insert(&group);
     if (keepAsInstance(group, toWorld, context)) return {};
     context.placement = toWorld;
-    std::vector<PlacedShape> placed = readGroup(group, element, context);
+    std::vector<PlacedShape> placed = readGroup(group, instance, context);
     context.placement.reset();
     return placed;
+}
+
+std::vector<PlacedShape> readInstance(const Element& element, LoadContext& context) {
+    const glm::dmat4 toWorld = placeOf(element, context);
+    return placeGroup(*groupOf(element, context), toWorld, element, context);
+}
+
+void countPlace(const Element& group, LoadContext& context) {
+    if (++context.groupUse.try_emplace(&group).first->second.places == 1) context.placedGroups.push_back(&group);
 }
 
 /// What Mitsuba joins into one mesh for speed stays apart here.
@@ -88,6 +97,15 @@ std::vector<PlacedShape> readMerge(const Element& element, LoadContext& context)
 }
 
 } // namespace
+
+std::vector<ShapeDescription> readPlainInstance(const PlainInstances::One& instance, LoadContext& context) {
+    const Element element{"shape", {{"type", "instance"}}, {}, {}, {context.scene.path, instance.line, 0}};
+    std::vector<ShapeDescription> shapes;
+    for (PlacedShape& placed :
+         placeGroup(*context.plainGroups[instance.group], glm::dmat4(instance.toWorld), element, context))
+        shapes.push_back(std::move(placed.shape));
+    return shapes;
+}
 
 std::vector<PlacedShape> readShapes(const Element& element, LoadContext& context) {
     if (isPlugin(element, "shapegroup")) return {};
@@ -114,8 +132,12 @@ void countPlaces(const Element& parent, LoadContext& context) {
         if (isPlugin(element, "merge") && &parent != &element && !isPlugin(parent, "merge"))
             countPlaces(element, context);
         else if (const Element* group = isPlugin(element, "instance") ? groupOf(element, context) : nullptr)
-            if (++context.groupUse.try_emplace(group).first->second.places == 1) context.placedGroups.push_back(group);
+            countPlace(*group, context);
     }
+    if (!parent.instances) return;
+    for (const std::string& id : parent.instances->groupIds)
+        context.plainGroups.push_back(&context.resolve({"ref", {{"id", id}}, {}, {}, parent.where}));
+    for (const PlainInstances::One& one : parent.instances->all) countPlace(*context.plainGroups[one.group], context);
 }
 
 void checkUnusedGroup(const Element& group, LoadContext& context) { readGroup(group, group, context); }

@@ -27,10 +27,11 @@ bool hasSphere(const GroupUse& use) {
                        [](const auto& shape) { return shape.sphere.has_value(); });
 }
 
-/// Media lie where their shapes are in the world.
-bool hasMedium(const GroupUse& use) {
-    return std::any_of(use.shapes.begin(), use.shapes.end(),
-                       [](const auto& shape) { return shape.interior || shape.exterior; });
+/// Media lie where their shapes are in the world; radii of curves do not go by the transform of an instance.
+bool mustBeFlattened(const GroupUse& use) {
+    return std::any_of(use.shapes.begin(), use.shapes.end(), [](const auto& shape) {
+        return shape.interior || shape.exterior || shape.plugin == "bsplinecurve" || shape.plugin == "linearcurve";
+    });
 }
 
 /// In a space in which single precision does them justice.
@@ -67,7 +68,7 @@ void chooseLevels(LoadContext& context) {
         GroupUse& use = context.groupUse[group];
         if (!wanted && use.places < 2) continue;
         readOwnSpace(*group, use, context);
-        use.isKept = !hasMedium(use);
+        use.isKept = !mustBeFlattened(use);
         if (use.isKept) flattened += use.places * primitivesOf(use.shapes);
     }
     if (wanted || flattened > mostFlattened) return;

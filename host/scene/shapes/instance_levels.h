@@ -7,6 +7,8 @@ namespace quasilux {
 
 /// Counts in context.groupUse how often the instances in `parent`, and in the merges there, place each group.
 void countPlaces(const Element& parent, LoadContext& context);
+/// The shapes of an instance that is to be flattened, or none.
+std::vector<ShapeDescription> readPlainInstance(const PlainInstances::One& instance, LoadContext& context);
 /// The group's shapes, under `place` (in coordinates of the file) after their own transforms.
 std::vector<ShapeDescription> readGroupAt(const Element& group, const glm::dmat4& place, LoadContext& context);
 
