@@ -1,5 +1,6 @@
 // Instances as a level of the tree against the same instances flattened, and against all triangles one by one.
 #include "bench/micro/ray_types.h"
+#include "photometry/occlusion.h"
 #include "prepare/borders.h"
 #include "render/aovs.h"
 #include "support/density_scene.h"
@@ -246,6 +247,25 @@ TEST(InstanceLevels, RaysMeetTheNearestOfAllTriangles) {
     EXPECT_EQ(wrong, 0u);
     EXPECT_EQ(wrongOcclusion, 0u);
     EXPECT_EQ(returned, 0u);
+}
+
+// What glare asks: by Embree's own instances.
+TEST(InstanceLevels, HideTheSame) {
+    const TwoLevels scenes;
+    const Scene flat = flattened(scenes), levels = twoLevel(scenes);
+    const Occlusion ofFlat(flat), ofLevels(levels);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-3, 3);
+    unsigned hidden = 0, differing = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const dvec3 from(place(random), place(random), 1 + std::abs(place(random)));
+        const dvec3 to(place(random), place(random), std::abs(place(random)));
+        const bool isHidden = ofFlat.isHidden(from, to);
+        hidden += isHidden;
+        differing += isHidden != ofLevels.isHidden(from, to);
+    }
+    EXPECT_GT(hidden, 300u);
+    EXPECT_LE(differing, 2u); // at an edge
 }
 
 /// Points on the floor and on flat faces near their edges, by number of the primitive in the world or in its instance.
