@@ -2,10 +2,10 @@
 #pragma once
 
 #include "bsdf/lobe_list.h"
-#include "scene/box.h"
 #include "scene/goniograms/goniogram.h"
 #include "scene/load_limits.h"
 #include "scene/setting_choices.h"
+#include "scene/shape_group.h"
 #include "shared_types.h"
 #include "util/error.h"
 
@@ -181,18 +181,6 @@ struct ShapeDescription {
     int bsdf = -1;                           ///< index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
     std::optional<unsigned> interior, exterior; ///< media as stated, index into Scene::media
-};
-
-/// Shapes that are there once for all of their instances, in a space of their own: some of Scene::shapes, that follow each other.
-struct ShapeGroup {
-    unsigned firstShape = 0, shapeCount = 0;
-    Box box; ///< about them
-};
-
-/// A place of a group in the scene.
-struct Instance {
-    unsigned group = 0;       ///< index into Scene::groups
-    glm::mat4x3 toWorld{1.f}; ///< from the group's space
 };
 
 struct PointEmitter {
@@ -374,18 +362,15 @@ struct Scene {
     Sensor sensor;          ///< the one that is rendered
     size_t sensorCount = 0; ///< in the file
     std::vector<IlluminanceGrid>
-        grids; ///< measured where the sensor is a MeterKind::grid; its film has their points one after the other
+        grids; ///< measured by MeterKind::grid, whose film has their points one after the other
     std::vector<Observer> observers;
-    bool hideEmitters =
-        false;         ///< the camera looks through emitting shapes and sees no surroundings (Mitsuba's hide_emitters)
+    bool hideEmitters = false; ///< the camera looks through emitting shapes and sees no surroundings (hide_emitters)
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
     std::vector<AovLayer> aovs; ///< that the integrator asks for
     SceneSettings settings;
-    std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
-    std::vector<std::string>
-        withoutEffect; ///< parameters that are given and accepted without effect and without a warning
+    std::vector<std::string> warnings;      ///< "file:line:column: …"; things accepted but without effect
+    std::vector<std::string> withoutEffect; ///< parameters that are accepted without effect and without a warning
 
-    /// Those that lie in the world.
     std::span<const ShapeDescription> worldShapes() const {
         return {shapes.data(), groups.empty() ? shapes.size() : groups.front().firstShape};
     }
@@ -400,7 +385,7 @@ enum class Unknown { refused, forgiven };
 /// How a file is read.
 struct LoadChoice {
     std::string sensor =
-        {}; ///< which is rendered: its number, in the order of the file from 0 on, or its id; empty: the first one
+        {}; ///< that is rendered: its number in the order of the file, from 0 on, or its id; empty: the first
     Unknown unknown = Unknown::refused;
     std::optional<LoadLimits> limits = {}; ///< of a scene that is not trusted
 };
