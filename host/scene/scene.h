@@ -384,8 +384,7 @@ enum class Unknown { refused, forgiven };
 
 /// How a file is read.
 struct LoadChoice {
-    std::string sensor =
-        {}; ///< that is rendered: its number in the order of the file, from 0 on, or its id; empty: the first
+    std::string sensor = {}; ///< its number in the order of the file, from 0 on, or its id; empty: the first one
     Unknown unknown = Unknown::refused;
     std::optional<LoadLimits> limits = {}; ///< of a scene that is not trusted
 };
