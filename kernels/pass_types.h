@@ -36,6 +36,9 @@ typedef struct {
     unsigned int
         patchNodes; /* by patch: the node that holds the segments whose patchA it is; QL_NONE: there are none */
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
+    unsigned int patchCount;  /* of those; what follows are patches of instances */
+    unsigned int instances, instanceCount, instanceRoot; /* place of the first, steps from one to the next as they are
+                                                            long; child reference of the tree over them, QL_NONE: none */
     Meter meter;
     Learned learned;
 } SceneTables;

@@ -341,7 +341,7 @@ __kernel void splatPhotons(__global const BvhNode* nodes, __global const Primiti
                            __global RegionCount* counts, const PhotonParams params, const PointParams store) {
     const uint region = get_global_id(0);
     if (region >= params.regions) return;
-    const SplatTarget target = {{sorted, cellStart, &store.map}, points, borders, sums, tables, &params.scene,
+    const SplatTarget target = {{sorted, cellStart, &store.map}, points, borders, sums, blocks, tables, &params.scene,
                                 store.quantaPerRadiance};
     const PhotonWorld world = {nodes, blocks, tables, &params};
     traceRegion(region, &world, &target, counts);

@@ -27,6 +27,7 @@ typedef struct {
 #define BVH_LEAF_BIT 0x80000000u /* child reference: leaf bit | (blocks - 1) << 27 | first block */
 #define BVH_LEAF_COUNT_SHIFT 27  /* 4 bits: up to 16 blocks in one leaf */
 #define BVH_LEAF_FIRST_MASK 0x07ffffffu
+#define BVH_INSTANCE_BIT 0x40000000u     /* of a leaf: the rest is the place of an Instance */
 #define PRIMITIVE_NULL_BIT 0x80000000u   /* primitive whose bsdf is `null`: shadow and photon rays pass through it */
 #define PRIMITIVE_SPHERE_BIT 0x40000000u /* lane holds a sphere: v0 = centre, v1x = radius, v2 is no number */
 #define PRIMITIVE_INDEX_MASK 0x3fffffffu
@@ -47,10 +48,28 @@ typedef struct {
     unsigned int primitive[8]; /* index | PRIMITIVE_*_BIT */
 } PrimitiveBlock;
 
+/* Shapes that lie in the scene many times, and one of those times. Both follow the blocks; their places count in words from the first block on,
+ * in steps of INSTANCE_STEP. */
+#define INSTANCE_STEP 8
+typedef struct {
+    unsigned int root;                                       /* node of the group's own tree, in its own space */
+    unsigned int borderNodes, borderLeaves, borderNodeCount; /* of its own border tree: as in SceneTables */
+    unsigned int patchNodes, patchRadius;                    /* likewise, by patch of the group */
+} ShapeGroup;
+
+typedef struct {
+    float toWorld[12];       /* rows: from the group's space, the last of four numbers is added */
+    float toGroup[9];        /* rows: its inverse, of what is left after that sum */
+    unsigned int group;      /* place of the ShapeGroup */
+    unsigned int firstPatch; /* what is added to patches of the group */
+    float radiusScale;       /* how much smaller the group's radii of curvature may be */
+} Instance;
+
 /* What a primitive belongs to; indexed by primitive index. */
 typedef struct {
     unsigned int shape; /* index into Shape records */
-    unsigned int patch; /* smooth surface component: primitives joined across edges flatter than the crease angle */
+    unsigned int
+        patch; /* smooth surface component: primitives joined across edges flatter than the crease angle; of a ShapeGroup counted in it */
 } PrimitiveInfo;
 
 typedef struct {

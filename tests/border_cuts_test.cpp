@@ -111,7 +111,7 @@ TEST(BorderCuts, RandomTrianglesCutWhereTheirEdgesHit) {
         std::vector<dvec3> positions;
         for (int i = 0; i < 6; ++i) positions.push_back({uniform(random), uniform(random), uniform(random)});
         addMesh(scene, positions, {{0, 1, 2}, {3, 4, 5}});
-        const Surface surface = collectSurface(scene);
+        const Surface surface = collectSurface(scene, scene.shapes);
         const SurfaceTriangle &a = surface.triangles[0], &b = surface.triangles[1];
         std::vector<dvec3> hits;
         edgeHits(a, b, surface, hits);

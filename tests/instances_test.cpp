@@ -62,6 +62,120 @@ TEST(Instances, OfAMeshFileReadItOnce) {
     for (size_t k = 0; k < 3; ++k) expectNear(scene.shapes[k].mesh.positions[0], {float(k), 0, 0});
 }
 
+const std::string asLevel = "<?quasilux instances=\"two-level\"?>", flat = "<?quasilux instances=\"flattened\"?>";
+
+TEST(InstanceLevels, KeepTheShapesOfAGroupOnce) {
+    const Scene scene = test::loadBody(asLevel + group + instance("<translate x=\"3\"/>") + "<shape type=\"disk\"/>" +
+                                       instance("<scale value=\"2\"/>").replace(27, 1, "j"));
+    ASSERT_EQ(scene.shapes.size(), 3u);
+    ASSERT_EQ(scene.worldShapes().size(), 1u);
+    EXPECT_EQ(scene.worldShapes()[0].plugin, "disk");
+    ASSERT_EQ(scene.groups.size(), 1u);
+    EXPECT_EQ(scene.groups[0].firstShape, 1u);
+    EXPECT_EQ(scene.shapes[1].id, "g/box");
+    expectNear(scene.shapes[1].mesh.positions[7], {0.5f, 0.5f, 0.5f}); // in its own space
+    ASSERT_EQ(scene.instances.size(), 2u);
+    expectNear(scene.instances[0].toWorld[3], {3, 0, 0});
+    expectNear(scene.instances[1].toWorld[0], {2, 0, 0});
+}
+
+TEST(InstanceLevels, FarFromTheOriginLoseNothing) {
+    const std::string far = "<transform name=\"to_world\"><translate x=\"1e7\"/></transform>";
+    const Scene scene = test::loadBody(asLevel + "<shape type=\"shapegroup\" id=\"g\"><shape type=\"cube\">" + far +
+                                       "</shape></shape>" + instance("<translate y=\"1e7\"/>"));
+    const glm::dvec3 corner(scene.instances.at(0).toWorld * glm::vec4(scene.shapes.at(0).mesh.positions[7], 1));
+    EXPECT_NEAR(scene.origin.x + corner.x, 1e7 + 1, 1e-6);
+    EXPECT_NEAR(scene.origin.y + corner.y, 1e7 + 1, 1e-6);
+}
+
+// What kernels cannot carry rays into, or what lies in the world as a whole.
+TEST(InstanceLevels, AreFlattenedWhereTheyCannotBeKept) {
+    const auto instancesOf = [](const std::string& body) { return test::loadBody(asLevel + body).instances.size(); };
+    EXPECT_EQ(instancesOf(group + instance("<translate x=\"3\"/>")), 1u);
+    EXPECT_EQ(test::loadBody(flat + group + instance("<translate x=\"3\"/>")).instances.size(), 0u);
+    EXPECT_EQ(instancesOf(group + instance("<scale value=\"1e6\"/>")), 0u);
+    EXPECT_EQ(instancesOf(group + instance("<scale value=\"1e-6\"/>")), 0u);
+    EXPECT_EQ(instancesOf("<shape type=\"shapegroup\" id=\"g\"><shape type=\"cube\"><medium type=\"homogeneous\" "
+                          "name=\"interior\"/></shape></shape>" +
+                          instance("")),
+              0u);
+}
+
+TEST(InstanceLevels, OfCurvesAreFlattened) {
+    SceneFiles files;
+    files.write("c.txt", "0 0 0 1\n1 0 0 1\n");
+    const std::string curves = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"linearcurve\"><string "
+                               "name=\"filename\" value=\"c.txt\"/></shape></shape>";
+    EXPECT_EQ(loadScene(files.write("scene.xml", sceneWith(asLevel + curves + instance("")))).instances.size(), 0u);
+}
+
+TEST(InstanceLevels, AreChosenWhereCopiesWouldBeAMillionTriangles) {
+    SceneFiles files;
+    std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
+                body = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"obj\"><string "
+                       "name=\"filename\" value=\"t.obj\"/></shape></shape>";
+    for (int k = 0; k < 100'000; ++k) obj += "f 1 2 3\n";
+    files.write("t.obj", obj);
+    const auto load = [&](int places) {
+        std::string instances;
+        for (int k = 0; k < places; ++k) instances += "<shape type=\"instance\"><ref id=\"g\"/></shape>";
+        return loadScene(files.write("scene.xml", sceneWith(body + instances)));
+    };
+    EXPECT_EQ(load(3).shapes.size(), 3u);
+    EXPECT_EQ(load(11).instances.size(), 11u);
+}
+
+TEST(InstanceLevels, AreOneOfTwoWays) {
+    SceneFiles files;
+    EXPECT_THAT(test::errorOf(files.write("scene.xml", sceneWith("<?quasilux instances=\"two\"?>"))),
+                HasSubstr("instances: unknown value 'two'"));
+    EXPECT_THAT(test::errorOf(files.write("scene.xml", sceneWith(asLevel + group + instance("<scale x=\"2\"/>")))),
+                HasSubstr("to_world of a sphere scales directions differently"));
+}
+
+// Those without an id are kept as places while the file is read (plain_instances.h), and are the same shapes in the same order.
+TEST(Instances, WithAndWithoutAnIdAreTheSame) {
+    SceneFiles files;
+    const std::string at = "<ref id=\"g\"/><transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/><translate "
+                           "x=\"3\"/></transform></shape>",
+                      with = "<shape type=\"instance\" id=\"i\">" + at, without = "<shape type=\"instance\">" + at;
+    files.write("part.xml",
+                "<scene version=\"3.0.0\"><shape type=\"cube\"/>" + without + "<shape type=\"cube\"/></scene>");
+    const auto load = [&](const std::string& one) {
+        return loadScene(
+            files.write("scene.xml", sceneWith(group + std::string("<shape type=\"disk\"/>") + one +
+                                               "<include filename=\"part.xml\"/><shape type=\"rectangle\"/>")));
+    };
+    const Scene a = load(with), b = load(without);
+    ASSERT_EQ(a.shapes.size(), 8u);
+    ASSERT_EQ(b.shapes.size(), 8u);
+    const std::vector<std::string> plugins = {"disk", "cube", "sphere", "cube", "cube", "sphere", "cube", "rectangle"};
+    for (size_t k = 0; k < plugins.size(); ++k) {
+        EXPECT_EQ(a.shapes[k].plugin, plugins[k]);
+        EXPECT_EQ(b.shapes[k].plugin, plugins[k]);
+        EXPECT_EQ(a.shapes[k].mesh.positions, b.shapes[k].mesh.positions);
+    }
+    EXPECT_EQ(b.shapes[1].id, "instance@4/box");
+    EXPECT_EQ(load(without + asLevel).instances.size(), 2u);
+}
+
+// As in Mitsuba: normals of an instance go by the inverse transpose, however its shapes have got theirs.
+TEST(Instances, OfMirroringTransformsKeepTheSidesOfMeshesAndSpheres) {
+    SceneFiles files;
+    files.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Scene scene = loadScene(files.write(
+        "scene.xml",
+        sceneWith(
+            "<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\"/><shape type=\"obj\"><string name=\"filename\" "
+            "value=\"t.obj\"/></shape></shape>" +
+            instance("<scale x=\"-1\"/>"))));
+    EXPECT_FALSE(scene.shapes.at(0).flipNormals);
+    const Mesh& mesh = scene.shapes.at(1).mesh;
+    const glm::uvec3 t = mesh.triangles.at(0);
+    const glm::vec3 a = mesh.positions[t.x], normal = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    EXPECT_GT(normal.z, 0);
+}
+
 TEST(Merges, AreTheShapesInThem) {
     const Scene scene = test::loadBody("<shape type=\"merge\"><shape type=\"cube\"/><shape type=\"sphere\"><emitter "
                                        "type=\"area\"/></shape></shape>");

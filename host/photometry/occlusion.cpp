@@ -7,24 +7,6 @@
 
 namespace quasilux {
 
-struct Occlusion::Tree {
-    RTCDevice device = rtcNewDevice(nullptr);
-    RTCScene scene = rtcNewScene(device);
-    Tree() = default;
-    Tree(const Tree&) = delete;
-    Tree& operator=(const Tree&) = delete;
-    ~Tree() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
-    }
-
-    void attach(RTCGeometry geometry) {
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
-        rtcReleaseGeometry(geometry);
-    }
-};
-
 namespace {
 
 // Of the distance, at both ends.
@@ -35,12 +17,16 @@ Element* newBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, s
     return static_cast<Element*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), count));
 }
 
-} // namespace
+void attach(RTCGeometry geometry, RTCScene scene) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+}
 
-Occlusion::Occlusion(const Scene& scene) : tree_(std::make_unique<Tree>()) {
+void attachPrimitives(const std::vector<BvhPrimitive>& primitives, RTCDevice device, RTCScene scene) {
     std::vector<glm::vec3> corners;
     std::vector<glm::vec4> spheres;
-    for (const BvhPrimitive& primitive : flattenPrimitives(scene)) {
+    for (const BvhPrimitive& primitive : primitives) {
         if (primitive.isNull) continue;
         if (primitive.isSphere)
             spheres.emplace_back(primitive.v0, primitive.v1.x);
@@ -48,20 +34,52 @@ Occlusion::Occlusion(const Scene& scene) : tree_(std::make_unique<Tree>()) {
             corners.insert(corners.end(), {primitive.v0, primitive.v1, primitive.v2});
     }
     if (!corners.empty()) {
-        RTCGeometry geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         std::copy(corners.begin(), corners.end(),
                   newBuffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, corners.size()));
         auto* indices = newBuffer<glm::uvec3>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, corners.size() / 3);
         for (unsigned k = 0; k < corners.size() / 3; ++k) indices[k] = {3 * k, 3 * k + 1, 3 * k + 2};
-        tree_->attach(geometry);
+        attach(geometry, scene);
     }
     if (!spheres.empty()) {
-        RTCGeometry geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
         std::copy(spheres.begin(), spheres.end(),
                   newBuffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, spheres.size()));
-        tree_->attach(geometry);
+        attach(geometry, scene);
     }
-    rtcCommitScene(tree_->scene);
+    rtcCommitScene(scene);
+}
+
+} // namespace
+
+struct Occlusion::Tree {
+    RTCDevice device = rtcNewDevice(nullptr);
+    RTCScene scene = rtcNewScene(device);
+    std::vector<RTCScene> groups;
+    Tree() = default;
+    Tree(const Tree&) = delete;
+    Tree& operator=(const Tree&) = delete;
+    ~Tree() {
+        rtcReleaseScene(scene);
+        for (RTCScene group : groups) rtcReleaseScene(group);
+        rtcReleaseDevice(device);
+    }
+
+    void attachInstance(const Instance& instance) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, groups[instance.group]);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &instance.toWorld);
+        attach(geometry, scene);
+    }
+};
+
+Occlusion::Occlusion(const Scene& scene) : tree_(std::make_unique<Tree>()) {
+    for (const ShapeGroup& group : scene.groups) {
+        tree_->groups.push_back(rtcNewScene(tree_->device));
+        attachPrimitives(flattenPrimitives(scene, scene.shapesOf(group)), tree_->device, tree_->groups.back());
+    }
+    for (const Instance& instance : scene.instances) tree_->attachInstance(instance);
+    attachPrimitives(flattenPrimitives(scene, scene.worldShapes()), tree_->device, tree_->scene);
 }
 
 Occlusion::~Occlusion() = default;

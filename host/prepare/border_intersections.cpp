@@ -9,17 +9,8 @@
 #include <utility>
 
 namespace quasilux {
-namespace {
-
-/// The primitives that take part: regular triangles, then spheres.
-struct Candidates {
-    std::vector<const SurfaceTriangle*> triangles;
-    std::vector<const SurfaceSphere*> spheres;
-    std::vector<Box> boxes;
-};
-
-Candidates collectCandidates(const Surface& surface) {
-    Candidates candidates;
+CutCandidates collectCandidates(const Surface& surface) {
+    CutCandidates candidates;
     for (const SurfaceTriangle& triangle : surface.triangles) {
         if (triangle.kind != SurfaceTriangle::Kind::regular) continue;
         Box box;
@@ -33,6 +24,26 @@ Candidates collectCandidates(const Surface& surface) {
     }
     return candidates;
 }
+
+std::pair<unsigned, unsigned> cutPair(const Surface& surface, const CutCandidates& candidates, unsigned i, unsigned j,
+                                      std::vector<CutSegment>& cuts) {
+    const auto triangleCount = unsigned(candidates.triangles.size());
+    if (j < triangleCount) {
+        const SurfaceTriangle &a = *candidates.triangles[i], &b = *candidates.triangles[j];
+        if (const std::optional<CutSegment> cut = cutTriangles(surface, a, b)) cuts.push_back(*cut);
+        return {a.primitive, b.primitive};
+    }
+    const SurfaceSphere& sphere = *candidates.spheres[j - triangleCount];
+    if (i < triangleCount) {
+        cutTriangleSphere(surface, *candidates.triangles[i], sphere, cuts);
+        return {candidates.triangles[i]->primitive, sphere.primitive};
+    }
+    const SurfaceSphere& other = *candidates.spheres[i - triangleCount];
+    cutSpheres(other, sphere, cuts);
+    return {other.primitive, sphere.primitive};
+}
+
+namespace {
 
 bool shareCorner(const SurfaceTriangle& a, const SurfaceTriangle& b) {
     for (int i = 0; i < 3; ++i)
@@ -53,34 +64,19 @@ void noteOverlap(const std::optional<glm::dvec3>& place, unsigned a, unsigned b,
 
 void intersectSurfaces(const Surface& surface, SurfaceBorders& borders) {
     const std::vector<unsigned>& patchOfPrimitive = borders.patchOfPrimitive;
-    const Candidates candidates = collectCandidates(surface);
+    const CutCandidates candidates = collectCandidates(surface);
     const auto triangleCount = unsigned(candidates.triangles.size());
     std::vector<CutSegment> cuts;
     forEachOverlappingPair(candidates.boxes, [&](unsigned i, unsigned j) {
         cuts.clear();
-        unsigned primitiveA, primitiveB;
         if (j < triangleCount) {
             const SurfaceTriangle &a = *candidates.triangles[i], &b = *candidates.triangles[j];
-            primitiveA = a.primitive;
-            primitiveB = b.primitive;
-            if (patchOfPrimitive[primitiveA] == patchOfPrimitive[primitiveB] && shareCorner(a, b)) return;
-            noteOverlap(coplanarOverlap(surface, a, b), primitiveA, primitiveB, borders);
-            if (const std::optional<CutSegment> cut = cutTriangles(surface, a, b)) cuts.push_back(*cut);
-        } else if (i < triangleCount) {
-            const SurfaceSphere& sphere = *candidates.spheres[j - triangleCount];
-            primitiveA = candidates.triangles[i]->primitive;
-            primitiveB = sphere.primitive;
-            cutTriangleSphere(surface, *candidates.triangles[i], sphere, cuts);
-        } else {
-            const SurfaceSphere &a = *candidates.spheres[i - triangleCount],
-                                &b = *candidates.spheres[j - triangleCount];
-            primitiveA = a.primitive;
-            primitiveB = b.primitive;
-            cutSpheres(a, b, cuts);
+            if (patchOfPrimitive[a.primitive] == patchOfPrimitive[b.primitive] && shareCorner(a, b)) return;
+            noteOverlap(coplanarOverlap(surface, a, b), a.primitive, b.primitive, borders);
         }
+        const auto [a, b] = cutPair(surface, candidates, i, j, cuts);
         for (const CutSegment& cut : cuts)
-            borders.segments.push_back(
-                {pack(cut.a), pack(cut.b), patchOfPrimitive[primitiveA], patchOfPrimitive[primitiveB]});
+            borders.segments.push_back({pack(cut.a), pack(cut.b), patchOfPrimitive[a], patchOfPrimitive[b]});
     });
 }
 

@@ -3,8 +3,10 @@
 
 #include "prepare/border_surface.h"
 #include "prepare/borders.h"
+#include "scene/box.h"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace quasilux {
@@ -24,6 +26,17 @@ void cutTriangleSphere(const Surface& surface, const SurfaceTriangle& triangle, 
 
 /// Appends the circle in which two spheres cut each other, as 32 chords.
 void cutSpheres(const SurfaceSphere& a, const SurfaceSphere& b, std::vector<CutSegment>& cuts);
+
+/// The primitives of a surface that may cut others: regular triangles, then spheres; by index as in `boxes`.
+struct CutCandidates {
+    std::vector<const SurfaceTriangle*> triangles;
+    std::vector<const SurfaceSphere*> spheres;
+    std::vector<Box> boxes;
+};
+CutCandidates collectCandidates(const Surface& surface);
+/// Appends the cuts of candidate i and candidate j > i, of one surface, that are not neighbours. Returns their primitives.
+std::pair<unsigned, unsigned> cutPair(const Surface& surface, const CutCandidates& candidates, unsigned i, unsigned j,
+                                      std::vector<CutSegment>& cuts);
 
 /// Appends all intersections in the scene, with the patches that meet there (neighbours in one patch are not tested), to
 /// borders.segments, and notes sheets that overlap within a plane.

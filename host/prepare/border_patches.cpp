@@ -69,9 +69,9 @@ void attachDegenerate(const Surface& surface, const std::vector<EdgeGroup>& regu
 }
 
 /// One patch for all of an invisible shape.
-void uniteInvisibleShapes(const Scene& scene, UnionFind& sets) {
+void uniteInvisibleShapes(const Scene& scene, std::span<const ShapeDescription> shapes, UnionFind& sets) {
     unsigned first = 0;
-    for (const ShapeDescription& shape : scene.shapes) {
+    for (const ShapeDescription& shape : shapes) {
         const unsigned count = primitiveCount(shape);
         if (isInvisible(scene, shape))
             for (unsigned i = 1; i < count; ++i) sets.unite(first, first + i);
@@ -106,8 +106,8 @@ double dihedralAngle(const SurfaceTriangle& a, const SurfaceTriangle& b) {
     return std::atan2(glm::length(glm::cross(a.normal, b.normal)), glm::dot(a.normal, b.normal));
 }
 
-std::vector<InteriorEdge> joinPatches(const Scene& scene, double creaseAngle, Surface& surface,
-                                      SurfaceBorders& borders) {
+std::vector<InteriorEdge> joinPatches(const Scene& scene, std::span<const ShapeDescription> shapes, double creaseAngle,
+                                      Surface& surface, SurfaceBorders& borders) {
     const std::vector<EdgeUse> uses = sortedEdges(surface, SurfaceTriangle::Kind::regular);
     const std::vector<EdgeGroup> edges = groupByEdge(uses);
     UnionFind sets(surface.primitiveCount);
@@ -129,7 +129,7 @@ std::vector<InteriorEdge> joinPatches(const Scene& scene, double creaseAngle, Su
     for (const SurfaceTriangle& triangle : surface.triangles)
         if (triangle.kind == SurfaceTriangle::Kind::duplicate)
             sets.unite(triangle.primitive, surface.triangles[triangle.original].primitive);
-    uniteInvisibleShapes(scene, sets);
+    uniteInvisibleShapes(scene, shapes, sets);
 
     borders.patchOfPrimitive.resize(surface.primitiveCount);
     numberPatches(sets, borders);

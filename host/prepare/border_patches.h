@@ -14,8 +14,8 @@ struct InteriorEdge {
 
 /// Numbers the patches (`patchOfPrimitive`, `patchCount`) and appends the edges that bound them to `segments`. Marks
 /// border and owned edges in `surface`. Returns the edges inside patches.
-std::vector<InteriorEdge> joinPatches(const Scene& scene, double creaseAngle, Surface& surface,
-                                      SurfaceBorders& borders);
+std::vector<InteriorEdge> joinPatches(const Scene& scene, std::span<const ShapeDescription> shapes, double creaseAngle,
+                                      Surface& surface, SurfaceBorders& borders);
 
 /// Angle between the oriented normals of two triangles, 0 to pi.
 double dihedralAngle(const SurfaceTriangle& a, const SurfaceTriangle& b);

@@ -16,7 +16,9 @@ double largestCoordinate(const glm::dvec3& p) {
     return std::max({magnitude.x, magnitude.y, magnitude.z});
 }
 
-void measure(SurfaceTriangle& triangle, const std::vector<glm::dvec3>& vertices) {
+} // namespace
+
+void measureTriangle(SurfaceTriangle& triangle, const std::vector<glm::dvec3>& vertices) {
     const glm::dvec3 p0 = vertices[triangle.corner[0]], p1 = vertices[triangle.corner[1]],
                      p2 = vertices[triangle.corner[2]];
     triangle.rounding =
@@ -31,6 +33,13 @@ void measure(SurfaceTriangle& triangle, const std::vector<glm::dvec3>& vertices)
     triangle.area = 0.5 * glm::length(doubleArea);
     triangle.normal = glm::normalize(doubleArea);
 }
+
+SurfaceSphere makeSurfaceSphere(const Sphere& sphere, unsigned primitive) {
+    const glm::dvec3 center(sphere.center);
+    return {center, sphere.radius, primitive, borderRounding * (largestCoordinate(center) + sphere.radius)};
+}
+
+namespace {
 
 /// A sheet modelled twice, say once for each side, is one sheet.
 void markDuplicates(std::vector<SurfaceTriangle>& triangles) {
@@ -58,11 +67,6 @@ void markDuplicates(std::vector<SurfaceTriangle>& triangles) {
     }
 }
 
-SurfaceSphere makeSphere(const Sphere& sphere, unsigned primitive) {
-    const glm::dvec3 center(sphere.center);
-    return {center, sphere.radius, primitive, borderRounding * (largestCoordinate(center) + sphere.radius)};
-}
-
 } // namespace
 
 bool isInvisible(const Scene& scene, const ShapeDescription& shape) {
@@ -75,16 +79,16 @@ unsigned primitiveCount(const ShapeDescription& shape) {
     return shape.sphere ? 1u : unsigned(shape.mesh.triangles.size());
 }
 
-Surface collectSurface(const Scene& scene) {
+Surface collectSurface(const Scene& scene, std::span<const ShapeDescription> shapes) {
     Surface surface;
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> corners;
-    for (const ShapeDescription& shape : scene.shapes) {
+    for (const ShapeDescription& shape : shapes) {
         const unsigned first = surface.primitiveCount;
         surface.primitiveCount += primitiveCount(shape);
         if (isInvisible(scene, shape)) continue;
         if (shape.sphere) {
-            surface.spheres.push_back(makeSphere(*shape.sphere, first));
+            surface.spheres.push_back(makeSurfaceSphere(*shape.sphere, first));
             continue;
         }
         for (unsigned i = 0; i < shape.mesh.triangles.size(); ++i) {
@@ -98,7 +102,7 @@ Surface collectSurface(const Scene& scene) {
     surface.vertices = std::move(welded.positions);
     for (size_t i = 0; i < corners.size(); ++i) {
         for (int k = 0; k < 3; ++k) surface.triangles[i].corner[k] = welded.vertexOf[corners[i][k]];
-        measure(surface.triangles[i], surface.vertices);
+        measureTriangle(surface.triangles[i], surface.vertices);
     }
     markDuplicates(surface.triangles);
     return surface;

@@ -49,7 +49,11 @@ bool isInvisible(const Scene& scene, const ShapeDescription& shape);
 
 unsigned primitiveCount(const ShapeDescription& shape);
 
-/// Triangles and spheres of all visible shapes, with vertices that coincide within rounding made one.
-Surface collectSurface(const Scene& scene);
+/// Measures a triangle with these corners: what follows from them.
+void measureTriangle(SurfaceTriangle& triangle, const std::vector<glm::dvec3>& vertices);
+SurfaceSphere makeSurfaceSphere(const Sphere& sphere, unsigned primitive);
+
+/// Triangles and spheres of those of the scene's shapes that are visible, with vertices that coincide within rounding made one.
+Surface collectSurface(const Scene& scene, std::span<const ShapeDescription> shapes);
 
 } // namespace quasilux

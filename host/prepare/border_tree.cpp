@@ -97,9 +97,11 @@ void build(Entries first, Entries last, BorderTree& tree) {
     const bool isLeaf = static_cast<size_t>(last - first) <= BORDER_LANES;
     // From the root down: the first node that is not parted between patches.
     if (isLeaf || !severalPatches)
-        for (auto entry = first; entry != last; ++entry)
-            if (auto& node = tree.nodeOfPatch[entry->segment.patchA]; node == QL_NONE)
-                node = static_cast<unsigned>(index);
+        for (auto entry = first; entry != last; ++entry) {
+            const unsigned patch = entry->segment.patchA;
+            if (patch < tree.nodeOfPatch.size() && tree.nodeOfPatch[patch] == QL_NONE)
+                tree.nodeOfPatch[patch] = static_cast<unsigned>(index);
+        }
     if (isLeaf) {
         tree.nodes[index].leaf = static_cast<unsigned>(tree.leaves.size());
         tree.leaves.push_back(leafOf(first, last));

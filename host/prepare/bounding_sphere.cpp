@@ -1,6 +1,7 @@
 #include "prepare/bounding_sphere.h"
 
 #include "scene/box.h"
+#include "scene/origin.h"
 
 #include <algorithm>
 
@@ -10,9 +11,16 @@ namespace {
 
 template <typename Visit>
 void forEachBall(const Scene& scene, Visit visit) {
-    for (const auto& shape : scene.shapes) {
+    for (const auto& shape : scene.worldShapes()) {
         if (shape.sphere) visit(glm::dvec3(shape.sphere->center), std::abs(double(shape.sphere->radius)));
         for (const auto& position : shape.mesh.positions) visit(glm::dvec3(position), 0.0);
+    }
+    for (const Instance& instance : scene.instances) {
+        const Box box = boxOf(scene, instance);
+        for (unsigned corner = 0; corner < 8; ++corner)
+            visit(glm::dvec3(corner & 1 ? box.lower.x : box.upper.x, corner & 2 ? box.lower.y : box.upper.y,
+                             corner & 4 ? box.lower.z : box.upper.z),
+                  0.0);
     }
 }
 

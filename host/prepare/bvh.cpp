@@ -2,7 +2,7 @@
 // (docs/method/traversal.md).
 #include "prepare/bvh.h"
 
-#include "prepare/bvh_block.h"
+#include "prepare/bvh_append.h"
 #include "prepare/bvh_collapse.h"
 
 #include <algorithm>
@@ -53,13 +53,14 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     return item;
 }
 
-RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives, std::atomic<size_t>& leaves) {
+RTCBuildArguments buildArguments(RTCBVH bvh, unsigned perLeaf, std::vector<RTCBuildPrimitive>& primitives,
+                                 std::atomic<size_t>& leaves) {
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = 2;
     arguments.maxDepth = maximumDepth;
     // Minimum = maximum = block size: with smaller leaves allowed, half of the lanes stay empty.
-    arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = BVH_WIDTH;
+    arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = perLeaf;
     arguments.bvh = bvh;
     arguments.primitives = primitives.data();
     arguments.primitiveCount = primitives.size();
@@ -92,6 +93,49 @@ void setSlot(shared::BvhNode& node, unsigned slot, const RTCBounds& bounds) {
     node.upperZ[slot] = bounds.upper_z;
 }
 
+/// Turns the builder's tree into nodes, depth first.
+class Flattener {
+public:
+    Flattener(const MakeLeaf& makeLeaf, Bvh& bvh) : makeLeaf_(makeLeaf), bvh_(bvh) {}
+
+    /// Appends `item` and what lies below it; returns the reference that a parent's slot holds.
+    unsigned append(const BuildItem& item, unsigned depth) {
+        if (item.isLeaf) {
+            const auto& leaf = static_cast<const BuildLeaf&>(item);
+            return makeLeaf_(leaf.primitive, leaf.count);
+        }
+        const WideNode node = wideNode(static_cast<const BuildNode&>(item));
+        const unsigned index = unsigned(bvh_.nodes.size());
+        bvh_.depth = std::max(bvh_.depth, depth);
+        bvh_.nodes.push_back(emptyNode());
+        for (unsigned slot = 0; slot < node.count; ++slot) {
+            setSlot(bvh_.nodes[index], slot, *node.slot[slot].bounds);
+            const unsigned reference = append(*node.slot[slot].item, depth + 1);
+            bvh_.nodes[index].child[slot] = reference;
+        }
+        return index;
+    }
+
+private:
+    const MakeLeaf& makeLeaf_;
+    Bvh& bvh_;
+};
+
+struct EmbreeRelease {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
+};
+
+/// In the builder's form; its array has room to spare, as the builder asks for.
+std::vector<RTCBuildPrimitive> buildPrimitives(size_t count, const BoxOfItem& itemBox) {
+    std::vector<RTCBuildPrimitive> result(count);
+    for (size_t i = 0; i < count; ++i) {
+        const PrimitiveBounds box = itemBox(i);
+        result[i] = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, unsigned(i)};
+    }
+    return result;
+}
+
 RTCBounds unionOf(const std::vector<RTCBuildPrimitive>& primitives) {
     RTCBounds all{};
     all.lower_x = all.lower_y = all.lower_z = std::numeric_limits<float>::infinity();
@@ -107,72 +151,42 @@ RTCBounds unionOf(const std::vector<RTCBuildPrimitive>& primitives) {
     return all;
 }
 
-/// Turns the builder's tree into nodes and blocks, depth first.
-class Flattener {
-public:
-    Flattener(const std::vector<BvhPrimitive>& primitives, Bvh& bvh) : primitives_(primitives), bvh_(bvh) {}
+unsigned appendEmptyNode(Bvh& bvh) {
+    bvh.nodes.push_back(emptyNode());
+    return unsigned(bvh.nodes.size() - 1);
+}
 
-    /// Appends `item` and what lies below it; returns the reference that a parent's slot holds.
-    unsigned append(const BuildItem& item, unsigned depth) {
-        if (item.isLeaf) return appendLeaf(static_cast<const BuildLeaf&>(item));
-        const WideNode node = wideNode(static_cast<const BuildNode&>(item));
-        const unsigned index = unsigned(bvh_.nodes.size());
-        bvh_.depth = std::max(bvh_.depth, depth);
-        bvh_.nodes.push_back(emptyNode());
-        for (unsigned slot = 0; slot < node.count; ++slot) {
-            setSlot(bvh_.nodes[index], slot, *node.slot[slot].bounds);
-            const unsigned reference = append(*node.slot[slot].item, depth + 1);
-            bvh_.nodes[index].child[slot] = reference;
-        }
-        return index;
-    }
-
-private:
-    unsigned appendLeaf(const BuildLeaf& item) {
-        const size_t block = bvh_.blocks.size();
-        if (block >= maximumBlocks)
-            throw InputError(
-                fmt::format("the scene has too many primitives ({}): the tree holds at most {} blocks of up "
-                            "to {}; simplify the meshes or split the scene",
-                            primitives_.size(), maximumBlocks, BVH_WIDTH));
-        bvh_.blocks.push_back(makeBlock(primitives_, item.primitive, item.count));
-        return BVH_LEAF_BIT | unsigned(block); // one block: (blocks - 1) << BVH_LEAF_COUNT_SHIFT is 0
-    }
-
-    const std::vector<BvhPrimitive>& primitives_;
-    Bvh& bvh_;
-};
-
-struct EmbreeRelease {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
-};
-
-/// Bounds in the builder's form; its array has room to spare, as the builder asks for.
-std::vector<RTCBuildPrimitive> buildPrimitives(const std::vector<BvhPrimitive>& primitives) {
-    std::vector<RTCBuildPrimitive> result(primitives.size());
-    for (size_t i = 0; i < primitives.size(); ++i) {
-        const PrimitiveBounds bounds = boundsOf(primitives[i], i);
-        result[i] = {bounds.lower.x, bounds.lower.y, bounds.lower.z, 0,
-                     bounds.upper.x, bounds.upper.y, bounds.upper.z, unsigned(i)};
-    }
-    return result;
+unsigned appendBlock(const std::vector<BvhPrimitive>& primitives, unsigned firstPrimitive, const unsigned* indices,
+                     unsigned count, Bvh& bvh) {
+    const size_t block = bvh.blocks.size();
+    if (block >= maximumBlocks)
+        throw InputError(fmt::format("the scene has too many primitives ({}): the tree holds at most {} blocks of up "
+                                     "to {}; simplify the meshes or split the scene",
+                                     primitives.size(), maximumBlocks, BVH_WIDTH));
+    bvh.blocks.push_back(makeBlock(primitives, indices, count));
+    for (unsigned lane = 0; lane < count; ++lane) bvh.blocks.back().primitive[lane] += firstPrimitive;
+    return BVH_LEAF_BIT | unsigned(block); // one block: (blocks - 1) << BVH_LEAF_COUNT_SHIFT is 0
 }
 
 } // namespace
 
-Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
-    Bvh bvh;
-    if (primitives.size() > maximumPrimitives)
-        throw InputError(
-            fmt::format("the scene has {} primitives; at most {} fit. Simplify the meshes or split the scene",
-                        primitives.size(), maximumPrimitives));
-    if (primitives.empty()) {
-        bvh.nodes.push_back(emptyNode());
-        bvh.blocks.push_back(makeBlock(primitives, nullptr, 0)); // what the empty slots name
-        return bvh;
+void joinTrees(const std::vector<unsigned>& roots, Bvh& bvh) {
+    shared::BvhNode joint = emptyNode();
+    for (unsigned slot = 0; slot < roots.size(); ++slot) {
+        const shared::BvhNode& node = bvh.nodes[roots[slot]];
+        joint.lowerX[slot] = *std::min_element(node.lowerX, node.lowerX + BVH_WIDTH);
+        joint.lowerY[slot] = *std::min_element(node.lowerY, node.lowerY + BVH_WIDTH);
+        joint.lowerZ[slot] = *std::min_element(node.lowerZ, node.lowerZ + BVH_WIDTH);
+        joint.upperX[slot] = *std::max_element(node.upperX, node.upperX + BVH_WIDTH);
+        joint.upperY[slot] = *std::max_element(node.upperY, node.upperY + BVH_WIDTH);
+        joint.upperZ[slot] = *std::max_element(node.upperZ, node.upperZ + BVH_WIDTH);
+        joint.child[slot] = roots[slot];
     }
-    std::vector<RTCBuildPrimitive> bounded = buildPrimitives(primitives);
+    bvh.nodes[0] = joint;
+}
+
+unsigned appendTree(size_t count, const BoxOfItem& itemBox, unsigned perLeaf, const MakeLeaf& makeLeaf, Bvh& bvh) {
+    std::vector<RTCBuildPrimitive> bounded = buildPrimitives(count, itemBox);
     const RTCBounds all = unionOf(bounded);
 
     const std::unique_ptr<RTCDeviceTy, EmbreeRelease> device(rtcNewDevice(nullptr));
@@ -180,26 +194,48 @@ Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
         throw std::runtime_error(fmt::format("Embree did not start (error {})", int(rtcGetDeviceError(nullptr))));
     const std::unique_ptr<RTCBVHTy, EmbreeRelease> arena(rtcNewBVH(device.get()));
     std::atomic<size_t> leaves = 0; // counted as the builder's threads go, so that blocks are allocated once
-    const RTCBuildArguments arguments = buildArguments(arena.get(), bounded, leaves);
+    const RTCBuildArguments arguments = buildArguments(arena.get(), perLeaf, bounded, leaves);
     auto* root = static_cast<BuildItem*>(rtcBuildBVH(&arguments));
     if (!root)
-        throw std::runtime_error(fmt::format("Embree could not build the tree over {} primitives (error {})",
-                                             primitives.size(), int(rtcGetDeviceError(device.get()))));
+        throw std::runtime_error(fmt::format("Embree could not build the tree over {} primitives (error {})", count,
+                                             int(rtcGetDeviceError(device.get()))));
 
-    bvh.blocks.reserve(leaves);
-    Flattener flattener(primitives, bvh);
+    if (perLeaf > 1) bvh.blocks.reserve(bvh.blocks.size() + leaves);
+    Flattener flattener(makeLeaf, bvh);
     if (root->isLeaf) {
-        bvh.nodes.push_back(emptyNode());
-        setSlot(bvh.nodes[0], 0, all);
+        const unsigned index = appendEmptyNode(bvh);
+        setSlot(bvh.nodes[index], 0, all);
         const unsigned reference = flattener.append(*root, 1);
-        bvh.nodes[0].child[0] = reference;
-    } else {
-        auto& node = static_cast<BuildNode&>(*root);
-        const float area = halfArea(all);
-        weighSlots(node, area, leastWideCost(area));
-        bvh.nodes.reserve(countWideNodes(node));
-        flattener.append(*root, 1);
+        bvh.nodes[index].child[0] = reference;
+        return index;
     }
+    auto& node = static_cast<BuildNode&>(*root);
+    const float area = halfArea(all);
+    weighSlots(node, area, leastWideCost(area));
+    bvh.nodes.reserve(bvh.nodes.size() + countWideNodes(node));
+    return flattener.append(*root, 1);
+}
+
+unsigned appendTree(const std::vector<BvhPrimitive>& primitives, unsigned firstPrimitive, Bvh& bvh) {
+    if (primitives.size() > maximumPrimitives)
+        throw InputError(
+            fmt::format("the scene has {} primitives; at most {} fit. Simplify the meshes or split the scene",
+                        primitives.size(), maximumPrimitives));
+    if (primitives.empty()) {
+        if (bvh.blocks.empty()) bvh.blocks.push_back(makeBlock(primitives, nullptr, 0)); // what the empty slots name
+        return appendEmptyNode(bvh);
+    }
+    return appendTree(
+        primitives.size(), [&](size_t i) { return boundsOf(primitives[i], i); }, BVH_WIDTH,
+        [&](const unsigned* indices, unsigned count) {
+            return appendBlock(primitives, firstPrimitive, indices, count, bvh);
+        },
+        bvh);
+}
+
+Bvh buildBvh(const std::vector<BvhPrimitive>& primitives) {
+    Bvh bvh;
+    appendTree(primitives, 0, bvh);
     return bvh;
 }
 

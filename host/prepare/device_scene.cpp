@@ -5,6 +5,7 @@
 #include "prepare/direct_sharing.h"
 #include "prepare/filter_table.h"
 #include "prepare/scene_tables.h"
+#include "prepare/scene_tree.h"
 #include "util/bit_words.h"
 
 #include <cmath>
@@ -61,7 +62,9 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.cornerNormals |= !shape.mesh.cornerNormals.empty();
         features.nullPrimitives |= scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull;
     }
-    features.borders = !borders.segments.empty();
+    features.borders = !borders.segments.empty() || std::any_of(borders.groups.begin(), borders.groups.end(),
+                                                                [](const auto& g) { return !g.segments.empty(); });
+    features.instances = !scene.instances.empty();
     features.depthLimit = scene.maxDepth >= 0;
     features.hiddenEmitters = scene.hideEmitters && !isIrradiance(scene.sensor.meter);
     features.orthographicCamera = scene.sensor.orthographic;
@@ -106,13 +109,28 @@ unsigned appendTexels(const std::vector<Texels>& images, SceneTableWriter& table
     return first;
 }
 
-void appendBorders(const SurfaceBorders& borders, SceneTableWriter& tables, shared::SceneTables& offsets) {
+/// `Places`: where they are said, of the world or of a group.
+template <typename Places>
+void appendBorders(const SurfaceBorders& borders, SceneTableWriter& tables, Places& places) {
     const BorderTree tree = buildBorderTree(borders.segments, borders.patchCount);
-    offsets.borderLeaves = tables.append(tree.leaves);
-    offsets.borderNodes = tables.append(tree.nodes);
-    offsets.borderNodeCount = static_cast<unsigned>(tree.nodes.size());
-    offsets.patchNodes = tables.append(tree.nodeOfPatch);
-    offsets.patchRadius = tables.append(patchRadii(borders));
+    places.borderLeaves = tables.append(tree.leaves);
+    places.borderNodes = tables.append(tree.nodes);
+    places.borderNodeCount = static_cast<unsigned>(tree.nodes.size());
+    places.patchNodes = tables.append(tree.nodeOfPatch);
+    places.patchRadius = tables.append(patchRadii(borders));
+}
+
+/// Borders of the world and of groups, and the instances of these.
+void appendAllBorders(const Scene& scene, const SurfaceBorders& borders, SceneTableWriter& tables, SceneTree& tree,
+                      shared::SceneTables& offsets) {
+    appendBorders(borders, tables, offsets);
+    std::vector<shared::ShapeGroup> groups;
+    for (const SurfaceBorders& group : borders.groups) appendBorders(group, tables, groups.emplace_back());
+    appendInstances(scene, borders, groups, tree);
+    offsets.patchCount = borders.patchCount;
+    offsets.instances = tree.firstInstance;
+    offsets.instanceCount = static_cast<unsigned>(scene.instances.size());
+    offsets.instanceRoot = tree.instanceRoot;
 }
 
 unsigned shapeOfPrimitive(const Scene& scene, unsigned primitive) {
@@ -195,7 +213,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.directSharing = directSharing(out.emitters.emitters, out.surfaceArea, out.features.irradianceMeter);
     out.features.sharingLambert = out.offsets.directSharing & DIRECT_SHARING_LAMBERT;
     out.features.sharingMedia = out.features.media && out.offsets.directSharing & DIRECT_SHARING_MEDIA;
-    out.bvh = buildBvh(flattenPrimitives(scene));
+    SceneTree tree = buildSceneTree(scene);
 
     SceneTableWriter tables;
     out.offsets.primitives = tables.append(flattenPrimitiveInfo(scene, borders));
@@ -228,7 +246,8 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.meter.lobe = meterLobe;
     out.offsets.meter.primitives = meter.grids.empty() ? tables.append(meter.primitives) : tables.append(meter.grids);
     const unsigned filterSteps = tables.append(filterTable(scene.sensor));
-    appendBorders(borders, tables, out.offsets);
+    appendAllBorders(scene, borders, tables, tree, out.offsets);
+    out.bvh = std::move(tree.bvh);
     out.offsets.texels = appendTexels(textures.images, tables);
     out.tables = std::move(tables).take();
     out.sceneWords = out.tables.size();
@@ -244,6 +263,11 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     }
     out.patches = borders.patchCount;
     out.borderSegments = borders.segments.size();
+    for (const SurfaceBorders& group : borders.groups) {
+        out.patches += group.patchCount;
+        out.borderSegments += group.segments.size();
+    }
+    out.instances = scene.instances.size();
     for (const double power : out.emitters.power) out.emittedFlux += power;
     return out;
 }

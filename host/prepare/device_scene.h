@@ -35,7 +35,7 @@ struct DeviceScene {
     shared::Camera camera{};
     Features features; // the meter is described by offsets.meter
     // For people:
-    size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
+    size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0, instances = 0;
     double surfaceArea = 0; ///< of everything that scatters, scene units squared
     double emittedFlux = 0; ///< W, mean of R, G, B
     size_t sceneWords = 0;  ///< of the tables, before what was learned
@@ -69,7 +69,7 @@ struct LearnedTables {
 void setLearned(DeviceScene& scene, const LearnedTables& learned);
 
 /// Pieces of it, each a table.
-std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene);
+std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene, std::span<const ShapeDescription> shapes);
 std::vector<shared::PrimitiveInfo> flattenPrimitiveInfo(const Scene& scene, const SurfaceBorders& borders);
 std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<unsigned>& emitterOfShape,
                                          const MediumPlacement& placement);

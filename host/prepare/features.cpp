@@ -31,6 +31,7 @@ constexpr std::array flags = {
     Flag{&Features::nullPrimitives, "HAS_NULL_PRIMITIVES", "null surfaces"},
     Flag{&Features::cornerNormals, "HAS_CORNER_NORMALS", "vertex normals"},
     Flag{&Features::borders, "HAS_BORDERS", "surface borders"},
+    Flag{&Features::instances, "HAS_INSTANCES", "instances"},
     Flag{&Features::depthLimit, "HAS_DEPTH_LIMIT", "path depth limit"},
     Flag{&Features::orthographicCamera, "HAS_ORTHOGRAPHIC_CAMERA", "orthographic camera"},
     Flag{&Features::fisheyeCamera, "HAS_FISHEYE_CAMERA", "fisheye camera"},

@@ -3,6 +3,9 @@
 #include "prepare/device_scene.h"
 #include "prepare/pack.h"
 #include "scene/shapes/shape_area.h"
+#include "scene/transform.h"
+
+#include <cmath>
 
 namespace quasilux {
 
@@ -18,9 +21,9 @@ bool passesLight(const Scene& scene, const ShapeDescription& shape) {
     return isNull(scene, shape) && !shape.interior && !shape.exterior;
 }
 
-std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene) {
+std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene, std::span<const ShapeDescription> shapes) {
     std::vector<BvhPrimitive> primitives;
-    for (const auto& shape : scene.shapes) {
+    for (const auto& shape : shapes) {
         const bool null = passesLight(scene, shape);
         if (shape.sphere) primitives.push_back({shape.sphere->center, {shape.sphere->radius, 0, 0}, {}, true, null});
         const auto& p = shape.mesh.positions;
@@ -31,9 +34,13 @@ std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene) {
 
 std::vector<shared::PrimitiveInfo> flattenPrimitiveInfo(const Scene& scene, const SurfaceBorders& borders) {
     std::vector<shared::PrimitiveInfo> records;
+    std::vector<unsigned> patches = borders.patchOfPrimitive;
+    for (const SurfaceBorders& group : borders.groups)
+        patches.insert(patches.end(), group.patchOfPrimitive.begin(), group.patchOfPrimitive.end());
+    records.reserve(patches.size());
     for (unsigned shape = 0; shape < scene.shapes.size(); ++shape)
         for (unsigned k = 0; k < primitiveCount(scene.shapes[shape]); ++k)
-            records.push_back({shape, borders.patchOfPrimitive[records.size()]});
+            records.push_back({shape, patches[records.size()]});
     return records;
 }
 
@@ -68,10 +75,20 @@ std::vector<shared::Packed3> flattenCornerNormals(const Scene& scene) {
 }
 
 double scatteringArea(const Scene& scene) {
-    double area = 0;
-    for (const auto& shape : scene.shapes) {
-        if (isNull(scene, shape)) continue;
-        area += areaOf(shape);
+    const auto areaOfAll = [&](std::span<const ShapeDescription> shapes, const glm::dmat3* toWorld) {
+        double area = 0;
+        for (const auto& shape : shapes)
+            if (!isNull(scene, shape)) area += toWorld ? areaOf(shape, *toWorld) : areaOf(shape);
+        return area;
+    };
+    std::vector<double> ofGroups;
+    for (const ShapeGroup& group : scene.groups) ofGroups.push_back(areaOfAll(scene.shapesOf(group), nullptr));
+    double area = areaOfAll(scene.worldShapes(), nullptr);
+    for (const Instance& instance : scene.instances) {
+        const glm::dmat3 axes(glm::mat3(instance.toWorld[0], instance.toWorld[1], instance.toWorld[2]));
+        const double scale = std::cbrt(std::abs(glm::determinant(axes)));
+        area += keepsAngles(axes / scale, 1, 1e-4) ? scale * scale * ofGroups[instance.group]
+                                                   : areaOfAll(scene.shapesOf(scene.groups[instance.group]), &axes);
     }
     return area;
 }

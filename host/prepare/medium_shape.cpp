@@ -3,6 +3,7 @@
 #include "prepare/bounding_sphere.h"
 #include "prepare/pack.h"
 #include "scene/box.h"
+#include "scene/origin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,11 +82,15 @@ bool isConvexPolyhedron(const Mesh& mesh, const std::vector<Face>& faces, double
 bool isEmptyInside(const Scene& scene, const ShapeDescription& own) {
     const Box box = boxOf(own);
     const double margin = 1e-6 * box.diagonal();
-    return std::none_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeDescription& other) {
-        const Box its = boxOf(other);
-        return &other != &own && glm::all(glm::lessThan(its.lower + margin, box.upper)) &&
+    const auto reachesInto = [&](const Box& its) {
+        return glm::all(glm::lessThan(its.lower + margin, box.upper)) &&
                glm::all(glm::lessThan(box.lower + margin, its.upper));
-    });
+    };
+    const auto world = scene.worldShapes();
+    return std::none_of(world.begin(), world.end(),
+                        [&](const auto& other) { return &other != &own && reachesInto(boxOf(other)); }) &&
+           std::none_of(scene.instances.begin(), scene.instances.end(),
+                        [&](const Instance& instance) { return reachesInto(boxOf(scene, instance)); });
 }
 
 void findPlate(const std::vector<Face>& faces, const Box& box, MediumShape& shape) {

@@ -15,6 +15,15 @@ namespace quasilux {
 
 struct MeshSource;
 
+/// What instances make of a shapegroup.
+struct GroupUse {
+    size_t places = 0;
+    bool isKept = false;                  ///< once for all instances; else they are flattened
+    std::vector<ShapeDescription> shapes; ///< in its own space, where that was asked for
+    glm::dvec3 center{0};                 ///< of its own space
+    std::optional<unsigned> index;        ///< into Scene::groups
+};
+
 class LoadContext {
 public:
     /// Collects the ids below `root` and their aliases. Throws InputError for an id given twice.
@@ -52,10 +61,14 @@ public:
     std::map<std::tuple<std::string, bool, TextureUse>, Image> images; ///< read already, by path and `raw`
     std::map<std::tuple<std::string, size_t, double, bool>, unsigned>
         luminaireTypes; ///< into Scene::luminaireTypes, by path, set of lamps, unit, and whether the shape shines
-    std::set<const Element*> usedEmitters;  ///< that a shape has
-    std::set<const Element*> usedGroups;    ///< shapegroups that an instance places
-    std::optional<glm::dmat4> placement;    ///< of the instance whose shapes are being read
-    std::set<std::string> brightAttributes; ///< of meshes, warned of
+    std::set<const Element*> usedEmitters; ///< that a shape has
+    std::set<const Element*> usedGroups;   ///< shapegroups that an instance places
+    std::optional<glm::dmat4> placement;   ///< of the instance whose shapes are being read
+    std::unordered_map<const Element*, GroupUse> groupUse;
+    std::vector<const Element*> plainGroups;  ///< by PlainInstances::groupIds
+    std::vector<const Element*> placedGroups; ///< all in groupUse, in the order of the file
+    std::vector<GroupUse*> keptGroups;        ///< in the order of Scene::groups
+    std::set<std::string> brightAttributes;   ///< of meshes, warned of
     /// Of the files that instances place more than once, by path and options.
     std::map<std::string, std::shared_ptr<const MeshSource>> instancedMeshes;
 

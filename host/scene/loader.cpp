@@ -13,6 +13,7 @@
 #include "scene/phases/phase_plugin.h"
 #include "scene/sensors/sensors.h"
 #include "scene/settings.h"
+#include "scene/shapes/instance_levels.h"
 #include "scene/shapes/shape_plugin.h"
 #include "scene/textures/constant_texture.h"
 #include "scene/textures/texture_plugin.h"
@@ -67,6 +68,18 @@ void readObject(const Element& object, LoadContext& context, std::vector<PlacedS
                          fmt::format("<{}> may not stand directly in <scene>; expected shape, bsdf, texture, medium, "
                                      "phase, volume, emitter, sensor, film, sampler or integrator.",
                                      object.tag));
+}
+
+/// All, in the order of the file.
+void readObjects(const Element& root, LoadContext& context, std::vector<PlacedSensor>& sensors,
+                 std::vector<const Element*>& integrators) {
+    size_t next = 0;
+    for (size_t k = 0; k <= root.children.size(); ++k) {
+        for (; root.instances && next < root.instances->all.size() && root.instances->all[next].before == k; ++next)
+            for (ShapeDescription& shape : readPlainInstance(root.instances->all[next], context))
+                context.scene.shapes.push_back(std::move(shape));
+        if (k < root.children.size()) readObject(root.children[k], context, sensors, integrators);
+    }
 }
 
 /// Groups that no instance places, likewise.
@@ -244,9 +257,12 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
             readMeasurement(instruction, scene);
     scene.settings = parseSceneSettings(settings);
 
+    countPlaces(root, context);
+    chooseLevels(context);
     std::vector<PlacedSensor> sensors;
     std::vector<const Element*> integrators, nestedBsdfs;
-    for (const Element& child : root.children) readObject(child, context, sensors, integrators);
+    readObjects(root, context, sensors, integrators);
+    appendGroups(context);
     collectNested(root, context, nestedBsdfs);
     checkUnusedGroups(root, context);
     checkUnusedBsdfs(root, context, nestedBsdfs);

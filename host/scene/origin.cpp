@@ -25,17 +25,39 @@ const Element* transformWithin(const Element& sensor) {
 
 } // namespace
 
-glm::dvec3 chooseOrigin(const Scene& scene) {
+Box boxOf(std::span<const ShapeDescription> shapes) {
     Box box;
-    for (const ShapeDescription& shape : scene.shapes) {
+    for (const ShapeDescription& shape : shapes) {
         if (shape.sphere)
             for (const float radius : {-shape.sphere->radius, shape.sphere->radius})
                 box.add(glm::dvec3(shape.sphere->center) + double(radius));
         for (const glm::vec3& position : shape.mesh.positions) box.add(glm::dvec3(position));
     }
-    const glm::dvec3 center = scene.origin + box.center();
+    return box;
+}
+
+Box boxOf(const Scene& scene, const Instance& instance) {
+    const Box& own = scene.groups[instance.group].box;
+    const glm::dmat4x3 toWorld(instance.toWorld);
+    const glm::dvec3 center = toWorld * glm::dvec4(own.center(), 1), half = 0.5 * own.extent();
+    const glm::dvec3 extent =
+        glm::abs(toWorld[0]) * half.x + glm::abs(toWorld[1]) * half.y + glm::abs(toWorld[2]) * half.z;
+    Box box;
+    box.add(center - extent);
+    box.add(center + extent);
+    return box;
+}
+
+glm::dvec3 farCenter(const Box& box, const glm::dvec3& origin) {
+    const glm::dvec3 center = origin + box.center();
     const bool isFar = box.lower.x <= box.upper.x && largest(center) > farAway * largest(box.extent());
     return isFar ? center : glm::dvec3(0);
+}
+
+glm::dvec3 chooseOrigin(const Scene& scene) {
+    Box box = boxOf(scene.worldShapes());
+    for (const Instance& instance : scene.instances) box.add(boxOf(scene, instance));
+    return farCenter(box, scene.origin);
 }
 
 glm::dvec3 placeOfSensor(const Element& root) {

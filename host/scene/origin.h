@@ -8,6 +8,13 @@
 
 namespace quasilux {
 
+/// About shapes, in their own coordinates, and about an instance in the scene's.
+Box boxOf(std::span<const ShapeDescription> shapes);
+Box boxOf(const Scene& scene, const Instance& instance);
+
+/// The centre of `box`, which counts from `origin`, if it is further from 0 than four times the box's size; else 0.
+glm::dvec3 farCenter(const Box& box, const glm::dvec3& origin = glm::dvec3(0));
+
 /// Where Scene::origin should be: the centre of the bounding box of all shapes, in coordinates of the file, if it is
 /// further than four times the box's size from the file's origin; else that origin, so that most scenes are loaded as
 /// they are written.

@@ -5,6 +5,7 @@
 #include "scene/goniograms/goniogram.h"
 #include "scene/load_limits.h"
 #include "scene/setting_choices.h"
+#include "scene/shape_group.h"
 #include "shared_types.h"
 #include "util/error.h"
 
@@ -14,6 +15,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -321,6 +323,7 @@ struct SceneSettings {
     std::optional<unsigned> cameraPaths; ///< of a pixel in each pass
     std::optional<uint64_t> seed;
     std::optional<Units> units; ///< radiometric where not said
+    std::optional<InstanceLevels> instances;
 };
 
 /// What a layer of integrator 'aov' shows of the surface that a pixel's rays meet first.
@@ -347,7 +350,9 @@ struct Scene {
     std::string path;
     glm::dvec3 origin{0}; ///< coordinates here are those of the file less this (host/scene/origin.h)
     std::vector<Bsdf> bsdfs;
-    std::vector<ShapeDescription> shapes;
+    std::vector<ShapeDescription> shapes; ///< in the world; then, in spaces of their own, those of `groups`
+    std::vector<ShapeGroup> groups;
+    std::vector<Instance> instances;
     std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index
     std::vector<VolumeDescription> volumes;
     std::vector<MediumDescription> media;
@@ -358,16 +363,21 @@ struct Scene {
     Sensor sensor;          ///< the one that is rendered
     size_t sensorCount = 0; ///< in the file
     std::vector<IlluminanceGrid>
-        grids; ///< measured where the sensor is a MeterKind::grid; its film has their points one after the other
+        grids; ///< measured by MeterKind::grid, whose film has their points one after the other
     std::vector<Observer> observers;
-    bool hideEmitters =
-        false;         ///< the camera looks through emitting shapes and sees no surroundings (Mitsuba's hide_emitters)
+    bool hideEmitters = false; ///< the camera looks through emitting shapes and sees no surroundings (hide_emitters)
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
     std::vector<AovLayer> aovs; ///< that the integrator asks for
     SceneSettings settings;
-    std::vector<std::string> warnings; ///< "file:line:column: …"; things accepted but without effect
-    std::vector<std::string>
-        withoutEffect; ///< parameters that are given and accepted without effect and without a warning
+    std::vector<std::string> warnings;      ///< "file:line:column: …"; things accepted but without effect
+    std::vector<std::string> withoutEffect; ///< parameters that are accepted without effect and without a warning
+
+    std::span<const ShapeDescription> worldShapes() const {
+        return {shapes.data(), groups.empty() ? shapes.size() : groups.front().firstShape};
+    }
+    std::span<const ShapeDescription> shapesOf(const ShapeGroup& group) const {
+        return {shapes.data() + group.firstShape, group.shapeCount};
+    }
 };
 
 /// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is known.
@@ -375,8 +385,7 @@ enum class Unknown { refused, forgiven };
 
 /// How a file is read.
 struct LoadChoice {
-    std::string sensor =
-        {}; ///< which is rendered: its number, in the order of the file from 0 on, or its id; empty: the first one
+    std::string sensor = {}; ///< its number in the order of the file, from 0 on, or its id; empty: the first one
     Unknown unknown = Unknown::refused;
     std::optional<LoadLimits> limits = {}; ///< of a scene that is not trusted
 };

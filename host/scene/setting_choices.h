@@ -15,12 +15,13 @@
 
 namespace quasilux {
 
-enum class Variant { main, alternative };      ///< of the law, kernels/law.clh
-enum class DirectLight { emitters, photons };  ///< how E0's direct part is estimated
-enum class CausticLight { photons, paths };    ///< how E0's caustic part is; see takesCausticsByPaths() in method.h
-enum class RadiusChoice { adaptive, fixed };   ///< density radius by pixel, or one for all
-enum class Emission { guided, plain };         ///< photons begin by what was learned of the scene, or by power alone
-enum class MapOrder { photons, camera };       ///< what is stored and indexed, for the other to find
+enum class Variant { main, alternative };     ///< of the law, kernels/law.clh
+enum class DirectLight { emitters, photons }; ///< how E0's direct part is estimated
+enum class CausticLight { photons, paths };   ///< how E0's caustic part is; see takesCausticsByPaths() in method.h
+enum class RadiusChoice { adaptive, fixed };  ///< density radius by pixel, or one for all
+enum class Emission { guided, plain };        ///< photons begin by what was learned of the scene, or by power alone
+enum class MapOrder { photons, camera };      ///< what is stored and indexed, for the other to find
+enum class InstanceLevels { one, two }; ///< shapes of an instance are flattened, or a level of the tree of their own
 enum class Units { radiometric, photometric }; ///< of radiance and intensity: W sr^-1 m^-2, or cd/m^2
 
 /// What a choice is called where a name is not known, and the names of its values in their order.
@@ -42,6 +43,8 @@ template <>
 inline constexpr ChoiceWords choiceWords<Emission>{"emission", {"guided", "plain"}};
 template <>
 inline constexpr ChoiceWords choiceWords<MapOrder>{"map", {"photons", "camera"}};
+template <>
+inline constexpr ChoiceWords choiceWords<InstanceLevels>{"treatment of instances", {"flattened", "two-level"}};
 template <>
 inline constexpr ChoiceWords choiceWords<Units>{"units", {"radiometric", "photometric"}};
 

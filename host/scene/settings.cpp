@@ -14,8 +14,8 @@ namespace quasilux {
 
 namespace {
 
-const Names settingNames = {"bdd", "variant", "quasi-specular", "direct", "caustics",
-                            "map", "photons", "camera-paths",   "seed",   "units"};
+const Names settingNames = {"bdd",     "variant",      "quasi-specular", "direct", "caustics", "map",
+                            "photons", "camera-paths", "seed",           "units",  "instances"};
 
 template <NamedChoice Choice>
 Choice choiceOf(const Attribute& entry, const SourceLocation& where) {
@@ -50,6 +50,8 @@ void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& s
         settings.map = choiceOf<MapOrder>(entry, where);
     else if (entry.name == "units")
         settings.units = choiceOf<Units>(entry, where);
+    else if (entry.name == "instances")
+        settings.instances = choiceOf<InstanceLevels>(entry, where);
     else if (entry.name == "photons")
         settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, photonsLimit, where, "photons"));
     else if (entry.name == "camera-paths")

@@ -6,6 +6,7 @@ typedef struct {
     Packed3 position, normal;
     uint primitive;
     float radius;
+    uint firstPatch;
 } RegionQuery;
 
 typedef struct {
@@ -25,17 +26,18 @@ inline Surface surfaceOf(__global const RegionQuery* query, __global const uint*
     Surface s;
     s.position = load3(query->position);
     s.geometricNormal = s.shadingNormal = load3(query->normal);
-    s.patch = SCENE_TABLE(tables, scene, PrimitiveInfo, primitives)[query->primitive].patch;
+    s.patch = query->firstPatch + SCENE_TABLE(tables, scene, PrimitiveInfo, primitives)[query->primitive].patch;
     s.front = 1;
     return s;
 }
 
-__kernel void findRegions(__global const uint* tables, __global const RegionQuery* queries,
+__kernel void findRegions(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                          __global const uint* tables, __global const RegionQuery* queries,
                           __global RegionAnswer* answers, const SceneTables scene, const uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     const Surface s = surfaceOf(queries + i, tables, &scene);
-    const DensityRegion region = densityRegionAt(&s, queries[i].radius, tables, &scene);
+    const DensityRegion region = densityRegionAt(&s, queries[i].radius, nodes, blocks, tables, &scene);
     __global RegionAnswer* answer = answers + i;
     answer->kernelIntegral = region.kernelIntegral;
     answer->radiusSquared = region.radiusSquared;
@@ -58,7 +60,8 @@ typedef struct {
         byDisc; /* the sum over the whole disc divided by the integral over it, as without any care for borders; red */
 } Estimate;
 
-__kernel void estimate(__global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
+__kernel void estimate(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                       __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
                        __global const RegionQuery* queries, __global Estimate* estimates, const SceneTables scene,
                        const MapParams map, const uint count) {
     const uint i = get_global_id(0);
@@ -66,7 +69,7 @@ __kernel void estimate(__global const uint* tables, __global const uint* cellSta
     const Surface s = surfaceOf(queries + i, tables, &scene);
     const PhotonMap photons = {sorted, cellStart, &map};
     DirectionalLobes none = {0, 0, frameFromNormal(s.geometricNormal), (float3)(0, 0, 1), &s};
-    DensityRegion region = densityRegionAt(&s, queries[i].radius, tables, &scene);
+    DensityRegion region = densityRegionAt(&s, queries[i].radius, nodes, blocks, tables, &scene);
     const float3 inRegion =
         gatherPhotons(photons, LIGHT_DIFFUSE, &region, s.patch << 1 | s.front, QL_NONE, &none).irradiance;
     estimates[i].byRegion = region.kernelIntegral > 0 ? inRegion.x / region.kernelIntegral : 0.f;

@@ -72,6 +72,7 @@ std::vector<Piece> piecesOf(const Scene& scene) {
 
 DensityScene::DensityScene(Scene scene, float radius)
     : scene_(withLambert(std::move(scene))), radius_(radius), device_(flattenScene(scene_)),
+      nodes_(testDevice(), device_.bvh.nodes, "tree nodes"), blocks_(testDevice(), device_.bvh.blocks, "primitives"),
       tables_(testDevice(), device_.tables, "scene tables") {}
 
 unsigned DensityScene::patchOf(unsigned primitive) const {
@@ -86,7 +87,8 @@ std::vector<RegionAnswer> DensityScene::regions(const std::vector<RegionQuery>& 
     Buffer<RegionQuery> queryBuffer(testDevice(), queries, "queries");
     Buffer<RegionAnswer> answers(testDevice(), queries.size(), "regions");
     program.kernel("findRegions")
-        .launch(queries.size(), tables_, queryBuffer, answers, device_.offsets, unsigned(queries.size()));
+        .launch(queries.size(), nodes_, blocks_, tables_, queryBuffer, answers, device_.offsets,
+                unsigned(queries.size()));
     return answers.read();
 }
 
@@ -100,8 +102,8 @@ std::vector<Estimate> DensityScene::estimates(const std::vector<RegionQuery>& qu
     Buffer<RegionQuery> queryBuffer(testDevice(), queries, "queries");
     Buffer<Estimate> estimates(testDevice(), queries.size(), "estimates");
     program.kernel("estimate")
-        .launch(queries.size(), tables_, index.cellStart, index.sorted, queryBuffer, estimates, device_.offsets,
-                index.map, unsigned(queries.size()));
+        .launch(queries.size(), nodes_, blocks_, tables_, index.cellStart, index.sorted, queryBuffer, estimates,
+                device_.offsets, index.map, unsigned(queries.size()));
     return estimates.read();
 }
 

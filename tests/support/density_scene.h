@@ -16,6 +16,7 @@ struct RegionQuery {
     shared::Packed3 position, normal;
     unsigned primitive; ///< which the point lies on
     float radius;
+    unsigned firstPatch = 0; ///< of the primitive's instance
 };
 
 inline constexpr unsigned densitySectors = 32;
@@ -59,6 +60,8 @@ private:
     Scene scene_;
     float radius_;
     DeviceScene device_;
+    Buffer<shared::BvhNode> nodes_;
+    Buffer<shared::PrimitiveBlock> blocks_;
     Buffer<uint32_t> tables_;
 };
 

@@ -33,7 +33,8 @@ void readCylinder(Properties& properties, ShapeDescription& shape) {
         source.triangles.push_back({corner(k, 0), corner(k + 1, 0), corner(k + 1, 1)});
         source.triangles.push_back({corner(k, 0), corner(k + 1, 1), corner(k, 1)});
     }
-    shape.mesh = fileMesh(source, properties.transform("to_world"), shape.flipNormals, false, shape.where);
+    shape.mesh = fileMesh(source, properties.transform("to_world"), shape.flipNormals, false, shape.where,
+                          properties.context().placement);
 }
 
 } // namespace quasilux

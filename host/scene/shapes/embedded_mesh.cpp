@@ -14,8 +14,8 @@ void readEmbeddedMesh(Properties& properties, ShapeDescription& shape) {
     if (found == parts.meshes.end())
         throw InputError(properties.where("name"), fmt::format("the scene holds no mesh '{}'.", name));
     const bool faceNormals = properties.boolean("face_normals", false);
-    shape.mesh =
-        fileMesh(*found->second, properties.transform("to_world"), shape.flipNormals, faceNormals, shape.where);
+    shape.mesh = fileMesh(*found->second, properties.transform("to_world"), shape.flipNormals, faceNormals, shape.where,
+                          properties.context().placement);
 }
 
 } // namespace quasilux

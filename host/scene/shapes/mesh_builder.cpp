@@ -60,6 +60,25 @@ std::vector<Normals> computeNormals(const MeshSource& source, const std::vector<
     return normals;
 }
 
+/// The same of a mesh that an instance places: as those of its group, in whose space they are means, carried by the inverse transpose.
+std::vector<Normals> computeNormals(const MeshSource& source, const std::vector<glm::dvec3>& world,
+                                    const glm::dmat4& placement) {
+    const glm::dmat4 back = glm::inverse(placement);
+    const glm::dmat3 inverseTranspose = glm::transpose(glm::dmat3(back));
+    std::vector<Normals> normals = computeNormals(source, toWorldSpace(world, back));
+    for (Normals& corner : normals)
+        for (glm::dvec3& normal : corner) normal = unitOr(inverseTranspose * normal, normal);
+    return normals;
+}
+
+/// Whether an instance's transform does more than to turn and to scale.
+bool distorts(const std::optional<glm::dmat4>& placement) {
+    if (!placement) return false;
+    const glm::dmat3 axes(*placement);
+    const double volume = glm::determinant(axes);
+    return volume < 0 || !keepsAngles(axes / std::cbrt(volume), 1, 1e-9);
+}
+
 /// Normals of the file in world space; the face's normal where a corner has none or one of length zero.
 std::vector<Normals> transformNormals(const MeshSource& source, const std::vector<glm::dvec3>& world,
                                       const glm::dmat4& toWorld) {
@@ -124,7 +143,7 @@ Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::u
 }
 
 Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNormals, bool faceNormals,
-              const SourceLocation& where) {
+              const SourceLocation& where, const std::optional<glm::dmat4>& placement) {
     const std::vector<glm::dvec3> world = toWorldSpace(source.positions, toWorld);
     Mesh mesh;
     mesh.positions.reserve(world.size());
@@ -132,7 +151,11 @@ Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNorm
 
     const bool fromFile = !faceNormals && !source.normals.empty();
     std::vector<Normals> normals;
-    if (!faceNormals) normals = fromFile ? transformNormals(source, world, toWorld) : computeNormals(source, world);
+    if (fromFile)
+        normals = transformNormals(source, world, toWorld);
+    else if (!faceNormals)
+        normals = distorts(placement) ? computeNormals(source, world, *placement) : computeNormals(source, world);
+    const bool isMirrored = placement && glm::determinant(glm::dmat3(*placement)) < 0;
     const bool keepNormals = !faceNormals && !areFlat(normals, source, world);
 
     const bool hasUvs = everyCornerHasUv(source);
@@ -140,7 +163,7 @@ Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNorm
 
     for (size_t t = 0; t < source.triangles.size(); ++t) {
         const auto& corner = source.triangles[t];
-        bool reversed = flipNormals;
+        bool reversed = flipNormals != (isMirrored && !fromFile);
         if (fromFile) {
             const glm::dvec3 sum = normals[t][0] + normals[t][1] + normals[t][2];
             if (glm::dot(faceNormal(cornersOf(corner, world)), sum) < 0) reversed = !reversed;

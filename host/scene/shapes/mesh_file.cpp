@@ -22,7 +22,8 @@ MeshFile readMeshFile(Properties& properties) {
 Mesh placeMeshFile(const MeshFile& file, const std::function<MeshSource()>& read, Properties& properties,
                    const ShapeDescription& shape) {
     const auto place = [&](const MeshSource& source) {
-        return fileMesh(source, file.toWorld, shape.flipNormals, file.faceNormals, shape.where);
+        return fileMesh(source, file.toWorld, shape.flipNormals, file.faceNormals, shape.where,
+                        properties.context().placement);
     };
     if (!properties.context().placement) return place(read());
     std::shared_ptr<const MeshSource>& known =

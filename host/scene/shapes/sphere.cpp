@@ -31,8 +31,10 @@ void readSphere(Properties& properties, ShapeDescription& shape) {
     if (!(sphere.radius > 0))
         throw InputError(shape.where, fmt::format("the sphere's radius {} is too small for single precision.", radius));
     shape.sphere = sphere;
-    // As in Mitsuba 3, a mirrored sphere is turned inside out.
-    if (glm::determinant(glm::dmat3(toWorld)) < 0) shape.flipNormals = !shape.flipNormals;
+    // As in Mitsuba 3, a mirrored sphere is turned inside out, though not by an instance.
+    const auto& placement = properties.context().placement;
+    const double instance = placement ? glm::determinant(glm::dmat3(*placement)) : 1;
+    if (glm::determinant(glm::dmat3(toWorld)) * instance < 0) shape.flipNormals = !shape.flipNormals;
 }
 
 } // namespace quasilux

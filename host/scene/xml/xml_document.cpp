@@ -2,6 +2,7 @@
 #include "scene/xml/xml_document.h"
 
 #include "scene/xml/names.h"
+#include "scene/xml/plain_instances.h"
 #include "scene/xml/read_files.h"
 #include "scene/xml/tags.h"
 #include "scene/xml/upgrade.h"
@@ -67,8 +68,8 @@ public:
         if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
         const TextPositions positions(path, text);
         pugi::xml_document document;
-        const pugi::xml_parse_result result =
-            document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_pi, pugi::encoding_utf8);
+        const pugi::xml_parse_result result = document.load_buffer_inplace(
+            text.data(), text.size(), pugi::parse_default | pugi::parse_pi, pugi::encoding_utf8);
         if (!result)
             throw InputError(positions.at(result.offset), fmt::format("malformed XML: {}.", result.description()));
 
@@ -157,8 +158,10 @@ private:
                 include(element, parent, depth);
             else if (element.tag == "path")
                 files_.prepend(element.get("value"), element.where);
-            else
+            else if (!plainInstances_.keep(element, parent)) {
+                plainInstances_.note(element);
                 parent.children.push_back(std::move(element));
+            }
         }
     }
 
@@ -193,6 +196,7 @@ private:
             parent.children.push_back(std::move(root));
             return;
         }
+        moveInstances(root, parent.children.size(), parent);
         for (Element& child : root.children) {
             checkElement(child, &parent);
             parent.children.push_back(std::move(child));
@@ -233,6 +237,7 @@ private:
     FileResolver files_;
     Unknown unknown_;
     std::vector<std::string> forgiven_;
+    PlainInstanceReader plainInstances_;
     int version_ = 3; ///< the first number of that of the file that is being read
 };
 
