@@ -3,6 +3,7 @@
 #define QUASILUX_PASS_TYPES_H
 
 #include "learned_types.h"
+#include "sensor_types.h"
 
 #ifdef __cplusplus
 namespace quasilux::shared {

@@ -18,8 +18,13 @@ struct Row {
     std::vector<unsigned> values; ///< struct: size; field: offset, size
 };
 
+} // namespace
+
+namespace shared {
+namespace {
+
+// Within shared, whose names others of the host have too.
 std::vector<Row> hostLayout() {
-    using namespace shared;
     return {
 #define STRUCT(type) {#type, {unsigned(sizeof(type))}},
 #define FIELD(type, field) {#type "." #field, {unsigned(offsetof(type, field)), unsigned(sizeof(type::field))}},
@@ -28,6 +33,11 @@ std::vector<Row> hostLayout() {
 #undef FIELD
     };
 }
+
+} // namespace
+} // namespace shared
+
+namespace {
 
 std::string readTestKernel(const std::string& file) {
     std::ifstream stream(std::string(QUASILUX_SOURCE_DIR) + "/tests/kernels/" + file);
@@ -67,7 +77,7 @@ std::set<std::string> declared(const std::string& header) {
 }
 
 TEST(Layout, EveryFieldLiesWhereTheHostHasIt) {
-    const std::vector<Row> rows = hostLayout();
+    const std::vector<Row> rows = shared::hostLayout();
     const std::vector<unsigned> device = deviceLayout(flat(rows).size());
     size_t next = 0;
     for (const Row& row : rows)
@@ -76,9 +86,10 @@ TEST(Layout, EveryFieldLiesWhereTheHostHasIt) {
 
 TEST(Layout, EveryDeclaredFieldIsCompared) {
     std::set<std::string> compared;
-    for (const Row& row : hostLayout()) compared.insert(row.name);
+    for (const Row& row : shared::hostLayout()) compared.insert(row.name);
     std::set<std::string> names = declared("shared_types.h");
     names.merge(declared("learned_types.h"));
+    names.merge(declared("sensor_types.h"));
     names.merge(declared("pass_types.h"));
     EXPECT_GT(names.size(), 100u);
     EXPECT_EQ(compared, names) << "tests/kernels/layout_fields.h and the headers of kernels/ differ";
@@ -95,7 +106,7 @@ TEST(Layout, AMovedFieldIsFound) {
     const size_t place = header.find(from);
     ASSERT_NE(place, std::string::npos);
     header.replace(place, from.size(), "ulong radius;"); // aligned to 8
-    const std::vector<unsigned> host = flat(hostLayout());
+    const std::vector<unsigned> host = flat(shared::hostLayout());
     EXPECT_NE(deviceLayout(host.size(), {{"shared_types.h", header}}), host);
 }
 

@@ -126,11 +126,12 @@ TEST(Search, ComparesWithTheCameraPathsThatServeEachBest) {
 
 // There is time for the first method alone, but the noise of its own passes says that more paths serve the image: three quarters of it are theirs.
 TEST(Search, ChoosesCameraPathsWithoutTimeForOthers) {
-    const auto worldOf = [](double shareOfPhotonSeconds, double noiseOfPhotons) -> World {
+    const auto worldOf = [](double shareOfPhotonSeconds, double noiseOfPhotons, double secondsToPrepare = 0) -> World {
         return [=](const RenderSettings&) {
             Truth truth{1, 1};
             truth.shareOfPhotonSeconds = shareOfPhotonSeconds;
             truth.noiseOfPhotons = noiseOfPhotons;
+            truth.secondsToPrepare = secondsToPrepare;
             return truth;
         };
     };
@@ -140,9 +141,11 @@ TEST(Search, ChoosesCameraPathsWithoutTimeForOthers) {
     EXPECT_EQ(found.report.rows.size(), 1u);
     EXPECT_GT(found.settings.cameraPaths, 1u);
     EXPECT_EQ(found.report.rows[0].settings.cameraPaths, found.settings.cameraPaths);
-    // Controls: photons have the noise; camera paths are so dear that the passes are better kept.
+    // Controls: photons have the noise; camera paths, opening another pilot or passes are so dear that none is to be lost.
     EXPECT_EQ(search(worldOf(0.8, 1), 20, methodsAndPaths).settings.cameraPaths, 1u);
     EXPECT_EQ(search(worldOf(0.2, 0.25), 20, methodsAndPaths).settings.cameraPaths, 1u);
+    EXPECT_EQ(search(worldOf(0.8, 0.25, 2), 20, methodsAndPaths).settings.cameraPaths, 1u);
+    EXPECT_EQ(search(worldOf(0.8, 0.25), 14, methodsAndPaths).settings.cameraPaths, 1u);
 }
 
 TEST(Search, CostCountsAsMuchAsVariance) {

@@ -30,7 +30,7 @@ SearchWorld worldOf(Device& device, const Scene& scene, const std::shared_ptr<co
 // Some of the device's memory is for others, and buffers grow with what is stored.
 size_t pilotsInMemory(Device& device, const Renderer& renderer) {
     const uint64_t each = sumOf(renderer.report().bufferBytes);
-    return std::max<uint64_t>(2, device.info().globalMemory / 4 / std::max<uint64_t>(1, each));
+    return device.info().globalMemory / 4 / std::max<uint64_t>(1, each);
 }
 
 // What could be opened among other pilots can be opened alone, or else the render is that of the settings where the search began.
@@ -92,7 +92,9 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     const auto learned = start->learned();
     SearchWorld world = worldOf(device, scene, learned, start->report().learned.seconds, onProgress, interrupted);
     if (freedom.any() && result.search.notSearched.empty()) {
-        world.mostOpen = pilotsInMemory(device, *start);
+        const size_t fitting = pilotsInMemory(device, *start);
+        world.mostOpen = std::max<size_t>(2, fitting);
+        world.hasRoomForTwo = fitting >= 2;
         auto first =
             std::make_unique<RendererPilot>(device, std::move(start), settings.cameraPaths, !scene.media.empty());
         SearchResult found = Search(world, scene, freedom, stop).run(settings, std::move(first));

@@ -16,6 +16,8 @@ public:
     virtual PilotMeasure measure(const std::vector<float>& brightness) const = 0;
     /// Of a camera path of each pixel that gathers no photons, before the first pass; 0 where it was not measured.
     virtual double secondsOfPath() = 0;
+    /// Of the scene, without compiling.
+    virtual double secondsToPrepare() const = 0;
     /// Of all pixels.
     virtual std::vector<float> radiance() const = 0;
     virtual unsigned photonsPerPass() const = 0;
@@ -33,6 +35,7 @@ public:
     unsigned passes() const override { return static_cast<unsigned>(renderer_->counters().passes); }
     PilotMeasure measure(const std::vector<float>& brightness) const override;
     double secondsOfPath() override;
+    double secondsToPrepare() const override { return renderer_->counters().prepareSeconds; }
     std::vector<float> radiance() const override { return renderer_->develop().radiance; }
     unsigned photonsPerPass() const override { return renderer_->report().photonsPerPass; }
     double openingSeconds() const override;

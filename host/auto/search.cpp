@@ -23,8 +23,8 @@ constexpr unsigned mostAtFirst = 32; // before any is given up
 constexpr double shareOfMethods = 0.75;
 constexpr double farWorse = 4; // times the least relMSE: given up whatever the others have
 constexpr double mostPhotonsFactor = 16, mostRadiusFactor = 2; // either way from where the search starts
-// The time of a render, in camera paths of all pixels, from which on it may lose a few passes.
-constexpr double leastPathsOfTime = 64;
+// The time of a render, in passes and in camera paths of all pixels that gather nothing, from which on it may lose a few passes.
+constexpr double leastPassesOfTime = 16, leastPathsOfTime = 64;
 constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
 constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
 
@@ -45,11 +45,9 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     report_.freedom = freedom_;
     const double limit = stop_.seconds.value_or(longestHorizon);
     report_.horizon = limit;
-    Contender first{settings, nullptr, {}, rowOf(settings, startPhotons_)};
-    if (mayDiscard(*start)) first.pilot = openBeside(settings);
-    std::unique_ptr<Pilot> kept;
-    (first.pilot ? kept : first.pilot) = std::move(start);
-    bool begun = renderUpTo(first, fewestPasses);
+    Contender first{settings, std::move(start), {}, rowOf(settings, startPhotons_)};
+    bool begun = false;
+    std::unique_ptr<Pilot> kept = renderFirst(first, begun);
     if (begun && stop_.relativeError)
         report_.horizon = std::min(limit, world_.clock() + secondsToError(first.measure, *stop_.relativeError, limit));
     startPassSeconds_ = first.measure.secondsPerPass;
@@ -85,22 +83,37 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     return {chosen, report_, nullptr};
 }
 
-// Passes by which settings are chosen are no part of the image. Where a pass may take a large part of the time, those of the start are to be kept: nothing
-// is chosen then.
-bool Search::mayDiscard(Pilot& start) const {
-    return freedom_.cameraPaths && report_.horizon >= leastSeconds &&
-           leastPathsOfTime * start.secondsOfPath() < report_.horizon;
+// Passes by which settings are chosen are no part of the image. Where a pass, or opening another renderer, takes a large part of the time, those of the start
+// are to be kept: nothing is chosen then. Its first pass, which shows that, is of the image if it is kept.
+bool Search::mayDiscard(Contender& start) {
+    if (!freedom_.cameraPaths || report_.horizon < leastSeconds || !world_.hasRoomForTwo ||
+        2 * start.pilot->secondsToPrepare() > pilotShare * report_.horizon ||
+        leastPathsOfTime * start.pilot->secondsOfPath() >= report_.horizon)
+        return false;
+    const double began = world_.clock();
+    return renderUpTo(start, 1) && leastPassesOfTime * (world_.clock() - began) < report_.horizon;
 }
 
-// Null where there is too little memory for it.
-std::unique_ptr<Pilot> Search::openBeside(RenderSettings settings) const {
-    settings.seed += pilotSeed;
-    std::unique_ptr<Pilot> pilot;
-    const auto why = failureOf([&] { pilot = world_.open(settings); });
-    return why ? nullptr : std::move(pilot);
+// The passes that show whether there is time, of a pilot of its own random numbers if they may be lost; null, and `start` has them itself, if they may not,
+// or there is too little memory.
+std::unique_ptr<Pilot> Search::renderFirst(Contender& start, bool& begun) {
+    std::unique_ptr<Pilot> kept;
+    if (mayDiscard(start)) {
+        RenderSettings settings = start.settings;
+        settings.seed += pilotSeed;
+        kept = std::move(start.pilot);
+        const auto why = failureOf([&] {
+            start.pilot = world_.open(settings);
+            begun = renderUpTo(start, fewestPasses);
+        });
+        if (!why) return kept;
+        start.pilot = std::move(kept);
+    }
+    begun = renderUpTo(start, fewestPasses);
+    return nullptr;
 }
 
-// Of a search that had time for `first` alone: at least how many camera paths serve the image best is known. `kept`: the start without passes.
+// Of a search that had time for `first` alone: at least how many camera paths serve the image best is known. `kept`: the start.
 SearchResult Search::withItsPaths(const Contender& first, std::unique_ptr<Pilot> kept) {
     const unsigned paths = cameraPathsOf(first);
     report_.passes += first.pilot->passes();

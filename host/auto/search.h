@@ -18,6 +18,7 @@ struct SearchWorld {
     std::function<double()> clock;        ///< seconds since the render began
     std::function<void(unsigned)> onPass; ///< after each pass, how many there were; may be empty
     size_t mostOpen = 1000;               ///< pilots that memory holds at once
+    bool hasRoomForTwo = true;            ///< does it hold two beside what else it holds?
     /// Whether Ctrl-C was pressed.
     const std::atomic<bool>* interrupted = nullptr;
 };
@@ -36,8 +37,8 @@ public:
     /// `stop` must not be by passes.
     Search(SearchWorld world, const Scene& scene, Freedom freedom, const StopRule& stop);
 
-    /// `start` is the pilot of `settings`, without passes. Its first ones show whether there is time for a search; they are those of the
-    /// image, so the search itself has other random numbers.
+    /// `start` is the pilot of `settings`, without passes. Its first ones show whether there is time for a search. They are those of the
+    /// image where there is not, so the search itself has other random numbers.
     SearchResult run(const RenderSettings& settings, std::unique_ptr<Pilot> start);
 
 private:
@@ -62,8 +63,8 @@ private:
     /// be given up for what it is with one path.
     PilotMeasure atItsBest(const Contender& contender) const;
     void chooseCameraPaths();
-    bool mayDiscard(Pilot& start) const;
-    std::unique_ptr<Pilot> openBeside(RenderSettings settings) const;
+    bool mayDiscard(Contender& start);
+    std::unique_ptr<Pilot> renderFirst(Contender& start, bool& begun);
     SearchResult withItsPaths(const Contender& first, std::unique_ptr<Pilot> kept);
     /// Among the best ones so far and those beside it; whether one of these has won.
     bool raceOfNumbers(double seconds);

@@ -24,6 +24,7 @@ std::string orNone(const std::vector<std::string>& items) {
 void printGeometry(const SceneReport& report) {
     fmt::print("geometry: {} triangles, {} spheres, {} smooth patches, {} border segments\n", report.triangles,
                report.spheres, report.patches, report.borderSegments);
+    if (report.instances > 0) fmt::print("instances: {}, of shapes that are there once\n", report.instances);
     fmt::print("features: {}\n", orNone(report.features));
     fmt::print("photon classes in use: {}\n", orNone(report.photonClasses));
     fmt::print("photons per pass: {}\n", report.photonsPerPass);

@@ -22,7 +22,7 @@ static_assert(wordsOfBlock % INSTANCE_STEP == 0 && stepsOfInstance * INSTANCE_ST
               sizeof(shared::ShapeGroup) <= INSTANCE_STEP * 4);
 
 /// What a unit of the coordinates that a box is computed from may be off by.
-constexpr double rounding = 1e-6;
+constexpr double boxRounding = 1e-6;
 
 std::vector<PrimitiveBounds> slotsOf(const shared::BvhNode& node) {
     std::vector<PrimitiveBounds> boxes;
@@ -53,10 +53,10 @@ PrimitiveBounds boundsInWorld(const Instance& instance, const std::vector<Primit
     Box all;
     for (const PrimitiveBounds& box : boxes) {
         const glm::dvec3 center = 0.5 * (glm::dvec3(box.lower) + glm::dvec3(box.upper));
-        const glm::dvec3 half = 0.5 * (glm::dvec3(box.upper) - glm::dvec3(box.lower)) + rounding * glm::abs(center);
+        const glm::dvec3 half = 0.5 * (glm::dvec3(box.upper) - glm::dvec3(box.lower)) + boxRounding * glm::abs(center);
         const glm::dvec3 middle = m * glm::dvec4(center, 1);
         const glm::dvec3 extent = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z +
-                                  rounding * (glm::abs(middle) + glm::abs(m[3]));
+                                  boxRounding * (glm::abs(middle) + glm::abs(m[3]));
         all.add({middle - extent, middle + extent});
     }
     return {glm::vec3(all.lower), glm::vec3(all.upper)};
@@ -81,7 +81,7 @@ std::array<double, 3> principalSquares(const glm::dmat3& m) {
 /// Of a surface that a matrix carries, a radius of curvature shrinks at most by this: the square of the least scale over the largest.
 double radiusScale(const glm::dmat3& toWorld) {
     const auto squares = principalSquares(toWorld);
-    return std::max(squares[2], 0.0) / std::sqrt(squares[0]);
+    return std::max(squares[2], 1e-30 * squares[0]) / std::sqrt(squares[0]);
 }
 
 shared::Instance recordOf(const Instance& instance, unsigned groupPlace, unsigned firstPatch) {

@@ -70,6 +70,7 @@ SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const Ren
     report.spheres = flat.spheres;
     report.patches = flat.patches;
     report.borderSegments = flat.borderSegments;
+    report.instances = flat.instances;
     report.features = compiledFeatures(flat, settings).names();
     for (size_t k = 0; k < flat.emitters.emitters.size(); ++k)
         report.emitters.push_back({flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type),

@@ -14,7 +14,7 @@ using SceneChecksums = std::map<std::string, std::string>;
 
 /// What a scene needs and what was chosen for it: `quasilux info` prints it, statistics record it.
 struct SceneReport {
-    size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0;
+    size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0, instances = 0;
     std::vector<std::string> features; ///< compiled in, such as "lobe phong", "emitter rectangle"
     struct EmitterRow {
         std::string id, type;

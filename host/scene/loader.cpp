@@ -210,6 +210,12 @@ void checkEmitters(const Scene& scene) {
             "type=\"envmap\">.");
 }
 
+/// What is read more than once, such as a group by its instances, says what it has to say each time.
+void keepEachOnce(std::vector<std::string>& messages) {
+    std::set<std::string> seen;
+    std::erase_if(messages, [&](const std::string& one) { return !seen.insert(one).second; });
+}
+
 /// The last warnings: what was unknown, and how much of it.
 void listForgiven(LoadContext& context) {
     if (context.forgiven.empty()) return;
@@ -278,6 +284,7 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
         scene.hideEmitters = integrator.hidesEmitters;
     }
     checkEmitters(scene);
+    for (auto* messages : {&scene.warnings, &scene.withoutEffect, &context.forgiven}) keepEachOnce(*messages);
     listForgiven(context);
     return scene;
 }

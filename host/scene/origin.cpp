@@ -54,11 +54,13 @@ glm::dvec3 farCenter(const Box& box, const glm::dvec3& origin) {
     return isFar ? center : glm::dvec3(0);
 }
 
-glm::dvec3 chooseOrigin(const Scene& scene) {
+Box boxOf(const Scene& scene) {
     Box box = boxOf(scene.worldShapes());
     for (const Instance& instance : scene.instances) box.add(boxOf(scene, instance));
-    return farCenter(box, scene.origin);
+    return box;
 }
+
+glm::dvec3 chooseOrigin(const Scene& scene) { return farCenter(boxOf(scene), scene.origin); }
 
 glm::dvec3 placeOfSensor(const Element& root) {
     try {

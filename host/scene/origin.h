@@ -11,6 +11,8 @@ namespace quasilux {
 /// About shapes, in their own coordinates, and about an instance in the scene's.
 Box boxOf(std::span<const ShapeDescription> shapes);
 Box boxOf(const Scene& scene, const Instance& instance);
+/// About all of them, in the scene's coordinates.
+Box boxOf(const Scene& scene);
 
 /// The centre of `box`, which counts from `origin`, if it is further from 0 than four times the box's size; else 0.
 glm::dvec3 farCenter(const Box& box, const glm::dvec3& origin = glm::dvec3(0));

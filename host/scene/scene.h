@@ -6,7 +6,7 @@
 #include "scene/load_limits.h"
 #include "scene/setting_choices.h"
 #include "scene/shape_group.h"
-#include "shared_types.h"
+#include "sensor_types.h"
 #include "util/error.h"
 
 #include <array>

@@ -2,6 +2,7 @@
 
 #include "scene/box.h"
 #include "scene/color.h"
+#include "scene/origin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -161,14 +162,7 @@ bool EditedScene::setSurroundings(float factor) {
 
 // The camera turns about the point before it that is as deep as the middle of the scene.
 double EditedScene::distanceToMiddle() const {
-    Box box;
-    for (const auto& shape : scene_.shapes) {
-        for (const auto& position : shape.mesh.positions) box.add(glm::dvec3(position));
-        if (shape.sphere) {
-            const glm::dvec3 centre = shape.sphere->center, radius(shape.sphere->radius);
-            box.add(Box{centre - radius, centre + radius});
-        }
-    }
+    const Box box = boxOf(scene_);
     if (box.lower.x > box.upper.x) return 1; // nothing
     const glm::dvec3 forward = glm::normalize(glm::dvec3(scene_.sensor.toWorld[2]));
     const double depth = glm::dot(box.center() - glm::dvec3(scene_.sensor.toWorld[3]), forward);

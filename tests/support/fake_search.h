@@ -19,6 +19,7 @@ struct Truth {
     unsigned honestFrom = 0;
     unsigned failsAt = 0; // pass that throws, counted from 1; 0: none
     bool lacksMemory = false;
+    double secondsToPrepare = 0;
     double noiseOfPhotons = 0, shareOfPhotonSeconds = 0; // as PilotMeasure
 };
 using World = std::function<Truth(const RenderSettings&)>;
@@ -36,6 +37,7 @@ public:
     }
     unsigned passes() const override { return passes_; }
     double secondsOfPath() override { return (1 - truth_.shareOfPhotonSeconds) * truth_.secondsPerPass; }
+    double secondsToPrepare() const override { return truth_.secondsToPrepare; }
     std::vector<float> radiance() const override { return {}; }
     PilotMeasure measure(const std::vector<float>&) const override {
         const bool lies = passes_ < truth_.honestFrom;

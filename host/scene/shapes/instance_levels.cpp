@@ -62,19 +62,20 @@ bool suits(const GroupUse& use, const glm::dmat4& toWorld) {
 void chooseLevels(LoadContext& context) {
     const auto& wanted = context.scene.settings.instances;
     if (context.groupUse.empty() || wanted == InstanceLevels::one) return;
-    const size_t warnings = context.scene.warnings.size(), withoutEffect = context.scene.withoutEffect.size();
     size_t flattened = 0;
     for (const Element* group : context.placedGroups) {
         GroupUse& use = context.groupUse[group];
         if (!wanted && use.places < 2) continue;
         readOwnSpace(*group, use, context);
-        use.isKept = !mustBeFlattened(use);
-        if (use.isKept) flattened += use.places * primitivesOf(use.shapes);
+        const size_t primitives = primitivesOf(use.shapes);
+        use.isKept = primitives > 0 && !mustBeFlattened(use);
+        if (use.isKept) flattened += use.places * primitives;
     }
     if (wanted || flattened > mostFlattened) return;
-    for (auto& [group, use] : context.groupUse) use.isKept = false;
-    context.scene.warnings.resize(warnings); // instances repeat them
-    context.scene.withoutEffect.resize(withoutEffect);
+    for (auto& [group, use] : context.groupUse) {
+        use.isKept = false;
+        use.shapes = {}; // read again where instances place them
+    }
 }
 
 bool keepAsInstance(const Element& group, const glm::dmat4& toWorld, LoadContext& context) {
