@@ -105,6 +105,7 @@ void cutInstances(const Scene& scene, const Surface& world, const std::vector<Su
     const auto worldCount = unsigned(ofWorld.boxes.size());
     const std::vector<unsigned> first = firstPatches(scene, borders);
     std::vector<std::unique_ptr<GroupSurface>> prepared;
+    prepared.reserve(groups.size());
     for (const Surface& group : groups) prepared.push_back(std::make_unique<GroupSurface>(group));
     std::vector<Box> boxes = ofWorld.boxes;
     boxes.reserve(worldCount + scene.instances.size());
