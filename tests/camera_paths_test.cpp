@@ -77,8 +77,9 @@ TEST(CameraPaths, BestNumberIsTheSquareRootOfBothRatios) {
     EXPECT_EQ(bestCameraPaths(withCameraPaths(pilotOf(0.04, 0.01, 1, 16), 4), 4, seconds), 8u);
     // Light that seldom is met may have noise that was not seen: paths for an eighth to a quarter of what photons cost.
     EXPECT_EQ(bestCameraPaths(pilotOf(0.7, 0.01, 16, 1), 1, seconds), 16u);
-    // Few passes would not know their error.
-    EXPECT_EQ(bestCameraPaths(pilotOf(0.04, 0.01, 1, 16), 1, 1.5), 1u);
+    // Few passes would not know their error: half of the 30 that one path leaves are enough, and 8 of its 8.
+    EXPECT_EQ(bestCameraPaths(pilotOf(0.04, 0.01, 1, 16), 1, 1.5), 4u);
+    EXPECT_EQ(bestCameraPaths(pilotOf(0.04, 0.01, 1, 16), 1, 0.4), 1u);
 }
 
 TEST(CameraPaths, PilotChangesToOtherNumbersAndBack) {
