@@ -3,7 +3,7 @@
 [PASSES of a round with the page, and as many without it, default 3]. Needs Chromium and python3-websocket.
 
 Processor time of a pass with the page open is held against that without it, by turns in one render, so that other programs and the shrinking radii
-disturb both alike. Processor time is of the program; the browser's own is told apart."""
+disturb both alike. Processor time is of the program; the browser's own is printed separately."""
 
 import os
 import sys

@@ -92,9 +92,7 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     const auto learned = start->learned();
     SearchWorld world = worldOf(device, scene, learned, start->report().learned.seconds, onProgress, interrupted);
     if (freedom.any() && result.search.notSearched.empty()) {
-        const size_t fitting = pilotsInMemory(device, *start);
-        world.mostOpen = std::max<size_t>(2, fitting);
-        world.hasRoomForTwo = fitting >= 2;
+        world.mostOpen = pilotsInMemory(device, *start);
         auto first =
             std::make_unique<RendererPilot>(device, std::move(start), settings.cameraPaths, !scene.media.empty());
         SearchResult found = Search(world, scene, freedom, stop).run(settings, std::move(first));

@@ -86,7 +86,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
 // Passes by which settings are chosen are no part of the image. Where a pass, or opening another renderer, takes a large part of the time, those of the start
 // are to be kept: nothing is chosen then. Its first pass, which shows that, is of the image if it is kept.
 bool Search::mayDiscard(Contender& start) {
-    if (!freedom_.cameraPaths || report_.horizon < leastSeconds || !world_.hasRoomForTwo ||
+    if (!freedom_.cameraPaths || report_.horizon < leastSeconds || world_.mostOpen < 2 ||
         2 * start.pilot->secondsToPrepare() > pilotShare * report_.horizon ||
         leastPathsOfTime * start.pilot->secondsOfPath() >= report_.horizon)
         return false;
@@ -181,7 +181,7 @@ Search::Field Search::enter(const std::vector<RenderSettings>& candidates, unsig
             break;
         }
         openContender(field, candidate, passes, &candidate == &candidates.front() ? 1 : leastGain);
-        if (field.size() > world_.mostOpen) giveUpWorst(field, world_.mostOpen);
+        if (const size_t most = std::max<size_t>(2, world_.mostOpen); field.size() > most) giveUpWorst(field, most);
     }
     return field;
 }

@@ -17,8 +17,7 @@ struct SearchWorld {
     std::function<std::unique_ptr<Pilot>(const RenderSettings&)> open;
     std::function<double()> clock;        ///< seconds since the render began
     std::function<void(unsigned)> onPass; ///< after each pass, how many there were; may be empty
-    size_t mostOpen = 1000;               ///< pilots that memory holds at once
-    bool hasRoomForTwo = true;            ///< does it hold two beside what else it holds?
+    size_t mostOpen = 1000;               ///< pilots that memory holds at once; a race has two in any case
     /// Whether Ctrl-C was pressed.
     const std::atomic<bool>* interrupted = nullptr;
 };

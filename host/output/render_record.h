@@ -14,7 +14,7 @@
 
 namespace quasilux {
 
-/// Of an image that `quasilux dgp` can rate without being told.
+/// How an image shows directions: what `quasilux dgp` needs to rate it.
 struct FisheyeView {
     std::string projection;
     double degrees = 180; ///< that the image's width spans

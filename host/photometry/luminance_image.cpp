@@ -19,15 +19,10 @@ std::vector<float> photometricOf(const std::vector<float>& rgb, double efficacy)
     return values;
 }
 
-/// An attribute of the header, empty where there is none.
-std::string headerText(const std::string& path, const std::string& key) {
+/// Empty where the file cannot be read as an image.
+OIIO::ImageSpec headerOf(const std::string& path) {
     const auto input = OIIO::ImageInput::open(path);
-    return input ? std::string(input->spec().get_string_attribute(key)) : "";
-}
-
-double headerNumber(const std::string& path, const std::string& key) {
-    const auto input = OIIO::ImageInput::open(path);
-    return input ? input->spec().get_float_attribute(key) : 0;
+    return input ? input->spec() : OIIO::ImageSpec();
 }
 
 } // namespace
@@ -47,11 +42,13 @@ LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector
 
 LuminanceImage readLuminance(const std::string& path, ImageUnits units) {
     const RadianceImage image = readRadiance(path);
-    const bool photometric = units == ImageUnits::photometric || headerText(path, "quasilux:units") == "photometric";
+    const OIIO::ImageSpec header = headerOf(path);
+    const bool photometric =
+        units == ImageUnits::photometric || header.get_string_attribute("quasilux:units") == "photometric";
     LuminanceImage found = luminanceImage(image.width, image.height, image.radiance, image.standardError, photometric);
-    found.isIlluminance = headerText(path, "quasilux:quantity") == "irradiance";
-    const std::string projection = headerText(path, "quasilux:projection");
-    if (!projection.empty()) found.fisheye = {projection, headerNumber(path, "quasilux:fov")};
+    found.isIlluminance = header.get_string_attribute("quasilux:quantity") == "irradiance";
+    const std::string projection = header.get_string_attribute("quasilux:projection");
+    if (!projection.empty()) found.fisheye = {projection, header.get_float_attribute("quasilux:fov")};
     return found;
 }
 

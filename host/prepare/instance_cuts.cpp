@@ -23,14 +23,6 @@ struct GroupSurface {
     BoxTree tree;
 };
 
-/// About a box that is carried by an affine matrix.
-Box carried(const Box& box, const glm::dmat4& matrix) {
-    const glm::dvec3 center(matrix * glm::dvec4(box.center(), 1)), half = 0.5 * box.extent();
-    const glm::dvec3 extent = glm::abs(glm::dvec3(matrix[0])) * half.x + glm::abs(glm::dvec3(matrix[1])) * half.y +
-                              glm::abs(glm::dvec3(matrix[2])) * half.z;
-    return {center - extent, center + extent};
-}
-
 Box intersection(const Box& a, const Box& b) { return {glm::max(a.lower, b.lower), glm::min(a.upper, b.upper)}; }
 
 /// A surface of primitives in the world, whose `primitive` is the number of their patch.
@@ -39,7 +31,7 @@ public:
     void add(const GroupSurface& group, const Instance& instance, unsigned firstPatch,
              const std::vector<unsigned>& patchOfPrimitive, const Box& within) {
         const glm::dmat4 toWorld(instance.toWorld);
-        group.tree.visitOverlapping(carried(within, glm::inverse(toWorld)), [&](unsigned k) {
+        group.tree.visitOverlapping(carried(within, glm::dmat4x3(glm::inverse(toWorld))), [&](unsigned k) {
             const auto triangles = unsigned(group.candidates.triangles.size());
             if (k < triangles) {
                 const SurfaceTriangle& own = *group.candidates.triangles[k];

@@ -15,7 +15,7 @@ struct SceneTree {
 };
 SceneTree buildSceneTree(const Scene& scene);
 
-/// Writes the records of groups and instances where buildSceneTree() has told the tree that they are. The groups lack their roots.
+/// Writes the records of groups and instances in the places that buildSceneTree() has written into the tree. The groups lack their roots.
 void appendInstances(const Scene& scene, const SurfaceBorders& borders, std::vector<shared::ShapeGroup> groups,
                      SceneTree& tree);
 

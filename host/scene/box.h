@@ -27,6 +27,13 @@ struct Box {
     }
 };
 
+/// About a box that is carried by an affine map.
+inline Box carried(const Box& box, const glm::dmat4x3& map) {
+    const glm::dvec3 center = map * glm::dvec4(box.center(), 1), half = 0.5 * box.extent();
+    const glm::dvec3 extent = glm::abs(map[0]) * half.x + glm::abs(map[1]) * half.y + glm::abs(map[2]) * half.z;
+    return {center - extent, center + extent};
+}
+
 /// The first of equals.
 inline int longestAxis(const glm::dvec3& extent) {
     return extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;

@@ -37,15 +37,7 @@ Box boxOf(std::span<const ShapeDescription> shapes) {
 }
 
 Box boxOf(const Scene& scene, const Instance& instance) {
-    const Box& own = scene.groups[instance.group].box;
-    const glm::dmat4x3 toWorld(instance.toWorld);
-    const glm::dvec3 center = toWorld * glm::dvec4(own.center(), 1), half = 0.5 * own.extent();
-    const glm::dvec3 extent =
-        glm::abs(toWorld[0]) * half.x + glm::abs(toWorld[1]) * half.y + glm::abs(toWorld[2]) * half.z;
-    Box box;
-    box.add(center - extent);
-    box.add(center + extent);
-    return box;
+    return carried(scene.groups[instance.group].box, glm::dmat4x3(instance.toWorld));
 }
 
 glm::dvec3 farCenter(const Box& box, const glm::dvec3& origin) {

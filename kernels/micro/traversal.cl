@@ -1,16 +1,7 @@
-/* Rays of a buffer (8 floats each: origin, direction, tMin, tMax) through kernels/bvh.clh, and of a
+/* Rays of a buffer (ray_buffer.clh) through kernels/bvh.clh, and of a
  * buffer of packets (Ray16) through kernels/bvh_packet.clh. */
 #include "bvh_packet.clh"
-
-inline Ray loadRay(__global const float* rays, size_t i) {
-    const float8 values = vload8(i, rays);
-    Ray ray;
-    ray.origin = values.s012;
-    ray.direction = values.s345;
-    ray.tMin = values.s6;
-    ray.tMax = values.s7;
-    return ray;
-}
+#include "micro/ray_buffer.clh"
 
 __kernel void closestHits(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                           __global const float* rays, __global Hit* hits, uint count) {

@@ -1,4 +1,5 @@
 /* Rays against scenes of two levels: what they meet, and whether rays that leave it meet it again. */
+#include "micro/ray_buffer.clh"
 #include "rng.clh"
 #include "sampling.clh"
 #include "surface.clh"
@@ -26,12 +27,7 @@ __kernel void meetInstances(__global const BvhNode* nodes, __global const Primit
                             __global InstanceHit* hits, uint count) {
     const size_t i = get_global_id(0);
     if (i >= count) return;
-    const float8 values = vload8(i, rays);
-    Ray ray;
-    ray.origin = values.s012;
-    ray.direction = values.s345;
-    ray.tMin = values.s6;
-    ray.tMax = values.s7;
+    const Ray ray = loadRay(rays, i);
     const Hit hit = intersectClosest(nodes, blocks, ray);
     hits[i].t = hit.t;
     hits[i].primitive = hit.primitive == QL_NONE ? QL_NONE : hit.primitive & PRIMITIVE_INDEX_MASK;

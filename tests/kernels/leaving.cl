@@ -1,21 +1,19 @@
 /* Rays that leave surfaces: do they meet the primitive again that they leave? */
+#include "micro/ray_buffer.clh"
 #include "rng.clh"
 #include "sampling.clh"
 #include "surface.clh"
 
 #define DIRECTIONS 16
 
-/* returned[i]: of DIRECTIONS rays on either side of the first hit of ray i (8 floats, as in traversal.cl), those that meet
+/* returned[i]: of DIRECTIONS rays on either side of the first hit of ray i (ray_buffer.clh), those that meet
  * the same triangle again, or, from outside, the same sphere; none can. QL_NONE where ray i hits nothing. */
 __kernel void leaveSurfaces(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                             __global const uint* tables, const SceneTables scene, __global const float* rays,
                             __global uint* returned, uint count) {
     const size_t i = get_global_id(0);
     if (i >= count) return;
-    const float8 values = vload8(i, rays);
-    Ray ray;
-    ray.origin = values.s012;
-    ray.direction = values.s345;
+    Ray ray = loadRay(rays, i);
     ray.tMin = 0;
     ray.tMax = INFINITY;
     const Hit hit = intersectClosest(nodes, blocks, ray);
