@@ -2,8 +2,9 @@
 """What an open page of the live view costs a render of 3840 x 2160, and how often its picture comes: view_cost.py [PROGRAM] [ROUNDS, default 4]
 [PASSES of a round with the page, and as many without it, default 3]. Needs Chromium and python3-websocket.
 
-Processor time of a pass with the page open is held against that without it, by turns in one render, so that other programs and the shrinking radii
-disturb both alike. Processor time is of the program; the browser's own is printed separately."""
+Processor time of a pass with the page open is held against that without it, by turns in one render, first the one and then the other first, so that
+other programs and the shrinking radii disturb both alike. A stretch in which the render estimates its error, every 100 s for two seconds, page or not, is
+measured again. Processor time is of the program; the browser's own is printed separately."""
 
 import os
 import sys
@@ -74,6 +75,14 @@ def first_picture(view, browser):
 
 
 def stretch(view, browser, passes, is_open):
+    while True:
+        errors = view.state()["relativeError"]
+        measured = any_stretch(view, browser, passes, is_open)
+        if view.state()["relativeError"] == errors:
+            return measured
+
+
+def any_stretch(view, browser, passes, is_open):
     """Clock and processor seconds of a pass, pictures a second, and the browser's share of a core."""
     browser.open(view.address if is_open else "about:blank")
     browser.run("performance.setResourceTimingBufferSize(100000), 1")
@@ -92,8 +101,9 @@ def main(program="build/release/quasilux", rounds="4", passes="3"):
         picture, any_picture = first_picture(view, browser)
         print(f"first pass: its picture {picture:.2f} s after it, the first picture of all {any_picture:+.2f} s")
         ratios, shares = [], []
-        for _ in range(int(rounds)):
-            without, with_page = (stretch(view, browser, int(passes), is_open) for is_open in (False, True))
+        for turn in range(int(rounds)):
+            measured = {is_open: stretch(view, browser, int(passes), is_open) for is_open in ((False, True) if turn % 2 == 0 else (True, False))}
+            without, with_page = measured[False], measured[True]
             ratios.append(with_page["processor"] / without["processor"])
             shares.append((with_page["processor"] - without["processor"]) / with_page["clock"])
             print("closed", *(f"{name} {value:.3f}" for name, value in without.items()), "| open",

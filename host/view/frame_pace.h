@@ -10,7 +10,7 @@
 namespace quasilux {
 
 /// Pictures come no more often than this, and take at most this share of the render's time.
-inline constexpr double secondsBetweenFrames = 0.4, mostOfTime = 0.03;
+inline constexpr double secondsBetweenFrames = 0.25, mostOfTime = 0.03;
 
 class FramePace {
 public:
