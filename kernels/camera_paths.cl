@@ -115,15 +115,22 @@ inline PathPlace pathPlace(const World* world, uint index, float2 even) {
     return place;
 }
 
-/* Of path `k` of its pixel in a pass. Gathering costs most of a path, and what photons carry differs little between the paths of a pixel: the
+/* A wrong rule, as a negative control for tests. 1: the path that gathers counts as if there were four in all pixels. */
+#ifndef SAMPLING_RULE
+#define SAMPLING_RULE 0
+#endif
+
+/* Of path `k` of the `paths` of its pixel in a pass. Gathering costs most of a path, and what photons carry differs little between the paths of a pixel: the
  * first ones gather for all (docs/method/auto.md, Camera paths). */
-inline float gatheringWeight(const CameraParams* params, uint k) {
-    return k < params->gatheringPaths ? (float)params->cameraPaths / params->gatheringPaths : 0.f;
+inline float gatheringWeight(const CameraParams* params, uint k, uint paths) {
+    const uint all = SAMPLING_RULE == 1 ? 4 : paths;
+    return k < params->gatheringPaths ? (float)all / params->gatheringPaths : 0.f;
 }
 
 /* Light that a path takes, by component, and its bias; paths of a pixel follow each other in `index`. `number`: of the path among all that
- * have the same index, over the passes. Returns the throughput, mean of R, G, B, with which it was cut, or -1 where it ended by itself. */
-inline float traceCameraPath(const World* world, uint index, uint number, float3* components) {
+ * have the same index, over the passes, each of which has `paths` of them. Returns the throughput, mean of R, G, B, with which it was cut, or -1 where it
+ * ended by itself. */
+inline float traceCameraPath(const World* world, uint index, uint number, uint paths, float3* components) {
     const CameraParams* params = world->params;
     const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
     Rng rng = rngMake(seed, number, STREAM_CAMERA, index);
@@ -131,15 +138,17 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
     const PathPlace place = pathPlace(world, index, pixelPlace(index, number, seed));
     const uint pixel = place.pixel;
     path.ray = cameraRay(&params->camera, pixel, place.inside.offset, lensNumbers(index, number, seed));
-    path.net = netOfPath(seed, number, params->cameraPaths, index);
+    path.net = netOfPath(seed, number, paths, index);
     const float3 ofLobe = netNumbers(&path.net, NET_LOBE);
     path.firstChoice = ofLobe.x;
     path.firstPair = ofLobe.yz;
 #ifdef ADAPTIVE_RADIUS
     path.radiusBlock = radiusBlock(params, pixel);
 #endif
-    path.lightBlock = lightBlock(&params->scene, params->camera.width, pixel);
-    path.gathering = gatheringWeight(params, number % params->cameraPaths);
+    const uint columns = params->camera.width * params->coarseness;
+    const uint2 ofImage = params->coarseness * (uint2)(pixel % params->camera.width, pixel / params->camera.width);
+    path.lightBlock = lightBlock(&params->scene, columns, ofImage.y * columns + ofImage.x);
+    path.gathering = gatheringWeight(params, number % paths, paths);
     path.directSamples = 1;
 #ifdef MIXED_DIRECT
     path.lastDiffuse = 0;
@@ -173,6 +182,8 @@ inline float traceCameraPath(const World* world, uint index, uint number, float3
 #endif
     uint event = 0;
     while (event < PATH_EVENTS_MAX && followCameraPath(world, &path, &rng, components)) ++event;
+    if (params->countsEvents)
+        for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = k == 0 ? event + 1 : 0;
 #ifdef HAS_FILTER_TABLE
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] *= place.inside.weight;
 #endif
@@ -186,18 +197,26 @@ inline void countCut(__global CameraCounters* counters, float cut) {
     atomic_add(&counters->cutThroughput, (uint)(min(cut, 1e3f) * CUT_THROUGHPUT_STEPS + 0.5f));
 }
 
+#if !defined(HAS_METER) && !defined(MAP_CAMERA)
+/* Camera paths in this pass, of a pixel or of a place in the grid of samples; of such beyond the edge, those of the nearest pixel. */
+inline uint pathsAt(const World* world, uint index) {
+    const CameraParams* params = world->params;
+    return world->pathCounts[blockOfPixel(&params->camera, pathPlace(world, index, 0).pixel, params->pathBlock)];
+}
+
 /* The mean of the paths of a pixel, or of a place in the grid of samples, in this pass. They look up the same photons, so photons, which cost
  * more, are traced once for all. */
 inline void tracePixel(const World* world, uint index, __global CameraCounters* counters, float3* mean) {
-    const uint paths = world->params->cameraPaths;
+    const uint paths = pathsAt(world, index);
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] = 0;
     for (uint path = 0; path < paths; ++path) {
         float3 components[FILM_SAMPLES];
-        countCut(counters, traceCameraPath(world, index, world->params->pass * paths + path, components));
+        countCut(counters, traceCameraPath(world, index, world->params->pass * paths + path, paths, components));
         for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] += components[k];
     }
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] /= paths;
 }
+#endif
 
 /* A sample that is not finite counts as none. */
 inline void dropNonFinite(__global CameraCounters* counters, float3* components) {
@@ -238,7 +257,7 @@ __kernel void traceMeterPaths(__global const BvhNode* nodes, __global const Prim
     if (index >= pathCount(&params)) return;
     const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
     float3 components[FILM_COMPONENTS];
-    countCut(counters, traceCameraPath(&world, index, params.pass, components));
+    countCut(counters, traceCameraPath(&world, index, params.pass, 1, components));
     for (uint k = 0; k < FILM_COMPONENTS; ++k) vstore3(components[k], k, samples + (size_t)index * SAMPLE_FLOATS);
 }
 
@@ -263,7 +282,8 @@ __kernel void addMeterSamples(__global const float* samples, __global uint* sums
 #elif !defined(MAP_CAMERA)
 __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                                __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
-                               __global float* result, __global CameraCounters* counters, const CameraParams params
+                               __global float* result, __global CameraCounters* counters, const CameraParams params,
+                               __global const uint* pathCounts
 #ifdef ADAPTIVE_RADIUS
                                ,
                                __global const float* radiusScales
@@ -271,7 +291,7 @@ __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const Pri
 ) {
     const uint place = get_global_id(0); /* in this part of the film, or of the grid of samples */
     if (place >= params.pixels) return;
-    const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map},
+    const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map}, pathCounts,
 #ifdef ADAPTIVE_RADIUS
                          radiusScales,
 #endif
@@ -312,7 +332,7 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
     for (uint index = first; index < last; ++index) {
         own.pixel = index / pathsPerPixel(&params);
         float3 components[FILM_SAMPLES];
-        const float cut = traceCameraPath(&world, index, params.pass, components);
+        const float cut = traceCameraPath(&world, index, params.pass, 1, components);
         if (cut >= 0) {
             ++own.count.cutPaths;
             own.count.cutThroughput += cut;

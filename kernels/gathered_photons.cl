@@ -5,7 +5,7 @@
 
 __kernel void markGathered(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                            __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
-                           __global uint* marks, const CameraParams params
+                           __global uint* marks, const CameraParams params, __global const uint* pathCounts
 #ifdef ADAPTIVE_RADIUS
                            ,
                            __global const float* radiusScales
@@ -13,12 +13,13 @@ __kernel void markGathered(__global const BvhNode* nodes, __global const Primiti
 ) {
     const uint index = get_global_id(0);
     if (index >= pathCount(&params)) return;
-    const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map, marks},
+    const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map, marks}, pathCounts,
 #ifdef ADAPTIVE_RADIUS
                          radiusScales,
 #endif
                          &params};
     float3 components[FILM_SAMPLES];
+    const uint paths = pathsAt(&world, index);
     for (uint k = 0; k < params.gatheringPaths; ++k)
-        traceCameraPath(&world, index, params.pass * params.cameraPaths + k, components);
+        traceCameraPath(&world, index, params.pass * paths + k, paths, components);
 }

@@ -142,12 +142,16 @@ typedef struct {
     unsigned int pass;
     unsigned int bdd;
     unsigned int maxDepth;
-    unsigned int cameraPaths; /* of a pixel in the pass; of meters and with the camera map 1 */
+    unsigned int pathBlock; /* pixels of a row and column that have equally many camera paths in a pass */
     unsigned int
         gatheringPaths; /* so many of these gather photons, each for all; 0 where only the time of the others is asked for */
     unsigned int directSamples;   /* of emitters, where a path takes direct light first */
     unsigned int causticsByPaths; /* paths find caustic light, not photons (takeRadiance) */
     unsigned int radiusBlock;     /* pixels of a row and column that share a density radius */
+    unsigned int
+        coarseness; /* pixels of a row and column of the image that one of this camera stands for: 1, but of pilots */
+    unsigned int
+        countsEvents;  /* 1: what a path brings is not light but how many rays it follows, in the first component */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
     unsigned int filmLayout; /* film_sums.h */
     unsigned int firstPixel,

@@ -233,7 +233,9 @@ std::string text(const RenderSettings& settings, unsigned photons) {
     std::string method = fmt::format("BDD {}, {}, split {}, {} photons/pass, radius {:.3g}", settings.bdd,
                                      name(settings.variant), settings.quasiSpecular, photons, settings.radiusScale);
     if (settings.caustics == CausticLight::paths) method += ", caustics by paths";
-    return settings.cameraPaths == 1 ? method : fmt::format("{}, {} camera paths", method, settings.cameraPaths);
+    const bool isAdaptive = settings.cameraSampling == CameraSampling::adaptive;
+    if (settings.cameraPaths == 1 && !isAdaptive) return method;
+    return fmt::format("{}, {} camera paths{}", method, settings.cameraPaths, isAdaptive ? " (adaptive)" : "");
 }
 
 } // namespace quasilux

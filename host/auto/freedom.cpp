@@ -23,9 +23,10 @@ bool statesSplit(const Scene& scene) {
 
 Freedom freedomOf(const Scene& scene, AutoMode mode) {
     if (mode == AutoMode::off) return {};
-    if (mode == AutoMode::all) return {true, true, true, true, true, true, true};
+    if (mode == AutoMode::all) return {true, true, true, true, true, true, true, true};
     const SceneSettings& said = scene.settings;
-    return {!said.bdd, !statesSplit(scene), !said.variant, !said.photons, true, !said.cameraPaths, !said.caustics};
+    return {!said.bdd, !statesSplit(scene), !said.variant,  !said.photons,
+            true,      !said.cameraPaths,   !said.caustics, !said.cameraPaths && !said.cameraSampling};
 }
 
 std::string whyNotSearched(const Scene& scene, const RenderSettings& settings, const StopRule& stop) {
@@ -46,6 +47,7 @@ std::string text(const Freedom& freedom) {
     if (freedom.radius) names.emplace_back("radius");
     if (freedom.cameraPaths) names.emplace_back("camera paths");
     if (freedom.caustics) names.emplace_back("caustics");
+    if (freedom.cameraSampling) names.emplace_back("camera sampling");
     return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 

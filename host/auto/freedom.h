@@ -17,9 +17,11 @@ enum class AutoMode {
 /// true: may be changed by the search.
 struct Freedom {
     bool bdd = false, split = false, variant = false, photons = false, radius = false, cameraPaths = false,
-         caustics = false;
+         caustics = false, cameraSampling = false;
 
-    bool any() const { return bdd || split || variant || photons || radius || cameraPaths || caustics; }
+    bool any() const {
+        return bdd || split || variant || photons || radius || cameraPaths || caustics || cameraSampling;
+    }
 };
 
 /// What the scene leaves open in this mode; options of the command line close more.

@@ -16,6 +16,10 @@ public:
     virtual PilotMeasure measure(const std::vector<float>& brightness) const = 0;
     /// Of a camera path of each pixel that gathers no photons, before the first pass; 0 where it was not measured.
     virtual double secondsOfPath() = 0;
+    /// What camera paths by pixel would gain with so many of the mean pixel. No pass may follow.
+    virtual SamplingGain samplingGain(unsigned cameraPaths) = 0;
+    /// Camera paths that this traces, as a multiple of the image's pixels.
+    virtual double pathsOfSamplingGain() const = 0;
     /// Of the scene, without compiling.
     virtual double secondsToPrepare() const = 0;
     /// Of all pixels.
@@ -35,6 +39,8 @@ public:
     unsigned passes() const override { return static_cast<unsigned>(renderer_->counters().passes); }
     PilotMeasure measure(const std::vector<float>& brightness) const override;
     double secondsOfPath() override;
+    SamplingGain samplingGain(unsigned cameraPaths) override { return renderer_->samplingGain(cameraPaths); }
+    double pathsOfSamplingGain() const override { return renderer_->pathsOfSamplingGain(); }
     double secondsToPrepare() const override { return renderer_->counters().prepareSeconds; }
     std::vector<float> radiance() const override { return renderer_->develop().radiance; }
     unsigned photonsPerPass() const override { return renderer_->report().photonsPerPass; }

@@ -224,6 +224,13 @@ PilotMeasure withCameraPaths(PilotMeasure pilot, double factor) {
     return pilot;
 }
 
+double gainOfSampling(const PilotMeasure& pilot, const SamplingGain& gain) {
+    const double noise = pilot.noiseOfPhotons + (1 - pilot.noiseOfPhotons) / gain.variance;
+    const double ofCamera = pilot.secondsPerPass - pilot.secondsOfPhotons;
+    const double seconds = pilot.secondsOfPhotons + gain.time * ofCamera;
+    return pilot.secondsPerPass / (noise * seconds);
+}
+
 PilotMeasure withRareCaustics(PilotMeasure pilot, double noiseOfOnePath, unsigned cameraPaths) {
     const double all = sum(pilot.noise), seen = pilot.noiseOfCaustics * all,
                  before = noiseOfOnePath / (double(pilot.passes) * cameraPaths);

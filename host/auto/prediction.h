@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/error_estimate.h"
+#include "render/sampling_gain.h"
 
 #include <vector>
 
@@ -65,6 +66,9 @@ PilotMeasure withCameraPaths(PilotMeasure pilot, double factor);
 /// Camera paths of a pixel in a pass, a power of 2, with which a render of so many seconds by this pilot's settings, which have
 /// `cameraPaths` of them, has the least error. Photons, which all paths of a pass share, cost the same however many there are.
 unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double seconds);
+
+/// relMSE after equal time with camera paths of all pixels alike over that with camera paths by pixel. Bias is the same in both and left out.
+double gainOfSampling(const PilotMeasure& pilot, const SamplingGain& gain);
 
 /// Of camera paths, `cameraPaths` of a pixel in a pass, that find caustic light: those that seldom meet an emitter have little noise until one does. So what
 /// is known of it before, `noiseOfOnePath` at most (causticsByPaths of a pilot by photons), counts as one that was met.

@@ -23,6 +23,8 @@ constexpr unsigned mostAtFirst = 32; // before any is given up
 constexpr double shareOfMethods = 0.75;
 constexpr double farWorse = 4; // times the least relMSE: given up whatever the others have
 constexpr double mostPhotonsFactor = 16, mostRadiusFactor = 2; // either way from where the search starts
+// Of the time that is left, for the pilot of camera paths by pixel, and as much again for that of the image.
+constexpr double shareOfSamplingPilot = 0.03;
 // The time of a render, in passes and in camera paths of all pixels that gather nothing, from which on it may lose a few passes.
 constexpr double leastPassesOfTime = 16, leastPathsOfTime = 64;
 constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
@@ -78,7 +80,9 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     if (!best_.pilot) return {start_, report_, nullptr}; // interrupted, or there was no time
     note(best_, "chosen");
     report_.chosen = best_.row;
-    RenderSettings chosen = best_.settings;
+    RenderSettings& chosen = best_.settings;
+    chosen.cameraSampling = report_.rows[best_.row].settings.cameraSampling =
+        samplingOf(best_, best_.measure, chosen.cameraPaths);
     chosen.seed = settings.seed;
     return {chosen, report_, nullptr};
 }
@@ -114,13 +118,25 @@ std::unique_ptr<Pilot> Search::renderFirst(Contender& start, bool& begun) {
 }
 
 // Of a search that had time for `first` alone: at least how many camera paths serve the image best is known. `kept`: the start.
-SearchResult Search::withItsPaths(const Contender& first, std::unique_ptr<Pilot> kept) {
-    const unsigned paths = cameraPathsOf(first);
+SearchResult Search::withItsPaths(Contender& first, std::unique_ptr<Pilot> kept) {
+    RenderSettings& chosen = report_.rows[first.row].settings;
+    chosen.cameraPaths = cameraPathsOf(first);
+    chosen.cameraSampling = samplingOf(first, withPaths(first, chosen.cameraPaths), chosen.cameraPaths);
     report_.passes += first.pilot->passes();
-    if (paths == start_.cameraPaths) return {start_, report_, std::move(kept)};
-    RenderSettings chosen = start_;
-    chosen.cameraPaths = report_.rows[first.row].settings.cameraPaths = paths;
+    if (chosen.cameraPaths == start_.cameraPaths && chosen.cameraSampling == start_.cameraSampling)
+        return {start_, report_, std::move(kept)};
     return {chosen, report_, nullptr};
+}
+
+CameraSampling Search::samplingOf(Contender& contender, const PilotMeasure& measure, unsigned cameraPaths) {
+    const CameraSampling before = contender.settings.cameraSampling;
+    const double ofPath = (measure.secondsPerPass - measure.secondsOfPhotons) / cameraPaths;
+    if (!freedom_.cameraSampling || interrupted() ||
+        contender.pilot->pathsOfSamplingGain() * ofPath > shareOfSamplingPilot * secondsLeft())
+        return before;
+    SamplingGain gain;
+    if (failureOf([&] { gain = contender.pilot->samplingGain(cameraPaths); })) return before;
+    return gainOfSampling(measure, gain) > leastGainOfNumbers ? CameraSampling::adaptive : CameraSampling::even;
 }
 
 // Known from a pilot's noise and times alone, without rendering.

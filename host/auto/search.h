@@ -62,9 +62,11 @@ private:
     /// be given up for what it is with one path.
     PilotMeasure atItsBest(const Contender& contender) const;
     void chooseCameraPaths();
+    /// Whether they are to be by pixel, of settings whose number is chosen. The pilot can render no more after that.
+    CameraSampling samplingOf(Contender& contender, const PilotMeasure& measure, unsigned cameraPaths);
     bool mayDiscard(Contender& start);
     std::unique_ptr<Pilot> renderFirst(Contender& start, bool& begun);
-    SearchResult withItsPaths(const Contender& first, std::unique_ptr<Pilot> kept);
+    SearchResult withItsPaths(Contender& first, std::unique_ptr<Pilot> kept);
     /// Among the best ones so far and those beside it; whether one of these has won.
     bool raceOfNumbers(double seconds);
     Field enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain, double middle,

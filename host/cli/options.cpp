@@ -212,11 +212,17 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (emission) result.emission = parseChoice<Emission>(*emission);
     if (photons) result.photonsPerPass = *photons;
     if (cameraPaths) result.cameraPaths = *cameraPaths;
-    if (result.cameraPaths > 1 && !mayHaveCameraPaths(loaded.sensor.meter != MeterKind::none, result))
+    const bool isMeter = loaded.sensor.meter != MeterKind::none;
+    if (result.cameraPaths > 1 && !mayHaveCameraPaths(isMeter, result))
         throw InputError(fmt::format(
             "{} camera paths of a pixel are asked for, by --camera-paths or the scene's camera-paths; meters and "
             "--map camera have their own number, leave it out",
             result.cameraPaths));
+    if (cameraSampling) result.cameraSampling = parseChoice<CameraSampling>(*cameraSampling);
+    if (result.cameraSampling == CameraSampling::adaptive && !mayHaveCameraPaths(isMeter, result))
+        throw InputError(
+            "camera sampling is to be adaptive, by --camera-sampling or the scene's camera-sampling; meters "
+            "and --map camera sample evenly, leave it out");
     if (seed) result.seed = *seed;
     if (quasiSpecular) {
         result.quasiSpecular = *quasiSpecular;
@@ -226,7 +232,7 @@ RenderSettings SceneOptions::settings(const Scene& loaded) const {
     if (radiusScale) result.radiusScale = *radiusScale;
     result.energyBalance = energyBalance;
     result.genericKernels = kernels == "generic";
-    if (!without.empty() && loaded.sensor.meter != MeterKind::none)
+    if (!without.empty() && isMeter)
         throw InputError("readings of meters and grids say all that there is: --without is of images, leave it out");
     for (const auto& part : without) (part == "bias" ? result.film.bias : result.film.components) = false;
     return result;
@@ -241,6 +247,7 @@ Freedom SceneOptions::freedom(const Scene& loaded) const {
     freedom.photons &= !photons;
     freedom.caustics &= !caustics;
     freedom.cameraPaths &= !cameraPaths;
+    freedom.cameraSampling &= !cameraPaths && !cameraSampling;
     freedom.radius &= !radiusScale;
     return freedom;
 }

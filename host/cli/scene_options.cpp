@@ -86,6 +86,14 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->transform(wholeNumber(1, cameraPathsLimit))
         ->group(group);
     command
+        .add_option(
+            "--camera-sampling", options.cameraSampling,
+            "Camera paths by pixel: even (all have the same number) or adaptive (more where they have more noise, "
+            "found by a pilot) (default: the scene's, else searched, else even)")
+        ->type_name("NAME")
+        ->check(oneOf(choiceNames<CameraSampling>()))
+        ->group(group);
+    command
         .add_option("--seed", options.seed,
                     "Seed of the random numbers, a whole number below 2^64 (default: the scene's, else 1)")
         ->type_name("N")

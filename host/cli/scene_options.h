@@ -21,7 +21,7 @@ struct SceneOptions {
     std::vector<std::string> limits; ///< "name=number", of scenes that are not trusted
     std::optional<unsigned> bdd, photons, cameraPaths;
     std::optional<uint64_t> seed;
-    std::optional<std::string> variant, direct, caustics, map, emission, quasiSpecular, radius;
+    std::optional<std::string> variant, direct, caustics, map, emission, quasiSpecular, radius, cameraSampling;
     std::optional<double> radiusScale;
     bool energyBalance = false;
     bool autoAll = false, fixed = false;

@@ -120,6 +120,7 @@ private:
         options_.caustics = name(chosen.caustics);
         options_.photons = chosen.photonsPerPass;
         options_.cameraPaths = chosen.cameraPaths;
+        options_.cameraSampling = name(chosen.cameraSampling);
         options_.radiusScale = chosen.radiusScale;
     }
 

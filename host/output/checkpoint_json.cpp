@@ -136,6 +136,7 @@ void visitSearch(Visit& visit, Search& s) {
     visit("photons", s.freedom.photons);
     visit("radius", s.freedom.radius);
     visit("cameraPaths", s.freedom.cameraPaths);
+    visit("cameraSampling", s.freedom.cameraSampling);
     visit("notSearched", s.notSearched);
     visit("chosen", s.chosen);
     visit("passes", s.passes);
@@ -164,6 +165,7 @@ Json toJson(const RenderSettings& settings) {
     writer.out["variant"] = name(settings.variant);
     writer.out["direct"] = name(settings.direct);
     writer.out["caustics"] = name(settings.caustics);
+    writer.out["cameraSampling"] = name(settings.cameraSampling);
     writer.out["map"] = name(settings.map);
     writer.out["emission"] = name(settings.emission);
     writer.out["radius"] = name(settings.radius);
@@ -176,6 +178,7 @@ void fromJson(const Json& from, RenderSettings& settings) {
     settings.variant = parseChoice<Variant>(from.at("variant"));
     settings.direct = parseChoice<DirectLight>(from.at("direct"));
     settings.caustics = parseChoice<CausticLight>(from.at("caustics"));
+    settings.cameraSampling = parseChoice<CameraSampling>(from.at("cameraSampling"));
     settings.map = parseChoice<MapOrder>(from.at("map"));
     settings.emission = parseChoice<Emission>(from.at("emission"));
     settings.radius = parseChoice<RadiusChoice>(from.at("radius"));

@@ -63,6 +63,7 @@ struct RenderRecord {
         visit("seed", settings.seed);
         visit("photonsPerPass", photonsPerPass());
         visit("cameraPaths", settings.cameraPaths);
+        visit("cameraSampling", name(settings.cameraSampling));
         visit("radius", name(settings.radius));
         visit("radiusScale", settings.radiusScale);
         visit("auto", search.line());

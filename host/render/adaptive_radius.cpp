@@ -1,5 +1,6 @@
 #include "render/adaptive_radius.h"
 
+#include "render/coarse_camera.h"
 #include "render/radius.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace {
 
 // The radii are chosen anew, and the pilot's discs narrowed, after so many of its passes; it ends with the last choice.
 constexpr std::array<unsigned, 4> choices{passesOfEqualRadius, 4, 8, 16};
-// Of the pilot's image at most, about: it is to cost little, whatever the size of the image.
-constexpr double pilotSide = 128;
 constexpr unsigned foreseenPasses = 1024;
 const std::string pilotOwner = "pilot's ";
 
@@ -31,21 +30,6 @@ double noiseToCurvature() {
     return meanInverse / foreseenPasses / (mean * mean);
 }
 
-unsigned blockSize(const shared::Camera& camera) {
-    return static_cast<unsigned>(std::max(1.0, std::ceil(std::sqrt(double(camera.width) * camera.height) / pilotSide)));
-}
-
-shared::Camera coarseCamera(shared::Camera camera, unsigned block) {
-    camera.width = (camera.width + block - 1) / block;
-    camera.height = (camera.height + block - 1) / block;
-    for (auto* step : {&camera.stepX, &camera.stepY}) {
-        step->x *= static_cast<float>(block);
-        step->y *= static_cast<float>(block);
-        step->z *= static_cast<float>(block);
-    }
-    return camera;
-}
-
 // How many choices are made from so many passes.
 size_t choicesWithin(unsigned passes) {
     return std::upper_bound(choices.begin(), choices.end(), passes) - choices.begin();
@@ -60,7 +44,7 @@ size_t scaleCount(const shared::Camera& pilot, unsigned classes) {
 } // namespace
 
 AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes)
-    : block_(blockSize(camera)), camera_(coarseCamera(camera, block_)),
+    : block_(coarseBlock(camera)), camera_(coarseCamera(camera, block_)),
       film_(std::in_place, device, camera_.width, camera_.height, FilmLayout{}, Film::inOneBuffer, pilotOwner),
       measureRadii_(pass.kernel("measureRadii")), chooseRadii_(pass.kernel("chooseRadii")),
       pilotScales_(device, scaleCount(camera_, classes), "pilot's radii"),
@@ -72,7 +56,7 @@ AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared
 }
 
 std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
-    const shared::Camera pilot = coarseCamera(camera, blockSize(camera));
+    const shared::Camera pilot = coarseCamera(camera, coarseBlock(camera));
     const uint64_t scales = scaleCount(pilot, classes);
     auto bytes = Film::plan(size_t(pilot.width) * pilot.height, FilmLayout{}, Film::inOneBuffer, pilotOwner);
     bytes["pilot's radii"] = scales * sizeof(float);

@@ -11,6 +11,7 @@ public:
     explicit CameraMapPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
+    uint64_t cameraPaths() const override { return context_.film.pixels(); }
 
 private:
     const PassContext& context_;

@@ -1,5 +1,7 @@
 #include "render/camera_stage.h"
 
+#include "render/coarse_camera.h"
+
 #include <algorithm>
 
 namespace quasilux {
@@ -8,64 +10,73 @@ namespace {
 
 // Where somebody waits for rows of the film, so that pictures come twice a second (docs/notes/live-view.md).
 constexpr double longestAwaitedSeconds = 0.2;
+// Added to the seed: what a pilot decides must know nothing of the image.
+constexpr unsigned coarseSeed = 0x7F4A7C15u;
+const std::string ofOnePath = "pilot's ";
 
 } // namespace
 
-CameraStage::CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params,
-                         AdaptiveRadius* radii, SharedSamples* shared)
-    : geometry_(geometry), film_(film), radii_(radii), shared_(shared), traceCameraPaths_(pass.kernel(cameraKernel)),
-      params_(params) {}
+CameraStage::CameraStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
+                         shared::CameraParams params, unsigned paths, AdaptiveRadius* radii, SharedSamples* shared)
+    : geometry_(geometry), film_(film), radii_(radii), shared_(shared), paths_(device, params.camera, paths),
+      onePath_(device, params.camera, 1, ofOnePath), traceCameraPaths_(pass.kernel(cameraKernel)), params_(params) {}
+
+std::map<std::string, uint64_t> CameraStage::plan(const shared::Camera& camera, bool isAdaptive) {
+    return {{PathCounts::label, PathCounts::plan(camera, isAdaptive)},
+            {ofOnePath + PathCounts::label, PathCounts::plan(camera, false)}};
+}
 
 void CameraStage::compile(const PhotonStage& photons) {
-    const Buffer<float>* scales = radii_ ? &radii_->scales(0) : nullptr;
+    const PixelTables ofFirst = tables(0);
+    params_.pathBlock = ofFirst.paths.block();
     if (shared_)
-        shared_->compile(film_, params_, geometry_, tracer(film_, scales, photons));
+        shared_->compile(film_, params_, geometry_, tracer(film_, ofFirst, photons));
     else
-        tracePart(film_, film_.parts().front(), params_, 0, scales, photons);
+        tracePart(film_, film_.parts().front(), params_, 0, ofFirst, photons);
     traceCameraPaths_.forgetPace();
     if (radii_) radii_->compile();
 }
 
 // Traces the paths of the first `pixels` of a part of the film; of none, so that the runtime compiles the kernel.
 void CameraStage::tracePart(Film& film, Film::Part& part, shared::CameraParams params, size_t pixels,
-                            const Buffer<float>* radiusScales, const PhotonStage& photons) {
+                            const PixelTables& tables, const PhotonStage& photons) {
     params.firstPixel = static_cast<unsigned>(part.firstPixel);
     params.pixels = static_cast<unsigned>(pixels);
-    launch(part.pixels, part.sums, film, params, radiusScales, photons);
+    launch(part.pixels, part.sums, film, params, tables, photons);
 }
 
-SharedSamples::Trace CameraStage::tracer(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons) {
-    return [this, &film, radiusScales, &photons](Buffer<float>& samples, const shared::CameraParams& params) {
-        launch(std::max(params.pixels, 1u), samples, film, params, radiusScales, photons);
+SharedSamples::Trace CameraStage::tracer(Film& film, const PixelTables& tables, const PhotonStage& photons) {
+    return [this, &film, tables, &photons](Buffer<float>& samples, const shared::CameraParams& params) {
+        launch(std::max(params.pixels, 1u), samples, film, params, tables, photons);
     };
 }
 
 void CameraStage::launch(size_t workItems, Buffer<float>& result, Film& film, const shared::CameraParams& params,
-                         const Buffer<float>* radiusScales, const PhotonStage& photons) {
+                         const PixelTables& tables, const PhotonStage& photons) {
     const auto run = [&](const auto&... more) {
         traceCameraPaths_.launch(workItems, geometry_.nodes, geometry_.blocks, geometry_.tables,
                                  photons.table().cellStart(), photons.sorted(), result, film.counterBuffer(), params,
-                                 more...);
+                                 tables.paths.counts(), more...);
     };
-    if (radiusScales)
-        run(*radiusScales);
+    if (tables.radiusScales)
+        run(*tables.radiusScales);
     else
         run();
 }
 
-void CameraStage::runOn(Film& film, shared::CameraParams params, const Buffer<float>* radiusScales,
+void CameraStage::runOn(Film& film, const Film::Pass& onFilm, shared::CameraParams params, const PixelTables& tables,
                         const PhotonStage& photons) {
-    const Film::Pass onFilm = film.beginPass(params.pass);
+    params.pathBlock = tables.paths.block();
     params.batchWeight = onFilm.batchWeight;
     params.map.biasWeight = onFilm.biasWeight;
     params.filmLayout = film.layout().bits();
     if (shared_)
-        shared_->addPass(film, params, geometry_, tracer(film, radiusScales, photons));
+        shared_->addPass(film, params, geometry_, tracer(film, tables, photons));
     else
         for (Film::Part& part : film.parts()) {
             traceCameraPaths_.watchParts([&](size_t pixels) { film.noteAhead(part.firstPixel + pixels); },
                                          film.isAwaited() ? longestAwaitedSeconds : longestLaunchSeconds);
-            tracePart(film, part, params, part.pixels, radiusScales, photons);
+            tracePart(film, part, params, part.pixels, tables, photons);
             film.noteAhead(part.firstPixel + part.pixels);
         }
     traceCameraPaths_.watchParts({});
@@ -78,15 +89,28 @@ const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage
     return params_;
 }
 
+PixelTables CameraStage::tables(unsigned pass) const { return {paths_, radiusScales(pass)}; }
+
 void CameraStage::run(unsigned pass, const PhotonStage& photons) {
-    runOn(film_, params(pass, photons), radii_ ? &radii_->scales(pass) : nullptr, photons);
+    runOn(film_, film_.beginPass(pass), params(pass, photons), tables(pass), photons);
 }
 
 void CameraStage::runWithoutGathering(const PhotonStage& photons) {
-    shared::CameraParams ofOnePath = params(0, photons);
-    ofOnePath.cameraPaths = 1;
-    ofOnePath.gatheringPaths = 0;
-    runOn(film_, ofOnePath, radii_ ? &radii_->scales(0) : nullptr, photons);
+    shared::CameraParams ofPath = params(0, photons);
+    ofPath.gatheringPaths = 0;
+    runOn(film_, film_.beginPass(0), ofPath, {onePath_, radiusScales(0)}, photons);
+}
+
+void CameraStage::runCoarse(Film& film, const shared::Camera& camera, unsigned pass, Brings brings,
+                            const PathCounts& paths, const PhotonStage& photons) {
+    shared::CameraParams ofPilot = params(pass, photons);
+    ofPilot.seedLow += coarseSeed;
+    ofPilot.camera = camera;
+    ofPilot.coarseness = coarseBlock(params_.camera);
+    ofPilot.radiusBlock = 1;
+    if (brings != Brings::allLight) ofPilot.gatheringPaths = 0;
+    ofPilot.countsEvents = brings == Brings::rays;
+    runOn(film, film.beginBatch(), ofPilot, {paths, radiusScales(0)}, photons);
 }
 
 bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->pilotIsDue(pass); }
@@ -95,11 +119,12 @@ bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->pi
 size_t CameraStage::chooseRadius(unsigned pass, const PhotonStage& photons) {
     shared::CameraParams ofPilot = params(pass, photons);
     ofPilot.camera = radii_->pilotCamera();
-    ofPilot.radiusBlock = ofPilot.cameraPaths = 1;
-    const size_t paths = radii_->pilotFilm().pixels();
-    runOn(radii_->pilotFilm(), ofPilot, &radii_->pilotScales(), photons);
+    ofPilot.coarseness = radii_->block();
+    ofPilot.radiusBlock = 1;
+    Film& film = radii_->pilotFilm();
+    runOn(film, film.beginPass(pass), ofPilot, {onePath_, &radii_->pilotScales()}, photons);
     radii_->endPilotPass();
-    return paths;
+    return film.pixels();
 }
 
 } // namespace quasilux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/adaptive_radius.h"
+#include "render/path_counts.h"
 #include "render/photon_stage.h"
 #include "render/shared_samples.h"
 
@@ -10,12 +11,20 @@ namespace quasilux {
 /// The kernel of camera paths, by which its time is known.
 inline constexpr const char* cameraKernel = "traceCameraPaths";
 
+/// What camera paths read by pixel.
+struct PixelTables {
+    const PathCounts& paths;
+    const Buffer<float>* radiusScales; ///< null where the options do not say ADAPTIVE_RADIUS
+};
+
 class CameraStage {
 public:
     /// `radii`: of the pixels, or null where they are one radius (then the options do not say ADAPTIVE_RADIUS). `shared`: what pixels share,
-    /// or null where each has samples of its own.
-    CameraStage(const Program& pass, const GeometryBuffers& geometry, Film& film, shared::CameraParams params,
-                AdaptiveRadius* radii, SharedSamples* shared);
+    /// or null where each has samples of its own. `paths`: camera paths of each pixel in a pass, at first.
+    CameraStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
+                shared::CameraParams params, unsigned paths, AdaptiveRadius* radii, SharedSamples* shared);
+
+    static std::map<std::string, uint64_t> plan(const shared::Camera& camera, bool isAdaptive);
 
     /// Has the runtime compile the kernels, by a launch of as many work-items as a pass has, which do nothing.
     void compile(const PhotonStage& photons);
@@ -23,11 +32,21 @@ public:
     /// Of a pass's camera paths, with its photons.
     const shared::CameraParams& params(unsigned pass, const PhotonStage& photons);
 
-    /// CameraParams::cameraPaths of each pixel.
+    /// What these read by pixel.
+    PixelTables tables(unsigned pass) const;
+    void setPaths(PathCounts paths) { paths_ = std::move(paths); }
+    const PathCounts& paths() const { return paths_; }
+
     void run(unsigned pass, const PhotonStage& photons);
 
     /// The same without photons, to learn what it takes: one path of each pixel, into the film.
     void runWithoutGathering(const PhotonStage& photons);
+
+    /// What the paths of a pilot bring: light that they find themselves, that and what photons carry, or how many rays they follow, as an image.
+    enum class Brings { ownLight, allLight, rays };
+    /// Pass `pass` of a pilot, `paths` of each pixel of a coarse camera, a batch of the film of that camera; random numbers are its own.
+    void runCoarse(Film& film, const shared::Camera& camera, unsigned pass, Brings brings, const PathCounts& paths,
+                   const PhotonStage& photons);
 
     /// Are radii by pixel to be chosen with the photons of this pass? Then chooseRadius() is to follow run().
     bool radiusIsDue(unsigned pass) const;
@@ -35,17 +54,20 @@ public:
     size_t chooseRadius(unsigned pass, const PhotonStage& photons);
 
 private:
-    void tracePart(Film& film, Film::Part& part, shared::CameraParams params, size_t pixels,
-                   const Buffer<float>* radiusScales, const PhotonStage& photons);
-    SharedSamples::Trace tracer(Film& film, const Buffer<float>* radiusScales, const PhotonStage& photons);
+    void tracePart(Film& film, Film::Part& part, shared::CameraParams params, size_t pixels, const PixelTables& tables,
+                   const PhotonStage& photons);
+    SharedSamples::Trace tracer(Film& film, const PixelTables& tables, const PhotonStage& photons);
     void launch(size_t workItems, Buffer<float>& result, Film& film, const shared::CameraParams& params,
-                const Buffer<float>* radiusScales, const PhotonStage& photons);
-    void runOn(Film& film, shared::CameraParams params, const Buffer<float>* radiusScales, const PhotonStage& photons);
+                const PixelTables& tables, const PhotonStage& photons);
+    void runOn(Film& film, const Film::Pass& onFilm, shared::CameraParams params, const PixelTables& tables,
+               const PhotonStage& photons);
+    const Buffer<float>* radiusScales(unsigned pass) const { return radii_ ? &radii_->scales(pass) : nullptr; }
 
     const GeometryBuffers& geometry_;
     Film& film_;
     AdaptiveRadius* radii_;
     SharedSamples* shared_;
+    PathCounts paths_, onePath_;
     Kernel traceCameraPaths_;
     shared::CameraParams params_;
 };

@@ -1,5 +1,6 @@
 #include "render/gathered_photons.h"
 
+#include "render/camera_stage.h"
 #include "util/bit_words.h"
 
 #include <numeric>
@@ -13,8 +14,7 @@ double GatheredCount::share() const {
 }
 
 GatheredCount countGathered(Device& device, const std::string& options, const GeometryBuffers& geometry,
-                            const PhotonStage& photons, const shared::CameraParams& params,
-                            const Buffer<float>* radiusScales) {
+                            const PhotonStage& photons, const shared::CameraParams& params, const PixelTables& tables) {
     const Program program(device, "gathered_photons.cl", options + " -DMARKS_GATHERED");
     GatheredCount count;
     count.stored = photons.table().countBySlot();
@@ -25,10 +25,10 @@ GatheredCount countGathered(Device& device, const std::string& options, const Ge
     Kernel kernel = program.kernel("markGathered");
     const auto launch = [&](const auto&... more) {
         kernel.launch(paths, geometry.nodes, geometry.blocks, geometry.tables, photons.table().cellStart(),
-                      photons.sorted(), marks, params, more...);
+                      photons.sorted(), marks, params, tables.paths.counts(), more...);
     };
-    if (radiusScales)
-        launch(*radiusScales);
+    if (tables.radiusScales)
+        launch(*tables.radiusScales);
     else
         launch();
     const auto bits = marks.read();

@@ -9,6 +9,8 @@
 
 namespace quasilux {
 
+struct PixelTables;
+
 /// By slot of the map: classes on surfaces, then in media.
 struct GatheredCount {
     std::array<uint64_t, PHOTON_SLOTS> stored{}, gathered{};
@@ -17,10 +19,8 @@ struct GatheredCount {
     double share() const;
 };
 
-/// `options` are those of the pass, `params` of its camera paths, `photons` hold its photons; `radiusScales`: null where the
-/// options do not say ADAPTIVE_RADIUS. Compiles a program for it.
+/// `options` are those of the pass, `params` of its camera paths, `photons` hold its photons; Compiles a program for it.
 GatheredCount countGathered(Device& device, const std::string& options, const GeometryBuffers& geometry,
-                            const PhotonStage& photons, const shared::CameraParams& params,
-                            const Buffer<float>* radiusScales);
+                            const PhotonStage& photons, const shared::CameraParams& params, const PixelTables& tables);
 
 } // namespace quasilux

@@ -6,8 +6,8 @@
 namespace quasilux {
 
 MeterPass::MeterPass(const PassContext& context)
-    : meter_(context.device, context.program, context.geometry, context.film, context.camera, context.classes,
-             meanRadiance(context.flat)),
+    : context_(context), meter_(context.device, context.program, context.geometry, context.film, context.camera,
+                                context.classes, meanRadiance(context.flat)),
       photons_(
           context, [&](const PhotonStage& pilot) { meter_.compile(pilot); },
           meterCountsPhotons(context.flat.features, context.settings) ? &meter_.counted() : nullptr) {
@@ -18,5 +18,7 @@ void MeterPass::run(unsigned pass, RenderCounters& counters) {
     photons_.trace(pass, counters);
     meter_.run(pass, photons_.stage());
 }
+
+uint64_t MeterPass::cameraPaths() const { return context_.film.pixels() * context_.flat.offsets.meter.samples; }
 
 } // namespace quasilux

@@ -12,8 +12,10 @@ public:
     explicit MeterPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
+    uint64_t cameraPaths() const override;
 
 private:
+    const PassContext& context_;
     MeterStage meter_;
     PassPhotons photons_;
 };

@@ -9,6 +9,7 @@
 #include "render/memory_plan.h"
 #include "render/radius_schedule.h"
 #include "render/render_counters.h"
+#include "render/sampling_gain.h"
 #include "util/state_archive.h"
 
 #include <memory>
@@ -37,12 +38,16 @@ public:
 
     /// Adds the estimate of this number to the film, and to the counters what it counted; passes and seconds are the caller's.
     virtual void run(unsigned pass, RenderCounters& counters) = 0;
+    /// That each pass has traced, of all pixels.
+    virtual uint64_t cameraPaths() const = 0;
     /// Memory that all passes will take, known once the pass is made.
     const MemoryForecast& forecast() const { return forecast_; }
 
     /// Seconds that a camera path of each pixel takes without gathering photons; 0 where it gathers none anyway, or passes have no more than one. It leaves what is no
     /// part of the image in the film.
     virtual double secondsWithoutGathering() { return 0; }
+    /// What camera paths by pixel would gain, with so many of the mean pixel; nothing where passes have no more than one. No pass may follow.
+    virtual SamplingGain samplingGain(unsigned /*paths*/) { return {}; }
     /// Which photons of this pass its camera paths gather; none where nothing is gathered.
     virtual std::optional<GatheredCount> countGathered(unsigned /*pass*/) { return std::nullopt; }
     /// Radii by pixel are what passes leave besides the film. Are they those of all passes to come?

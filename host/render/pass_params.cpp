@@ -52,8 +52,8 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     // The meter's own scattering does not count (kernels/meter.clh).
     params.bdd = settings.bdd + (meterIsGenuineDiffuse(flat.features, settings) ? 1 : 0);
     params.maxDepth = maxDepth;
-    params.cameraPaths = mayHaveCameraPaths(flat.offsets.meter.kind != METER_NONE, settings) ? settings.cameraPaths : 1;
     params.gatheringPaths = 1;
+    params.coarseness = 1;
     params.directSamples = 1;
     params.causticsByPaths = settings.caustics == CausticLight::paths;
     params.camera = flat.camera;

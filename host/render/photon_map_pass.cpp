@@ -1,5 +1,6 @@
 #include "render/photon_map_pass.h"
 
+#include "render/coarse_camera.h"
 #include "render/method.h"
 #include "util/stopwatch.h"
 
@@ -11,11 +12,22 @@ PhotonMapPass::PhotonMapPass(const PassContext& context) : context_(context) {
         radii_.emplace(context.device, context.program, camera, context.classes);
     if (const unsigned floats = SharedSamples::floatsPerSample(context.flat, context.settings))
         samples_.emplace(context.device, context.program, camera, floats);
-    camera_.emplace(context.program, context.geometry, context.film, context.camera, radii_ ? &*radii_ : nullptr,
-                    samples_ ? &*samples_ : nullptr);
+    camera_.emplace(context.device, context.program, context.geometry, context.film, context.camera,
+                    context.settings.cameraPaths, radii_ ? &*radii_ : nullptr, samples_ ? &*samples_ : nullptr);
     photons_.emplace(context, [&](const PhotonStage& pilot) { camera_->compile(pilot); });
     forecast_ = photons_->forecast();
+    if (context.settings.cameraSampling == CameraSampling::adaptive) allocatePaths();
 }
+
+PathPilot PhotonMapPass::pathPilot() { return {context_.device, *camera_, *photons_, context_.flat.camera}; }
+
+void PhotonMapPass::allocatePaths() {
+    const shared::Camera& camera = context_.flat.camera;
+    camera_->setPaths(
+        {context_.device, camera, coarseBlock(camera), pathPilot().allocate(context_.settings.cameraPaths)});
+}
+
+SamplingGain PhotonMapPass::samplingGain(unsigned paths) { return pathPilot().gain(paths); }
 
 void PhotonMapPass::run(unsigned pass, RenderCounters& counters) {
     catchUpRadii(pass, counters);
@@ -56,8 +68,7 @@ std::optional<GatheredCount> PhotonMapPass::countGathered(unsigned pass) {
     catchUpRadii(pass, ofNoPass);
     photons_->traceUncounted(pass);
     return quasilux::countGathered(context_.device, kernelOptions(context_.flat, context_.settings), context_.geometry,
-                                   photons_->stage(), camera_->params(pass, photons_->stage()),
-                                   radii_ ? &radii_->scales(pass) : nullptr);
+                                   photons_->stage(), camera_->params(pass, photons_->stage()), camera_->tables(pass));
 }
 
 bool PhotonMapPass::radiiAreChosen() const { return !radii_ || !photons_->areTaken() || radii_->pilotHasEnded(); }

@@ -3,6 +3,7 @@
 
 #include "render/camera_stage.h"
 #include "render/pass_photons.h"
+#include "render/path_pilot.h"
 
 namespace quasilux {
 
@@ -11,13 +12,17 @@ public:
     explicit PhotonMapPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
+    uint64_t cameraPaths() const override { return camera_->paths().sum(); }
     double secondsWithoutGathering() override;
+    SamplingGain samplingGain(unsigned paths) override;
     std::optional<GatheredCount> countGathered(unsigned pass) override;
     bool radiiAreChosen() const override;
     void saveRadii(StateSink& sink) const override;
     void restoreRadii(const StateSource& source) override;
 
 private:
+    PathPilot pathPilot();
+    void allocatePaths();
     void catchUpRadii(unsigned pass, RenderCounters& counters);
     void chooseRadii(unsigned pass, RenderCounters& counters);
 

@@ -5,6 +5,7 @@
 #include "render/method.h"
 #include "render/pass.h"
 #include "render/pass_params.h"
+#include "render/path_pilot.h"
 #include "render/radius_field.h"
 #include "util/stopwatch.h"
 
@@ -134,8 +135,7 @@ void Renderer::renderPass(unsigned pass) {
     counters.cutPaths += dropped.cutPaths - s.dropped.cutPaths;
     counters.throughputCut += double(dropped.cutThroughput - s.dropped.cutThroughput) / CUT_THROUGHPUT_STEPS;
     s.dropped = dropped;
-    counters.cameraPaths +=
-        s.film->pixels() * s.context->camera.cameraPaths * s.flat.offsets.meter.samples; // one of both is 1
+    counters.cameraPaths += s.passes->cameraPaths();
     counters.fluxEmitted += s.flat.emittedFlux;
     const double seconds = watch.seconds();
     if (counters.passes++ == 0) counters.firstPassSeconds = seconds;
@@ -186,6 +186,10 @@ double Renderer::secondsWithoutGathering() {
     stages_->dropped = {};
     return seconds;
 }
+
+SamplingGain Renderer::samplingGain(unsigned paths) { return stages_->passes->samplingGain(paths); }
+
+double Renderer::pathsOfSamplingGain() const { return PathPilot::pathsByPixel(stages_->flat.camera); }
 
 bool Renderer::isFilmWhole() const { return stages_->film->isWhole(); }
 

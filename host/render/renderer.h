@@ -4,6 +4,7 @@
 #include "render/film_image.h"
 #include "render/gathered_photons.h"
 #include "render/render_counters.h"
+#include "render/sampling_gain.h"
 #include "render/scene_report.h"
 #include "render/settings.h"
 #include "util/state_archive.h"
@@ -68,6 +69,10 @@ public:
     void clearPasses();
     /// Seconds that one camera path of each pixel takes where it gathers no photons; 0 where it gathers none anyway, or a pass has no more than one. Before the first pass.
     double secondsWithoutGathering();
+    /// Pass::samplingGain.
+    SamplingGain samplingGain(unsigned paths);
+    /// Camera paths that samplingGain() traces, as a multiple of the image's pixels.
+    double pathsOfSamplingGain() const;
     /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for meters and
     /// --map camera. Compiles kernels for it.
     std::optional<GatheredCount> countGathered();

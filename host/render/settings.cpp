@@ -17,6 +17,7 @@ RenderSettings settingsFromScene(const Scene& scene) {
     if (said.quasiSpecular) settings.quasiSpecular = *said.quasiSpecular;
     if (said.photons) settings.photonsPerPass = *said.photons;
     if (said.cameraPaths) settings.cameraPaths = *said.cameraPaths;
+    if (said.cameraSampling) settings.cameraSampling = *said.cameraSampling;
     if (said.seed) settings.seed = *said.seed;
     settings.photometric = said.units == Units::photometric;
     return settings;

@@ -21,6 +21,7 @@ struct RenderSettings {
     bool quasiSpecularOverridesScene = false; ///< then it overrides what the bsdfs of the scene say
     unsigned photonsPerPass = 0;              ///< emitted; 0 = chosen from the image size
     unsigned cameraPaths = 1;                 ///< of a pixel in each pass; of meters and with the camera map it is 1
+    CameraSampling cameraSampling = CameraSampling::even; ///< adaptive: `cameraPaths` are those of the mean pixel
     uint64_t seed = 1;
     RadiusChoice radius = RadiusChoice::adaptive;
     double radiusScale = 1.0;    ///< factor on the initial density radius

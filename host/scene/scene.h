@@ -321,6 +321,7 @@ struct SceneSettings {
     std::optional<MapOrder> map;
     std::optional<unsigned> photons;     ///< emitted per pass
     std::optional<unsigned> cameraPaths; ///< of a pixel in each pass
+    std::optional<CameraSampling> cameraSampling;
     std::optional<uint64_t> seed;
     std::optional<Units> units; ///< radiometric where not said
     std::optional<InstanceLevels> instances;

@@ -20,6 +20,7 @@ enum class DirectLight { emitters, photons }; ///< how E0's direct part is estim
 enum class CausticLight { photons, paths };   ///< how E0's caustic part is; see takesCausticsByPaths() in method.h
 enum class RadiusChoice { adaptive, fixed };  ///< density radius by pixel, or one for all
 enum class Emission { guided, plain };        ///< photons begin by what was learned of the scene, or by power alone
+enum class CameraSampling { even, adaptive }; ///< camera paths of all pixels alike, or more where they are noisy
 enum class MapOrder { photons, camera };      ///< what is stored and indexed, for the other to find
 enum class InstanceLevels { one, two }; ///< shapes of an instance are flattened, or a level of the tree of their own
 enum class Units { radiometric, photometric }; ///< of radiance and intensity: W sr^-1 m^-2, or cd/m^2
@@ -41,6 +42,8 @@ template <>
 inline constexpr ChoiceWords choiceWords<RadiusChoice>{"choice of the radius", {"adaptive", "fixed"}};
 template <>
 inline constexpr ChoiceWords choiceWords<Emission>{"emission", {"guided", "plain"}};
+template <>
+inline constexpr ChoiceWords choiceWords<CameraSampling>{"way to sample pixels", {"even", "adaptive"}};
 template <>
 inline constexpr ChoiceWords choiceWords<MapOrder>{"map", {"photons", "camera"}};
 template <>

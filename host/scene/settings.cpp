@@ -14,8 +14,8 @@ namespace quasilux {
 
 namespace {
 
-const Names settingNames = {"bdd",     "variant",      "quasi-specular", "direct", "caustics", "map",
-                            "photons", "camera-paths", "seed",           "units",  "instances"};
+const Names settingNames = {"bdd",     "variant",      "quasi-specular",  "direct", "caustics", "map",
+                            "photons", "camera-paths", "camera-sampling", "seed",   "units",    "instances"};
 
 template <NamedChoice Choice>
 Choice choiceOf(const Attribute& entry, const SourceLocation& where) {
@@ -57,6 +57,8 @@ void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& s
     else if (entry.name == "camera-paths")
         settings.cameraPaths =
             static_cast<unsigned>(parseUnsigned(entry.value, 1, cameraPathsLimit, where, "camera-paths"));
+    else if (entry.name == "camera-sampling")
+        settings.cameraSampling = choiceOf<CameraSampling>(entry, where);
     else if (entry.name == "seed")
         settings.seed = parseUnsigned(entry.value, 0, std::numeric_limits<uint64_t>::max(), where, "seed");
     else

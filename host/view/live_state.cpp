@@ -30,10 +30,14 @@ void LiveState::begin(const Render& render) {
 
 void LiveState::setSettings(const RenderSettings& settings) {
     const std::lock_guard lock(mutex_);
-    settings_ = {
-        {"bdd", settings.bdd},       {"variant", name(settings.variant)},       {"direct", name(settings.direct)},
-        {"map", name(settings.map)}, {"quasiSpecular", settings.quasiSpecular}, {"cameraPaths", settings.cameraPaths},
-        {"seed", settings.seed}};
+    settings_ = {{"bdd", settings.bdd},
+                 {"variant", name(settings.variant)},
+                 {"direct", name(settings.direct)},
+                 {"map", name(settings.map)},
+                 {"quasiSpecular", settings.quasiSpecular},
+                 {"cameraPaths", settings.cameraPaths},
+                 {"cameraSampling", name(settings.cameraSampling)},
+                 {"seed", settings.seed}};
     change();
 }
 

@@ -35,6 +35,7 @@ class RenderOptions(TypedDict, total=False):
     emission: Literal["guided", "plain"] | None
     photons: int | None
     camera_paths: int | None
+    camera_sampling: Literal["even", "adaptive"] | None
     seed: int | None
     radius: Literal["adaptive", "fixed"] | None
     radius_scale: float | None
@@ -203,8 +204,8 @@ def render(
     the first pass). In the search that may come first its ``phase`` is "pilot passes" and its ``passes`` is 0.
 
     options: those of `quasilux render` by their names with underscores, None for the default:
-    bdd, variant, quasi_specular, direct, map, emission, photons, camera_paths, seed, radius, radius_scale, energy_balance, auto, fixed,
-    device, work_group_size, device_memory (bytes), without (names, such as ["bias"]), kernels, checkpoint, every (s), resume.
+    bdd, variant, quasi_specular, direct, map, emission, photons, camera_paths, camera_sampling, seed, radius, radius_scale, energy_balance, auto,
+    fixed, device, work_group_size, device_memory (bytes), without (names, such as ["bias"]), kernels, checkpoint, every (s), resume.
 
     The same seed gives the same bits as the program on the same device. Other Python threads go on meanwhile. Ctrl-C ends the render
     after the running pass and raises Interrupted, a KeyboardInterrupt, whose ``result`` is what there is.

@@ -20,6 +20,8 @@ struct Truth {
     unsigned failsAt = 0; // pass that throws, counted from 1; 0: none
     bool lacksMemory = false;
     double secondsToPrepare = 0;
+    SamplingGain samplingGain{};
+    double pathsOfSamplingGain = 0;
     double noiseOfPhotons = 0, shareOfPhotonSeconds = 0; // as PilotMeasure
 };
 using World = std::function<Truth(const RenderSettings&)>;
@@ -37,6 +39,8 @@ public:
     }
     unsigned passes() const override { return passes_; }
     double secondsOfPath() override { return (1 - truth_.shareOfPhotonSeconds) * truth_.secondsPerPass; }
+    SamplingGain samplingGain(unsigned) override { return truth_.samplingGain; }
+    double pathsOfSamplingGain() const override { return truth_.pathsOfSamplingGain; }
     double secondsToPrepare() const override { return truth_.secondsToPrepare; }
     std::vector<float> radiance() const override { return {}; }
     PilotMeasure measure(const std::vector<float>&) const override {

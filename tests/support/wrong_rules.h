@@ -30,12 +30,18 @@ enum class PhotonRule {
     missingStoreWeight
 };
 
+/// Camera paths by pixel, or a mistake: the path that gathers for all of a pixel counts as if there were four.
+enum class SamplingRule { right, fourEverywhere };
+
 /// Compiler options; none where it is the right one.
 inline std::string optionOf(LawRule rule) {
     return rule == LawRule::right ? "" : fmt::format(" -DLAW_RULE={}", static_cast<int>(rule));
 }
 inline std::string optionOf(MediumRule rule) {
     return rule == MediumRule::right ? "" : fmt::format(" -DMEDIUM_RULE={}", static_cast<int>(rule));
+}
+inline std::string optionOf(SamplingRule rule) {
+    return rule == SamplingRule::right ? "" : fmt::format(" -DSAMPLING_RULE={}", static_cast<int>(rule));
 }
 inline std::string optionOf(PhotonRule rule) {
     return rule == PhotonRule::right ? "" : fmt::format(" -DPHOTON_RULE={}", static_cast<int>(rule));

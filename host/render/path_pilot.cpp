@@ -1,0 +1,115 @@
+#include "render/path_pilot.h"
+
+#include "render/coarse_camera.h"
+#include "render/error_estimate.h"
+#include "util/stopwatch.h"
+
+#include <algorithm>
+
+namespace quasilux {
+
+namespace {
+
+// Their variance is known to some 10 % in the mean over a block and its neighbours.
+constexpr double pathsOfHalf = 1 << 17;
+constexpr double fewestPasses = 8, mostPasses = 32;
+// The brightness, which errors are relative to, needs what photons carry too.
+constexpr unsigned passesThatGather = 4;
+constexpr unsigned passesThatCount = 2;
+// A pass of so many paths of each pixel tells as much about times as one of more.
+constexpr unsigned mostTimedPaths = 4;
+// Of what a ray that meets nothing costs: shading, choosing an emitter, its ray and the next one (docs/notes/camera-paths.md).
+constexpr double costOfEvent = 8;
+constexpr FilmLayout layout{false, true};
+using Brings = CameraStage::Brings;
+const std::string owner = "path pilot's ";
+
+shared::Camera coarseOf(const shared::Camera& camera) { return coarseCamera(camera, coarseBlock(camera)); }
+
+unsigned passesOfHalf(const shared::Camera& coarse) {
+    return static_cast<unsigned>(
+        std::clamp(pathsOfHalf / (double(coarse.width) * coarse.height), fewestPasses, mostPasses));
+}
+
+void addPhotons(const FilmImage& gathered, std::vector<float>& radiance) {
+    for (unsigned c = LIGHT_DIRECT + 1; c < LIGHT_CLASSES; ++c)
+        for (size_t k = 0; k < gathered.components[c].size(); ++k) radiance[k] += gathered.components[c][k];
+}
+
+} // namespace
+
+PathPilot::PathPilot(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera)
+    : device_(device), paths_(paths), photons_(photons), coarse_(coarseOf(camera)), passes_(passesOfHalf(coarse_)) {
+    measure();
+}
+
+std::map<std::string, uint64_t> PathPilot::plan(const shared::Camera& camera) {
+    const shared::Camera coarse = coarseOf(camera);
+    return Film::plan(size_t(coarse.width) * coarse.height, layout, Film::inOneBuffer, owner);
+}
+
+double PathPilot::pathsByPixel(const shared::Camera& camera) {
+    const shared::Camera coarse = coarseOf(camera);
+    const double passes = 2.0 * passesOfHalf(coarse) + passesThatGather + passesThatCount + 2 * mostTimedPaths;
+    return passes * coarse.width * coarse.height / (double(camera.width) * camera.height);
+}
+
+// Two halves that know nothing of each other, relative to one brightness.
+void PathPilot::measure() {
+    const FilmImage halves[2] = {render(Brings::ownLight, 0, passes_), render(Brings::ownLight, passes_, passes_)};
+    std::vector<float> brightness = halves[0].radiance;
+    for (size_t k = 0; k < brightness.size(); ++k) brightness[k] = (brightness[k] + halves[1].radiance[k]) / 2;
+    if (photons_.areTaken()) {
+        photons_.traceUncounted(0);
+        addPhotons(render(Brings::allLight, 0, passesThatGather), brightness);
+    }
+    const std::vector<double> cost = costByBlock();
+    for (unsigned k = 0; k < 2; ++k) {
+        const unsigned tiles = std::max(coarse_.width, coarse_.height);
+        halves_[k] = {coarse_.width, coarse_.height, errorByTile(halves[k], tiles, brightness).noise, cost};
+    }
+}
+
+std::vector<double> PathPilot::costByBlock() {
+    const FilmImage counted = render(Brings::rays, 0, passesThatCount);
+    std::vector<double> cost;
+    cost.reserve(counted.radiance.size() / 3);
+    for (size_t k = 0; k < counted.radiance.size(); k += 3)
+        cost.push_back(1 + costOfEvent * std::max(0.0, counted.radiance[k] - 1.0));
+    return cost;
+}
+
+FilmImage PathPilot::render(Brings brings, unsigned from, unsigned passes) {
+    Film film(device_, coarse_.width, coarse_.height, layout, Film::inOneBuffer, owner);
+    const PathCounts one(device_, coarse_, 1);
+    for (unsigned pass = 0; pass < passes; ++pass) {
+        paths_.runCoarse(film, coarse_, from + pass, brings, one, photons_.stage());
+        film.endPass();
+    }
+    return film.develop(passes);
+}
+
+std::vector<uint32_t> PathPilot::allocate(unsigned paths) {
+    return allocatePaths(meanOf(halves_[0], halves_[1]), paths);
+}
+
+double PathPilot::secondsOf(const PathCounts& paths) {
+    Film film(device_, coarse_.width, coarse_.height, layout, Film::inOneBuffer, owner);
+    device_.finish();
+    const Stopwatch watch;
+    paths_.runCoarse(film, coarse_, 0, Brings::ownLight, paths, photons_.stage());
+    device_.finish();
+    return watch.seconds();
+}
+
+SamplingGain PathPilot::gain(unsigned paths) {
+    double inverse = 0; // of the variance that is saved
+    for (unsigned k = 0; k < 2; ++k)
+        inverse += 0.5 / varianceSaved(halves_[1 - k], allocatePaths(halves_[k], paths), paths);
+    const unsigned timed = std::min(paths, mostTimedPaths);
+    const double byPixel = secondsOf({device_, coarse_, 1, allocate(timed)}),
+                 even = secondsOf({device_, coarse_, timed});
+    return {1 / inverse, byPixel / even};
+}
+
+} // namespace quasilux

@@ -1,0 +1,40 @@
+// A pilot that finds where camera paths have their noise, before the first pass (docs/method/auto.md, Camera paths by pixel).
+#pragma once
+
+#include "render/camera_stage.h"
+#include "render/pass_photons.h"
+#include "render/path_allocation.h"
+#include "render/sampling_gain.h"
+
+namespace quasilux {
+
+/// Traces photons, where they are taken, and coarse camera paths; leaves nothing in the image. What it finds is a function of the scene, the settings and the
+/// seed alone, but for times.
+class PathPilot {
+public:
+    PathPilot(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera);
+
+    /// Bytes of its buffers by label, while it runs.
+    static std::map<std::string, uint64_t> plan(const shared::Camera& camera);
+    /// Camera paths that allocate() and gain() trace together, as a multiple of the image's pixels.
+    static double pathsByPixel(const shared::Camera& camera);
+
+    /// Paths in a pass of each block of coarseBlock() pixels, `paths` in the mean.
+    std::vector<uint32_t> allocate(unsigned paths);
+    SamplingGain gain(unsigned paths);
+
+private:
+    void measure();
+    FilmImage render(CameraStage::Brings brings, unsigned from, unsigned passes);
+    std::vector<double> costByBlock();
+    double secondsOf(const PathCounts& paths);
+
+    Device& device_;
+    CameraStage& paths_;
+    PassPhotons& photons_;
+    shared::Camera coarse_;
+    unsigned passes_; // of each half
+    PathNoise halves_[2];
+};
+
+} // namespace quasilux
