@@ -112,6 +112,7 @@ inline PathPlace pathPlace(const World* world, uint index, float2 even) {
     place.pixel = index / pathsPerPixel(params);
     place.inside = filterPlace(&params->camera, world->tables, place.pixel, even);
 #endif
+    place.inside.offset *= params->spread;
     return place;
 }
 

@@ -150,6 +150,7 @@ typedef struct {
     unsigned int radiusBlock;     /* pixels of a row and column that share a density radius */
     unsigned int
         coarseness; /* pixels of a row and column of the image that one of this camera stands for: 1, but of pilots */
+    float spread;   /* of places in a pixel about its centre: 1; 1 / coarseness: within a single pixel of the image */
     unsigned int
         countsEvents;  /* 1: what a path brings is not light but how many rays it follows, in the first component */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */

@@ -125,6 +125,43 @@ TEST(PathAllocation, LeavesTheMean) {
     EXPECT_GT(std::abs(wrong.mean - 1), 5 * wrong.standardError) << "negative control";
 }
 
+FilmImage renderLarge(CameraSampling sampling, uint64_t seed, unsigned paths) {
+    RenderSettings settings;
+    settings.bdd = 1;
+    settings.photonsPerPass = 4000;
+    settings.cameraPaths = paths;
+    settings.cameraSampling = sampling;
+    settings.seed = seed;
+    Renderer renderer(testDevice(), projectScene("cornell_phong.xml", {{"resolution", "145"}}), settings);
+    for (unsigned pass = 0; pass < 2; ++pass) renderer.renderPass(pass);
+    if (sampling == CameraSampling::adaptive) {
+        EXPECT_TRUE(renderer.countGathered()) << "its paths are those of the pass";
+    }
+    return renderer.develop();
+}
+
+// Blocks of several pixels, cut off at the edges of an image of 145 x 145: direct light of its right and lower quarter, as above (0.16 %).
+TEST(PathAllocation, LeavesTheMeanInLargerImages) {
+    std::vector<double> ratios;
+    const auto cornerOf = [](const FilmImage& image) {
+        double sum = 0;
+        for (unsigned y = 73; y < 145; ++y)
+            for (unsigned x = 73; x < 145; ++x) sum += image.components[LIGHT_DIRECT].at(3 * (size_t{y} * 145 + x));
+        return sum;
+    };
+    for (uint64_t seed = 1; seed <= 8; ++seed)
+        ratios.push_back(cornerOf(renderLarge(CameraSampling::adaptive, seed, 4)) /
+                         cornerOf(renderLarge(CameraSampling::even, seed, 4)));
+    const MeanAndError found = meanAndError(ratios);
+    EXPECT_NEAR(found.mean, 1, 5 * found.standardError);
+    EXPECT_LT(found.standardError, 0.03) << "or else a sixth of the light missing would not be seen";
+}
+
+// Nothing can be moved.
+TEST(PathAllocation, OnePathIsEven) {
+    EXPECT_EQ(renderLarge(CameraSampling::adaptive, 1, 1).radiance, renderLarge(CameraSampling::even, 1, 1).radiance);
+}
+
 TEST(PathAllocation, SameSeedGivesTheSameBits) {
     const FilmImage first = render(CameraSampling::adaptive, 5), again = render(CameraSampling::adaptive, 5);
     EXPECT_EQ(first.radiance, again.radiance);

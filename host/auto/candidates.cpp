@@ -234,7 +234,7 @@ std::string text(const RenderSettings& settings, unsigned photons) {
                                      name(settings.variant), settings.quasiSpecular, photons, settings.radiusScale);
     if (settings.caustics == CausticLight::paths) method += ", caustics by paths";
     const bool isAdaptive = settings.cameraSampling == CameraSampling::adaptive;
-    if (settings.cameraPaths == 1 && !isAdaptive) return method;
+    if (settings.cameraPaths == 1) return method;
     return fmt::format("{}, {} camera paths{}", method, settings.cameraPaths, isAdaptive ? " (adaptive)" : "");
 }
 

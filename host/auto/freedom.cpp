@@ -23,8 +23,9 @@ bool statesSplit(const Scene& scene) {
 
 Freedom freedomOf(const Scene& scene, AutoMode mode) {
     if (mode == AutoMode::off) return {};
-    if (mode == AutoMode::all) return {true, true, true, true, true, true, true, true};
     const SceneSettings& said = scene.settings;
+    // Paths by pixel are judged by pilots that have the same number in all.
+    if (mode == AutoMode::all) return {true, true, true, true, true, true, true, !said.cameraSampling};
     return {!said.bdd, !statesSplit(scene), !said.variant,  !said.photons,
             true,      !said.cameraPaths,   !said.caustics, !said.cameraPaths && !said.cameraSampling};
 }

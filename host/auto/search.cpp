@@ -131,7 +131,7 @@ SearchResult Search::withItsPaths(Contender& first, std::unique_ptr<Pilot> kept)
 CameraSampling Search::samplingOf(Contender& contender, const PilotMeasure& measure, unsigned cameraPaths) {
     const CameraSampling before = contender.settings.cameraSampling;
     const double ofPath = (measure.secondsPerPass - measure.secondsOfPhotons) / cameraPaths;
-    if (!freedom_.cameraSampling || interrupted() ||
+    if (!freedom_.cameraSampling || cameraPaths == 1 || interrupted() ||
         contender.pilot->pathsOfSamplingGain() * ofPath > shareOfSamplingPilot * secondsLeft())
         return before;
     SamplingGain gain;

@@ -89,7 +89,8 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         .add_option(
             "--camera-sampling", options.cameraSampling,
             "Camera paths by pixel: even (all have the same number) or adaptive (more where they have more noise, "
-            "found by a pilot) (default: the scene's, else searched, else even)")
+            "found by a pilot, where there are several) (default: the scene's, else searched unless --camera-paths is "
+            "given, else even)")
         ->type_name("NAME")
         ->check(oneOf(choiceNames<CameraSampling>()))
         ->group(group);

@@ -68,6 +68,10 @@ private:
         if (edits_.variant) now.variant = edits_.variant;
         if (edits_.direct) now.direct = edits_.direct;
         if (edits_.map) now.map = edits_.map;
+        if (edits_.map == name(MapOrder::camera)) {
+            now.cameraPaths.reset();
+            now.cameraSampling.reset();
+        }
         if (edits_.quasiSpecular) now.quasiSpecular = edits_.quasiSpecular;
         if (edits_.bdd || edits_.variant || edits_.direct || edits_.map || edits_.quasiSpecular)
             now.caustics = caustics_;

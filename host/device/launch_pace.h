@@ -21,6 +21,9 @@ public:
         if (items > 0 && seconds > 0) secondsPerItem_ = seconds / static_cast<double>(items);
     }
 
+    /// Work-items to come have nothing to do with those before.
+    void forget() { secondsPerItem_ = 0; }
+
     /// Work-items of the next launch, whole groups, where `left` are left.
     size_t next(size_t left, size_t group, double longest = longestLaunchSeconds) const {
         size_t items = secondsPerItem_ > 0 ? static_cast<size_t>(std::min(longest / secondsPerItem_, 1e18))

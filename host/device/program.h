@@ -46,8 +46,11 @@ public:
         longestPart_ = longest;
     }
 
-    /// The launches so far were of no work, made so that the runtime compiles the kernel.
-    void forgetPace() { lastCount_ = 0; }
+    /// The launches so far were of other work, or of none, made so that the runtime compiles the kernel.
+    void forgetPace() {
+        lastCount_ = 0;
+        pace_.forget();
+    }
 
 private:
     template <typename... Args>

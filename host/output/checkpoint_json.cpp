@@ -136,6 +136,7 @@ void visitSearch(Visit& visit, Search& s) {
     visit("photons", s.freedom.photons);
     visit("radius", s.freedom.radius);
     visit("cameraPaths", s.freedom.cameraPaths);
+    visit("caustics", s.freedom.caustics);
     visit("cameraSampling", s.freedom.cameraSampling);
     visit("notSearched", s.notSearched);
     visit("chosen", s.chosen);

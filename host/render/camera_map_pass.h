@@ -11,7 +11,7 @@ public:
     explicit CameraMapPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
-    uint64_t cameraPaths() const override { return context_.film.pixels(); }
+    uint64_t cameraPaths() const override { return context_.film.pixels() * context_.flat.offsets.meter.samples; }
 
 private:
     const PassContext& context_;

@@ -10,7 +10,7 @@ namespace {
 
 // Where somebody waits for rows of the film, so that pictures come twice a second (docs/notes/live-view.md).
 constexpr double longestAwaitedSeconds = 0.2;
-// Added to the seed: what a pilot decides must know nothing of the image.
+// Added to the seed: what a pilot decides must know nothing of the image's camera paths.
 constexpr unsigned coarseSeed = 0x7F4A7C15u;
 const std::string ofOnePath = "pilot's ";
 
@@ -28,7 +28,7 @@ std::map<std::string, uint64_t> CameraStage::plan(const shared::Camera& camera, 
 
 void CameraStage::compile(const PhotonStage& photons) {
     const PixelTables ofFirst = tables(0);
-    params_.pathBlock = ofFirst.paths.block();
+    params_.pathBlock = paths_.block();
     if (shared_)
         shared_->compile(film_, params_, geometry_, tracer(film_, ofFirst, photons));
     else
@@ -86,6 +86,7 @@ const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage
     params_.pass = pass;
     params_.map = photons.table().map();
     params_.radiusBlock = radii_ ? radii_->block() : 1;
+    params_.pathBlock = paths_.block();
     return params_;
 }
 
@@ -107,6 +108,7 @@ void CameraStage::runCoarse(Film& film, const shared::Camera& camera, unsigned p
     ofPilot.seedLow += coarseSeed;
     ofPilot.camera = camera;
     ofPilot.coarseness = coarseBlock(params_.camera);
+    ofPilot.spread = 1.f / static_cast<float>(ofPilot.coarseness);
     ofPilot.radiusBlock = 1;
     if (brings != Brings::allLight) ofPilot.gatheringPaths = 0;
     ofPilot.countsEvents = brings == Brings::rays;

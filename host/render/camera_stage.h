@@ -34,7 +34,10 @@ public:
 
     /// What these read by pixel.
     PixelTables tables(unsigned pass) const;
-    void setPaths(PathCounts paths) { paths_ = std::move(paths); }
+    void setPaths(PathCounts paths) {
+        paths_ = std::move(paths);
+        traceCameraPaths_.forgetPace(); // work-items had other paths
+    }
     const PathCounts& paths() const { return paths_; }
 
     void run(unsigned pass, const PhotonStage& photons);
@@ -44,7 +47,8 @@ public:
 
     /// What the paths of a pilot bring: light that they find themselves, that and what photons carry, or how many rays they follow, as an image.
     enum class Brings { ownLight, allLight, rays };
-    /// Pass `pass` of a pilot, `paths` of each pixel of a coarse camera, a batch of the film of that camera; random numbers are its own.
+    /// Pass `pass` of a pilot, `paths` of each pixel of a coarse camera, a batch of the film of that camera; random numbers are its own. They begin within a
+    /// single pixel of the image, in the middle: what differs between pixels is no noise.
     void runCoarse(Film& film, const shared::Camera& camera, unsigned pass, Brings brings, const PathCounts& paths,
                    const PhotonStage& photons);
 

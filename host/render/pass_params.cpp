@@ -54,6 +54,7 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     params.maxDepth = maxDepth;
     params.gatheringPaths = 1;
     params.coarseness = 1;
+    params.spread = 1;
     params.directSamples = 1;
     params.causticsByPaths = settings.caustics == CausticLight::paths;
     params.camera = flat.camera;

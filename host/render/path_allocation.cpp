@@ -71,12 +71,16 @@ double costOf(const PathNoise& noise, const std::vector<uint32_t>& counts) {
 std::vector<uint32_t> allocatePaths(const PathNoise& noise, unsigned paths) {
     const std::vector<double> shares = sharesOf(noise);
     const double most = costOf(noise, std::vector<uint32_t>(shares.size(), paths));
-    double low = 0, high = 2.0 * paths; // of their mean: rounding moves the cost
+    double low = 0, high = mostTimesMean * paths; // of their mean: rounding and the largest shares move the cost
     for (int step = 0; step < 20; ++step) {
         const double middle = (low + high) / 2;
         (costOf(noise, countsOf(shares, middle)) > most ? high : low) = middle;
     }
     return countsOf(shares, low);
+}
+
+double costShare(const PathNoise& noise, const std::vector<uint32_t>& counts, unsigned paths) {
+    return costOf(noise, counts) / costOf(noise, std::vector<uint32_t>(counts.size(), paths));
 }
 
 double varianceSaved(const PathNoise& noise, const std::vector<uint32_t>& counts, unsigned paths) {

@@ -21,6 +21,9 @@ std::vector<uint32_t> allocatePaths(const PathNoise& noise, unsigned paths);
 /// rare path that was met there would be counted as removed.
 double varianceSaved(const PathNoise& noise, const std::vector<uint32_t>& counts, unsigned paths);
 
+/// What `counts` cost, as a share of `paths` of each pixel.
+double costShare(const PathNoise& noise, const std::vector<uint32_t>& counts, unsigned paths);
+
 PathNoise meanOf(const PathNoise& a, const PathNoise& b);
 
 } // namespace quasilux

@@ -31,16 +31,20 @@ unsigned passesOfHalf(const shared::Camera& coarse) {
         std::clamp(pathsOfHalf / (double(coarse.width) * coarse.height), fewestPasses, mostPasses));
 }
 
-void addPhotons(const FilmImage& gathered, std::vector<float>& radiance) {
-    for (unsigned c = LIGHT_DIRECT + 1; c < LIGHT_CLASSES; ++c)
-        for (size_t k = 0; k < gathered.components[c].size(); ++k) radiance[k] += gathered.components[c][k];
+// What photons carry, of `classes` (bits); paths may find a part of its direct light themselves, which is there already.
+void addPhotons(const FilmImage& gathered, const FilmImage& found, unsigned classes, std::vector<float>& radiance) {
+    const auto at = [](const std::vector<float>& values, size_t k) { return values.empty() ? 0.f : values[k]; };
+    for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
+        for (size_t k = 0; k < radiance.size() && (classes >> c & 1); ++k)
+            radiance[k] += at(gathered.components[c], k) - at(found.components[c], k);
 }
 
 } // namespace
 
-PathPilot::PathPilot(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera)
+PathPilot::PathPilot(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera,
+                     unsigned classes)
     : device_(device), paths_(paths), photons_(photons), coarse_(coarseOf(camera)), passes_(passesOfHalf(coarse_)) {
-    measure();
+    measure(classes);
 }
 
 std::map<std::string, uint64_t> PathPilot::plan(const shared::Camera& camera) {
@@ -50,18 +54,18 @@ std::map<std::string, uint64_t> PathPilot::plan(const shared::Camera& camera) {
 
 double PathPilot::pathsByPixel(const shared::Camera& camera) {
     const shared::Camera coarse = coarseOf(camera);
-    const double passes = 2.0 * passesOfHalf(coarse) + passesThatGather + passesThatCount + 2 * mostTimedPaths;
+    const double passes = 2.0 * passesOfHalf(coarse) + passesThatGather + passesThatCount + 4 * mostTimedPaths;
     return passes * coarse.width * coarse.height / (double(camera.width) * camera.height);
 }
 
 // Two halves that know nothing of each other, relative to one brightness.
-void PathPilot::measure() {
+void PathPilot::measure(unsigned classes) {
     const FilmImage halves[2] = {render(Brings::ownLight, 0, passes_), render(Brings::ownLight, passes_, passes_)};
     std::vector<float> brightness = halves[0].radiance;
     for (size_t k = 0; k < brightness.size(); ++k) brightness[k] = (brightness[k] + halves[1].radiance[k]) / 2;
     if (photons_.areTaken()) {
         photons_.traceUncounted(0);
-        addPhotons(render(Brings::allLight, 0, passesThatGather), brightness);
+        addPhotons(render(Brings::allLight, 0, passesThatGather), halves[0], classes, brightness);
     }
     const std::vector<double> cost = costByBlock();
     for (unsigned k = 0; k < 2; ++k) {
@@ -81,7 +85,7 @@ std::vector<double> PathPilot::costByBlock() {
 
 FilmImage PathPilot::render(Brings brings, unsigned from, unsigned passes) {
     Film film(device_, coarse_.width, coarse_.height, layout, Film::inOneBuffer, owner);
-    const PathCounts one(device_, coarse_, 1);
+    const PathCounts one(device_, coarse_, 1, owner);
     for (unsigned pass = 0; pass < passes; ++pass) {
         paths_.runCoarse(film, coarse_, from + pass, brings, one, photons_.stage());
         film.endPass();
@@ -106,10 +110,14 @@ SamplingGain PathPilot::gain(unsigned paths) {
     double inverse = 0; // of the variance that is saved
     for (unsigned k = 0; k < 2; ++k)
         inverse += 0.5 / varianceSaved(halves_[1 - k], allocatePaths(halves_[k], paths), paths);
+    // Fewer than asked for are timed: how far the modelled cost is off does not depend on the number.
+    const PathNoise noise = meanOf(halves_[0], halves_[1]);
     const unsigned timed = std::min(paths, mostTimedPaths);
-    const double byPixel = secondsOf({device_, coarse_, 1, allocate(timed)}),
-                 even = secondsOf({device_, coarse_, timed});
-    return {1 / inverse, byPixel / even};
+    const std::vector<uint32_t> counts = allocatePaths(noise, timed);
+    const PathCounts byPixel(device_, coarse_, 1, counts, owner), even(device_, coarse_, timed, owner);
+    const double first = secondsOf(byPixel), evenly = secondsOf(even) + secondsOf(even), last = secondsOf(byPixel);
+    const double measuredOverModel = (first + last) / evenly / costShare(noise, counts, timed);
+    return {1 / inverse, measuredOverModel * costShare(noise, allocatePaths(noise, paths), paths)};
 }
 
 } // namespace quasilux

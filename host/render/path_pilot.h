@@ -12,7 +12,8 @@ namespace quasilux {
 /// seed alone, but for times.
 class PathPilot {
 public:
-    PathPilot(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera);
+    /// `classes`: bits of the light that photons carry.
+    PathPilot(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera, unsigned classes);
 
     /// Bytes of its buffers by label, while it runs.
     static std::map<std::string, uint64_t> plan(const shared::Camera& camera);
@@ -24,7 +25,7 @@ public:
     SamplingGain gain(unsigned paths);
 
 private:
-    void measure();
+    void measure(unsigned classes);
     FilmImage render(CameraStage::Brings brings, unsigned from, unsigned passes);
     std::vector<double> costByBlock();
     double secondsOf(const PathCounts& paths);

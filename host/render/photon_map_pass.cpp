@@ -16,10 +16,13 @@ PhotonMapPass::PhotonMapPass(const PassContext& context) : context_(context) {
                     context.settings.cameraPaths, radii_ ? &*radii_ : nullptr, samples_ ? &*samples_ : nullptr);
     photons_.emplace(context, [&](const PhotonStage& pilot) { camera_->compile(pilot); });
     forecast_ = photons_->forecast();
-    if (context.settings.cameraSampling == CameraSampling::adaptive) allocatePaths();
+    if (context.settings.cameraSampling == CameraSampling::adaptive && context.settings.cameraPaths > 1)
+        allocatePaths();
 }
 
-PathPilot PhotonMapPass::pathPilot() { return {context_.device, *camera_, *photons_, context_.flat.camera}; }
+PathPilot PhotonMapPass::pathPilot() {
+    return {context_.device, *camera_, *photons_, context_.flat.camera, context_.classes};
+}
 
 void PhotonMapPass::allocatePaths() {
     const shared::Camera& camera = context_.flat.camera;
