@@ -85,6 +85,8 @@ TEST_F(ManualTest, ProgramAndCodeWriteTheSame) {
 
 TEST_F(ManualTest, BashOffersWhatFits) {
     EXPECT_EQ(offered({"quasilux", "rend"}), "render\n");
+    EXPECT_EQ(offered({"quasilux", "scen"}), "scene.xml\n");
+    EXPECT_EQ(offered({"quasilux", "scene.xml", "--varia"}), "--variant\n") << "as of render";
     EXPECT_EQ(offered({"quasilux", "render", "--varia"}), "--variant\n");
     EXPECT_EQ(offered({"quasilux", "render", "--variant", "''"}), "main alternative\n");
     EXPECT_EQ(offered({"quasilux", "render", "--variant", "a"}), "alternative\n");

@@ -70,20 +70,21 @@ std::string bashCompletion(CLI::App& program) {
         options += fmt::format("            {}) options='{}' ;;\n", command->get_name(),
                                fmt::join(optionNames(*command), " "));
     }
-    return fmt::format("# Completion of quasilux for bash, made by quasilux {}.\n"
+    return fmt::format("# Completion of quasilux for bash, made by quasilux {0}.\n"
                        "_quasilux() {{\n"
                        "    local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} "
                        "command=${{COMP_WORDS[1]}} options=\n"
                        "    COMPREPLY=()\n"
                        "    if ((COMP_CWORD == 1)); then\n"
-                       "        mapfile -t COMPREPLY < <(compgen -W '{} {}' -- \"$word\")\n"
+                       "        mapfile -t COMPREPLY < <(compgen -W '{1} {2}' -- \"$word\"; compgen -f -- \"$word\")\n"
                        "        return\n"
                        "    fi\n"
+                       "    [[ ' {1} ' == *\" $command \"* ]] || command=render\n"
                        "    case $command,$before in\n"
-                       "{}"
+                       "{3}"
                        "    esac\n"
                        "    case $command in\n"
-                       "{}"
+                       "{4}"
                        "    esac\n"
                        "    if [[ $word == -* ]]; then\n"
                        "        mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
@@ -102,8 +103,9 @@ std::string zshCompletion(CLI::App& program) {
                                    QUASILUX_VERSION);
     for (CLI::App* command : listedCommands(program))
         text += fmt::format("    '{}:{}'\n", command->get_name(), quoted(shortened(command->get_description()), true));
-    text += ")\nif ((CURRENT == 2)); then\n    _describe command commands\n    return\nfi\n"
-            "local command=$words[2]\nshift words\n((CURRENT--))\ncase $command in\n";
+    text += ")\nif ((CURRENT == 2)); then\n    _describe command commands\n    _files\n    return\nfi\n"
+            "local command=$words[2]\n((${commands[(I)$command:*]})) || command=render\nshift "
+            "words\n((CURRENT--))\ncase $command in\n";
     for (CLI::App* command : listedCommands(program)) {
         text += fmt::format("{})\n    _arguments \\\n", command->get_name());
         for (const ListedOption& option : listedOptions(*command)) {
@@ -126,7 +128,7 @@ std::string zshCompletion(CLI::App& program) {
 std::string fishCompletion(CLI::App& program) {
     std::string text = fmt::format("# Completion of quasilux for fish, made by quasilux {}.\n", QUASILUX_VERSION);
     for (CLI::App* command : listedCommands(program))
-        text += fmt::format("complete -c quasilux -n __fish_use_subcommand -f -a {} -d '{}'\n", command->get_name(),
+        text += fmt::format("complete -c quasilux -n __fish_use_subcommand -a {} -d '{}'\n", command->get_name(),
                             quoted(shortened(command->get_description()), false));
     for (CLI::App* command : listedCommands(program))
         for (const ListedOption& option : listedOptions(*command)) {

@@ -43,7 +43,7 @@ public:
         fmt::print("{}\n", view_.address());
         std::fflush(stdout); // a program that reads it is to have it at once
         while (!interruptFlag()) {
-            const auto why = failureOf([&] { renderOnce(); });
+            const auto why = failureOf([&] { renderUntilChange(); });
             if (why) view_.state().setProblem(*why);
             if (why && !interruptFlag()) waitForChange();
             takeChanges();
@@ -82,6 +82,14 @@ private:
         progress_.clear();
         for (const auto& warning : warnings)
             if (!options_.quiet) printWarning(warning);
+    }
+
+    // A change does not wait for the end of a pass, which is long where the film is large.
+    void renderUntilChange() {
+        try {
+            renderOnce();
+        } catch (const PassAbandoned&) {
+        }
     }
 
     void renderOnce() {

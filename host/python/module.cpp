@@ -97,7 +97,11 @@ std::string devicesJson() {
 }
 
 RadianceImage imageOf(const py::handle& given, const std::string& name) {
-    if (py::isinstance<py::str>(given)) return readRadiance(py::cast<std::string>(given));
+    if (py::isinstance<py::str>(given)) {
+        const auto path = py::cast<std::string>(given);
+        const py::gil_scoped_release release;
+        return readRadiance(path);
+    }
     if (py::isinstance<Rendered>(given)) return radianceOf(py::cast<const Rendered&>(given), name);
     return radianceOf(py::cast<py::array_t<float, py::array::c_style | py::array::forcecast>>(given), name);
 }
@@ -146,7 +150,9 @@ void defineErrors(py::module_& module) {
 }
 
 void defineScene(py::module_& module) {
-    py::class_<LoadedScene>(module, "Scene")
+    py::class_<LoadedScene>(
+        module, "Scene",
+        "A scene that load() has read, for render() and meter(). Parameters and what is in it do not change any more.")
         .def_property_readonly("path", [](const LoadedScene& self) { return self.scene->path; })
         .def_property_readonly("width", [](const LoadedScene& self) { return self.scene->sensor.width; })
         .def_property_readonly("height", [](const LoadedScene& self) { return self.scene->sensor.height; })
@@ -165,7 +171,9 @@ void defineScene(py::module_& module) {
 
 void defineRender(py::module_& module) {
     const auto orNone = [](double value) { return value < 0 ? std::nullopt : std::optional(value); };
-    py::class_<Progress>(module, "Progress")
+    py::class_<Progress>(
+        module, "Progress",
+        "How far a render has come, for its callback: times in seconds, error as an estimated ratio to the image.")
         .def_readonly("phase", &Progress::phase)
         .def_readonly("passes", &Progress::passes)
         .def_readonly("seconds", &Progress::seconds)

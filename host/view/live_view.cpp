@@ -59,7 +59,10 @@ void LiveView::onProgress(const Progress& progress) {
 void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
     syncSignal();
     const auto passes = static_cast<unsigned>(renderer.counters().passes);
-    const auto onRows = [this, &renderer, &soFar] { errands_.doDue({renderer, soFar, ++moment_, true, true}); };
+    const auto onRows = [this, &renderer, &soFar] {
+        if (hasEdits_) throw PassAbandoned();
+        errands_.doDue({renderer, soFar, ++moment_, true, true});
+    };
     renderer.film().watchRows(isLast ? std::function<void()>() : onRows, errands_.areAwaited());
     const char* over = isStopped_ ? "stopped" : "done";
     if (passes == 0) { // the method has been chosen

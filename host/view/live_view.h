@@ -8,6 +8,7 @@
 #include "view/live_state.h"
 
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,6 +24,11 @@ struct ViewOptions {
     std::string listen = "127.0.0.1";
     unsigned port = 0;        ///< 0: any that is free
     bool opensBrowser = true; ///< where there is a desktop
+};
+
+/// Thrown in the middle of a pass, which is lost: something else is to be rendered. Not for a stop, which keeps the pass.
+struct PassAbandoned : std::exception {
+    const char* what() const noexcept override { return "something else is to be rendered"; }
 };
 
 class LiveView {
@@ -43,6 +49,7 @@ public:
                bool isEndless);
     /// Both are called by the thread that renders.
     void onProgress(const Progress& progress);
+    /// From then on until the next call, passes throw PassAbandoned where rows of the film are done and an edit has come.
     void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
     /// Its render is over, but the view goes on until somebody wants something else, or `isOver()`: errands are done meanwhile.
     void waitWith(const AutoRender& soFar, const Renderer& renderer, const std::function<bool()>& isOver);

@@ -57,6 +57,7 @@ class Page(unittest.TestCase):
         """Of a render that was stopped."""
         passes = self.view.wait(lambda state: state["phase"] == "stopped")["passes"]
         self.browser.wait(f"document.body.dataset.passes == {passes} && /stopped/.test(document.getElementById('status').textContent)")
+        self.assertEqual(self.browser.run("document.getElementById('phase').textContent"), "stopped", "what a screen reader says")
 
     def test_the_picture_appears_and_sharpens(self):
         seen = self.picture()
@@ -126,6 +127,10 @@ class Page(unittest.TestCase):
         self.browser.mouse("mouseMoved", x + 50, y, 1)
         self.browser.mouse("mouseReleased", x + 50, y)
         self.assertNotEqual(float(self.browser.run("document.getElementById('yaw').value")), 0)
+        self.assertIn("move the camera", self.browser.run("document.getElementById('pointer-help').textContent"))
+        self.browser.run("document.getElementById('drag-camera').click()")
+        self.assertIn("moves the picture", self.browser.run("document.getElementById('pointer-help').textContent"))
+        self.browser.run("document.getElementById('drag-camera').click()")
         self.view.wait(lambda state: state["render"] > renders and state["passes"] > 0)
         self.browser.wait("document.getElementById('pixel').tBodies[0].rows.length > 1")
         self.browser.run("document.getElementById('camera-reset').click(), document.getElementById('picture').focus()")
@@ -151,6 +156,8 @@ class Page(unittest.TestCase):
         controls = [node for node in focusable if value(node, "role") != "RootWebArea"]
         self.assertGreater(len(controls), 15)
         self.assertEqual([value(node, "role") for node in controls if not value(node, "name")], [])
+        roles = {value(node, "role") for node in tree}
+        self.assertLessEqual({"application", "status", "complementary", "slider", "combobox", "spinbutton"}, roles)
         self.browser.resize(360, 740, mobile=True)
         self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 360)
 

@@ -3,6 +3,7 @@
 http_test.py PROGRAM SOURCE_FOLDER. Renders have a seed, so that figures are the same on every run."""
 
 import json
+import socket
 import sys
 import tempfile
 import unittest
@@ -19,15 +20,31 @@ SMALL = ["-D", "resolution=48", "--photons", "4000"]
 PASSES = 6
 
 
-def pixels_of(content):
-    """R, G, B of an image that came by HTTP."""
-    with tempfile.NamedTemporaryFile(suffix=".exr") as file:
+def pixels_of(content, kind=".exr", names=("R", "G", "B")):
+    """Channels of an image that came by HTTP."""
+    with tempfile.NamedTemporaryFile(suffix=kind) as file:
         file.write(content)
         file.flush()
         image = OpenImageIO.ImageInput.open(file.name)
-        pixels = image.read_image(0, 3, OpenImageIO.FLOAT)
+        channels = [image.spec().channelindex(name) for name in names]
+        pixels = image.read_image(OpenImageIO.FLOAT)
         image.close()
-    return pixels
+    return pixels[:, :, channels]
+
+
+class Addresses(unittest.TestCase):
+    def test_one_that_others_reach_takes_the_token_too(self):
+        with Viewed(PROGRAM, SCENE, *SMALL, "--listen", "0.0.0.0") as view:
+            host = {"Host": f"{view.host}:{view.port}"}
+            self.assertEqual(view.ask("/", headers=host)[0], 403)
+            self.assertEqual(view.ask(f"/{view.token}/state", headers=host)[0], 200, "control")
+            socket.create_connection(("127.0.0.2", view.port), 5).close()
+
+    def test_the_usual_one_is_the_loopback_alone(self):
+        with Viewed(PROGRAM, SCENE, *SMALL) as view:
+            with self.assertRaises(ConnectionRefusedError):
+                socket.create_connection(("127.0.0.2", view.port), 5)
+            socket.create_connection(("127.0.0.1", view.port), 5).close()  # control
 
 
 class DoneRender(unittest.TestCase):
@@ -83,7 +100,13 @@ class DoneRender(unittest.TestCase):
         numpy.testing.assert_allclose(frame, image, rtol=2 ** -11, atol=2 ** -25 / header["scale"])
         pixel = json.loads(self.view.get("pixel", x=20, y=30)[2])
         self.assertEqual(pixel["value"], image[30, 20].tolist())
+        errors = pixels_of(self.view.get("image.exr")[2], names=("stderr.R", "stderr.G", "stderr.B"))
+        self.assertEqual(pixel["stderr"], errors[30, 20].tolist())
         self.assertGreater(min(pixel["stderr"]), 0)
+
+    def test_the_png_has_the_exposure_that_is_asked_for(self):
+        dark, bright = (pixels_of(self.view.get("image.png", exposure=scale)[2], ".png").mean() for scale in (0.25, 4))
+        self.assertLess(1.5 * dark, bright)
 
     def test_thinned_pictures_are_means_of_blocks(self):
         image = pixels_of(self.view.get("image.exr")[2])
@@ -191,6 +214,18 @@ class RunningRender(unittest.TestCase):
             stopped = view.wait(lambda state: state["phase"] == "stopped")
             self.assertIsNone(stopped["secondsLeft"])
             self.assertEqual(view.frame()[0]["passes"], stopped["passes"])
+
+    def test_a_change_does_not_wait_for_the_end_of_a_pass(self):
+        with Viewed(PROGRAM, SCENE, "-D", "resolution=1536", "--photons", "4000") as view:
+            view.wait(lambda state: state["passes"] >= 1)
+            view.get("frame")  # somebody looks on
+            before = view.wait(lambda state: state["passes"] >= 2)
+            self.assertEqual(view.post("edit", bdd=1)[0], 200)
+            passes = before["passes"]
+            while (state := view.state())["render"] == before["render"]:
+                passes = max(passes, state["passes"])
+            self.assertEqual(passes, before["passes"], "the pass that had begun is given up")
+            self.assertEqual(view.state()["problem"], "")
 
     def test_a_watched_render_writes_the_same_image(self):
         options = [*SMALL, "--passes", "40", "-o", "out.exr"]

@@ -29,7 +29,8 @@ class Installed(unittest.TestCase):
 
     def test_program_runs_where_it_is(self):
         self.assertRegex(run(self.prefix / "bin/quasilux", "--version"), r"^quasilux \d+\.\d+\.\d+\n$")
-        for name in ["man/man1/quasilux-render.1", "bash-completion/completions/quasilux", "zsh/site-functions/_quasilux"]:
+        for name in ["man/man1/quasilux-render.1", "bash-completion/completions/quasilux", "zsh/site-functions/_quasilux",
+                     "fish/vendor_completions.d/quasilux.fish"]:
             self.assertTrue((self.prefix / "share" / name).is_file(), name)
 
     def test_nothing_refers_to_the_source_or_build_folder(self):

@@ -72,11 +72,19 @@ function showLayers(layers) {
   if (layers.includes(chosen)) select.value = chosen;
 }
 
+function showPointerHelp() {
+  byId('pointer-help').textContent = controls.dragsCamera
+    ? 'Dragging and the wheel move the camera, with Shift the picture; two fingers zoom.'
+    : 'Dragging moves the picture; the wheel and two fingers zoom.';
+}
+
 function showState() {
   const isRunning = !['stopped', 'done', 'ended'].includes(state.phase);
   document.title = `${state.scene} · quasilux`;
   byId('scene').textContent = state.scene || 'quasilux';
   byId('status').textContent = statusText();
+  // Readers say this when it changes; the numbers above change too often for that.
+  if (byId('phase').textContent !== state.phase) byId('phase').textContent = state.phase;
   byId('stop').disabled = !isRunning;
   const progress = byId('progress');
   progress.hidden = state.secondsLeft === null || !isRunning;
@@ -85,6 +93,7 @@ function showState() {
   showProblem();
   showLayers(state.layers);
   controls.show(state);
+  showPointerHelp();
   if (state.errors.length !== drawn.points || state.render !== drawn.render) drawChart(byId('chart'), state.errors);
   drawn = {points: state.errors.length, render: state.render};
   if (state.width > 0) picture.setFilm(state.width, state.height);
@@ -194,6 +203,7 @@ byId('layer').addEventListener('change', () => {
 byId('exposure').addEventListener('input', applyTone);
 byId('curve').addEventListener('change', applyTone);
 byId('stop').addEventListener('click', stopRender);
+byId('drag-camera').addEventListener('change', showPointerHelp);
 for (const id of ['pixel-x', 'pixel-y']) byId(id).addEventListener('input', lookAtPixel);
 followPointer(picture, controls, pointAt);
 drawChart(byId('chart'), []);
