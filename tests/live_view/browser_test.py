@@ -133,6 +133,10 @@ class Page(unittest.TestCase):
         self.browser.run("document.getElementById('drag-camera').click()")
         self.view.wait(lambda state: state["render"] > renders and state["passes"] > 0)
         self.browser.wait("document.getElementById('pixel').tBodies[0].rows.length > 1")
+        for place in ([3, 4], [40, 30]):  # the second one while the first is still asked for
+            self.choose("pixel-x", place[0])
+            self.choose("pixel-y", place[1])
+        self.browser.wait("document.getElementById('pixel').dataset.place === '40,30' && !document.getElementById('pixel').classList.contains('waiting')")
         self.browser.run("document.getElementById('camera-reset').click(), document.getElementById('picture').focus()")
         before = self.picture()
         self.browser.key("+")

@@ -175,16 +175,31 @@ function showPixel(pixel) {
   }));
 }
 
-let pixelTimer = null;
-// The one of the two fields, soon.
-function lookAtPixel() {
-  pixelTimer ??= setTimeout(async () => {
+const placeOfPixel = () => [byId('pixel-x').value || 0, byId('pixel-y').value || 0];
+const dimOtherPixel = () => byId('pixel').classList.toggle('waiting', String(placeOfPixel()) !== byId('pixel').dataset.place);
+let isLooking = false;
+/** The one of the two fields, soon; its errors are known between passes. Until then the table is of another one, or of earlier, and is dimmed. */
+async function lookAtPixel() {
+  if (isLooking) return;
+  isLooking = true;
+  await wait(pixelPause);
+  for (let isShown = false; !isShown;) {
+    const place = placeOfPixel();
+    const isThere = () => String(placeOfPixel()) === String(place);
+    dimOtherPixel();
     try {
-      const pixel = await getPixel(byId('pixel-x').value || 0, byId('pixel-y').value || 0);
-      if (pixel) showPixel(pixel);
-    } catch { /* such as a pixel that is not there: the table stays */ }
-    pixelTimer = null;
-  }, pixelPause);
+      const pixel = await getPixel(...place);
+      if (pixel) {
+        showPixel(pixel);
+        byId('pixel').dataset.place = place;
+      }
+      isShown = pixel && isThere();
+    } catch { // such as a pixel that is not there: the table stays
+      isShown = isThere();
+    }
+  }
+  dimOtherPixel();
+  isLooking = false;
 }
 
 function pointAt({x, y}) {
