@@ -10,8 +10,8 @@ namespace quasilux {
 
 namespace {
 
-// Their variance is known to some 10 % in the mean over a block and its neighbours.
-constexpr double pathsOfHalf = 1 << 17;
+// Their variance is known to some 15 % in the mean over a block and its neighbours.
+constexpr double pathsOfHalf = 1 << 16;
 constexpr double fewestPasses = 8, mostPasses = 32;
 // The brightness, which errors are relative to, needs what photons carry too.
 constexpr unsigned passesThatGather = 4;
