@@ -13,12 +13,8 @@ from viewed import Viewed  # noqa: E402
 
 FIGURES = SOURCE / "docs" / "figures"
 WINDOW, PHONE = (1000, 680), (390, 844)
+PATIENCE = 300  # seconds
 DRAWN = 1.5  # seconds in which the page has drawn what it was asked for
-
-
-def choose(browser, name, value):
-    browser.run(f"(e => (e.value = '{value}', e.dispatchEvent(new Event('input', {{bubbles: true}})), "
-                f"e.dispatchEvent(new Event('change', {{bubbles: true}}))))(document.getElementById('{name}')), 0")
 
 
 def take(browser, name):
@@ -31,14 +27,9 @@ def compare(view, browser):
     """A render with the split `none` beside the kept one, stopped by the page after the same time."""
     browser.run("document.getElementById('keep').click()")
     kept = view.state()["render"]
-    choose(browser, "quasiSpecular", "none")
-    end = time.monotonic() + 300
-    while time.monotonic() < end:
-        state = view.state()
-        if state["render"] > kept and state["phase"] == "stopped":
-            break
-        time.sleep(0.2)
-    choose(browser, "split", 50)
+    browser.choose("quasiSpecular", "none")
+    view.wait(lambda state: state["render"] > kept and state["phase"] == "stopped", PATIENCE)
+    browser.choose("split", 50)
     browser.run("document.getElementById('keep').scrollIntoView()")
     take(browser, "live_view_comparison")
 
@@ -47,14 +38,13 @@ def main(program="build/release/quasilux", seconds="20"):
     with Viewed(Path(program).resolve(), SOURCE / "scenes" / "cornell_ggx.xml") as view, Chromium(*WINDOW) as browser:
         browser.resize(*WINDOW)
         browser.open(view.address)
-        while view.state()["seconds"] < float(seconds):
-            time.sleep(0.2)
-        choose(browser, "pixel-x", 112)
-        choose(browser, "pixel-y", 153)
+        view.wait(lambda state: state["seconds"] >= float(seconds), PATIENCE)
+        browser.choose("pixel-x", 112)
+        browser.choose("pixel-y", 153)
         take(browser, "live_view")
-        choose(browser, "layer", "relative_error")
+        browser.choose("layer", "relative_error")
         take(browser, "live_view_error")
-        choose(browser, "layer", "image")
+        browser.choose("layer", "image")
         browser.resize(*PHONE, mobile=True)
         take(browser, "live_view_phone")
         browser.resize(*WINDOW)

@@ -69,6 +69,10 @@ TEST(PathAllocation, KeepsPathsEverywhere) {
         EXPECT_LE(count, 16u * 64);
     }
     EXPECT_GT(counts.front(), counts.back());
+    constexpr unsigned large = 128;
+    PathNoise few{large, large, std::vector<double>(large * large, 0), std::vector<double>(large * large, 1)};
+    few.variance[0] = 1;
+    EXPECT_EQ(allocatePaths(few, 16).front(), 16u * 64);
 }
 
 // (16 + 1) / 2 of even sampling against ((4 + 1) / 2)^2 at the best, 1.36 times less; rounding and the paths that all have take a part of it.

@@ -9,7 +9,7 @@ namespace {
 
 // A few paths do not know a variance that comes from rare ones: as much of the mean root is added everywhere.
 constexpr double unseenShare = 0.1;
-// Paths of a pixel in a pass, times those of the mean pixel: no work-item is to hold up all others for long.
+// Paths of a pixel in a pass, times those asked for: no work-item is to hold up all others for long.
 constexpr double mostTimesMean = 64;
 
 // Mean over a block and its neighbours, as far as they are in the image.
@@ -44,8 +44,7 @@ std::vector<double> sharesOf(const PathNoise& noise) {
         all += cost[k];
     }
     const double usual = ofShares / all;
-    for (double& share : shares)
-        share = usual > 0 ? std::min((share / usual + unseenShare) / (1 + unseenShare), mostTimesMean) : 1;
+    for (double& share : shares) share = usual > 0 ? (share / usual + unseenShare) / (1 + unseenShare) : 1;
     return shares;
 }
 
@@ -53,10 +52,10 @@ uint32_t nearestPower(double paths) {
     return uint32_t{1} << static_cast<unsigned>(std::lround(std::log2(std::max(paths, 1.0))));
 }
 
-std::vector<uint32_t> countsOf(const std::vector<double>& shares, double paths) {
+std::vector<uint32_t> countsOf(const std::vector<double>& shares, double paths, double most) {
     std::vector<uint32_t> counts;
     counts.reserve(shares.size());
-    for (const double share : shares) counts.push_back(nearestPower(paths * share));
+    for (const double share : shares) counts.push_back(nearestPower(std::min(paths * share, most)));
     return counts;
 }
 
@@ -70,13 +69,14 @@ double costOf(const PathNoise& noise, const std::vector<uint32_t>& counts) {
 
 std::vector<uint32_t> allocatePaths(const PathNoise& noise, unsigned paths) {
     const std::vector<double> shares = sharesOf(noise);
-    const double most = costOf(noise, std::vector<uint32_t>(shares.size(), paths));
-    double low = 0, high = mostTimesMean * paths; // of their mean: rounding and the largest shares move the cost
+    const double mostPaths = mostTimesMean * paths,
+                 mostCost = costOf(noise, std::vector<uint32_t>(shares.size(), paths));
+    double low = 0, high = mostPaths; // of their mean: rounding and the largest shares move the cost
     for (int step = 0; step < 20; ++step) {
         const double middle = (low + high) / 2;
-        (costOf(noise, countsOf(shares, middle)) > most ? high : low) = middle;
+        (costOf(noise, countsOf(shares, middle, mostPaths)) > mostCost ? high : low) = middle;
     }
-    return countsOf(shares, low);
+    return countsOf(shares, low, mostPaths);
 }
 
 double costShare(const PathNoise& noise, const std::vector<uint32_t>& counts, unsigned paths) {

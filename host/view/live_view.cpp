@@ -59,8 +59,8 @@ void LiveView::onProgress(const Progress& progress) {
 void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
     syncSignal();
     const auto passes = static_cast<unsigned>(renderer.counters().passes);
-    const auto onRows = [this, &renderer, &soFar] {
-        if (hasEdits_) throw PassAbandoned();
+    const auto onRows = [this, &renderer, &soFar, passes] {
+        if (hasEdits_ && passes > 0) throw PassAbandoned();
         errands_.doDue({renderer, soFar, ++moment_, true, true});
     };
     renderer.film().watchRows(isLast ? std::function<void()>() : onRows, errands_.areAwaited());

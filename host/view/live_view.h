@@ -49,7 +49,8 @@ public:
                bool isEndless);
     /// Both are called by the thread that renders.
     void onProgress(const Progress& progress);
-    /// From then on until the next call, passes throw PassAbandoned where rows of the film are done and an edit has come.
+    /// The next pass throws PassAbandoned where rows of the film are done and an edit has come; not the first one, which is all that is seen of a render
+    /// where edits follow each other, as while the camera is dragged.
     void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
     /// Its render is over, but the view goes on until somebody wants something else, or `isOver()`: errands are done meanwhile.
     void waitWith(const AutoRender& soFar, const Renderer& renderer, const std::function<bool()>& isOver);

@@ -13,10 +13,6 @@ from viewed import Viewed
 PROGRAM, SOURCE = sys.argv[1:3]
 SCENE = SOURCE + "/scenes/cornell_phong.xml"
 
-# Chooses a value as a person would, so that the page hears of it.
-CHOOSE = """(() => {{ const element = document.getElementById('{name}'); element.value = '{value}';
-    for (const kind of ['input', 'change']) element.dispatchEvent(new Event(kind)); return true; }})()"""
-
 
 class Page(unittest.TestCase):
     @classmethod
@@ -38,7 +34,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.browser.problems, [])
 
     def choose(self, name, value):
-        self.browser.run(CHOOSE.format(name=name, value=value))
+        self.browser.choose(name, value)
 
     def box(self):
         return self.browser.run("(b => [b.left, b.top, b.width, b.height])(document.getElementById('picture').getBoundingClientRect())")

@@ -12,6 +12,9 @@ import websocket
 FLAGS = ["--headless=new", "--no-first-run", "--disable-gpu", "--disable-extensions", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--mute-audio", "--remote-debugging-port=0", "--remote-allow-origins=*"]
 
+CHOOSE = """(() => {{ const element = document.getElementById('{name}'); element.value = '{value}';
+    for (const kind of ['input', 'change']) element.dispatchEvent(new Event(kind)); return true; }})()"""
+
 
 class Chromium:
     """One page of a browser without a window."""
@@ -93,6 +96,10 @@ class Chromium:
                 return value
             time.sleep(0.05)
         raise RuntimeError(f"after {seconds} s not true: {condition}")
+
+    def choose(self, name, value):
+        """As a person would, so that the page hears of it."""
+        self.run(CHOOSE.format(name=name, value=value))
 
     def screenshot(self, path):
         data = self.call("Page.captureScreenshot", format="png")["data"]

@@ -55,9 +55,9 @@ class Viewed:
     def state(self, seen=0):
         return json.loads(self.get("state", seen=seen)[2])
 
-    def wait(self, condition):
+    def wait(self, condition, seconds=PATIENCE):
         """The first state of which `condition` is true."""
-        end, seen = time.monotonic() + PATIENCE, 0
+        end, seen = time.monotonic() + seconds, 0
         while time.monotonic() < end:
             state = self.state(seen)
             if condition(state):
