@@ -42,7 +42,7 @@ typedef struct {
     float lower[5], size[5];
 } GuideLeaf;
 
-/* Emission that would serve the camera, as a pilot path found it. */
+/* Emission that would serve the camera, as an importance path found it. */
 typedef struct {
     unsigned int emitter;        /* QL_NONE: nothing found */
     unsigned int element;        /* triangle of a mesh */
@@ -73,10 +73,10 @@ typedef struct {
  * brings in all; and where light that is scattered there matters, as (1 + number of a set's first opening) << 16 | probability *
  * 65535 of aiming at it. */
 #define IMPORTANCE_WORDS 4
-/* Instead of an aim: too few pilots came to know where scattered light matters; the coarse cell does. */
+/* Instead of an aim: too few importance paths came to know where scattered light matters; the coarse cell does. */
 #define IMPORTANCE_UNKNOWN 0xffffffffu
 #define IMPORTANCE_COARSE 8.0f /* size of a coarse cell to that of a fine one */
-/* The same of the cells that hold where pilots gathered at all: wide enough for discs that reach in from beside. */
+/* The same of the cells that hold where importance paths gathered at all: wide enough for discs that reach in from beside. */
 #define SEEN_COARSE 4.0f
 
 /* Distances from the eye, by powers of two: nearer ones belong to the first, farther ones to the last. */
@@ -89,27 +89,27 @@ typedef struct {
     Packed3 eye;
     float sizePerDistance, smallestSize;
     float nearest;         /* distance from the eye where the first of DISTANCE_OCTAVES begins */
-    unsigned int seen;     /* offset of the bits of cells where pilots gathered; QL_NONE: nothing is known */
+    unsigned int seen;     /* offset of the bits of cells where importance paths gathered; QL_NONE: nothing is known */
     unsigned int seenMask; /* bits - 1, a power of two - 1; a cell may share its bit */
 } ImportanceGrid;
 
-/* Vertex of a pilot path. */
-#define PILOT_VERTICES 4
+/* Vertex of an importance path. */
+#define IMPORTANCE_VERTICES 4
 typedef struct {
     Packed3 position;
     unsigned int face; /* importanceFace() */
     float weight;      /* throughput, mean of R, G, B; 0: none */
     float found; /* radiance that the path found by this vertex: by samples of emitters and by what it then ran into */
-} PilotVertex;
+} ImportanceVertex;
 
 typedef struct {
     EmissionRecord indirect,
         direct; /* one of all that the path found, in proportion to their weights, with their sum */
-    PilotVertex vertices[PILOT_VERTICES]; /* the first one is where photons are gathered */
-    float radiance;                       /* of the whole path, mean of R, G, B */
-    float gatheredShare;                  /* of the direct light, what photons might bring instead of samples */
+    ImportanceVertex vertices[IMPORTANCE_VERTICES]; /* the first one is where photons are gathered */
+    float radiance;                                 /* of the whole path, mean of R, G, B */
+    float gatheredShare; /* of the direct light, what photons might bring instead of samples */
     unsigned int pixel;
-} PilotPath;
+} ImportancePath;
 
 /* ---- which emitters direct light is sampled from (kernels/light_choice.clh) ---- */
 

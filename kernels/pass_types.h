@@ -75,7 +75,8 @@ typedef struct {
     unsigned int nonFinite;
     float fluxCut;               /* W, mean of R, G, B, of those paths */
     float useful, usefulSquares; /* while learning: what the path at hand brings to the image; PhotonRecord::squares */
-    unsigned int arrivals, seenArrivals; /* while learning: photons on surfaces, and those where pilots gathered */
+    unsigned int arrivals,
+        seenArrivals;             /* while learning: photons on surfaces, and those where importance paths gathered */
     float density[LIGHT_CLASSES]; /* while learning: photons by area about what the camera sees, times a constant */
     float densityByOctave[DISTANCE_OCTAVES]; /* of them all, by distance from the eye */
     unsigned int overflows;                  /* sums of splats that left the range of their fixed point (camera map) */
@@ -149,8 +150,8 @@ typedef struct {
     unsigned int causticsByPaths; /* paths find caustic light, not photons (takeRadiance) */
     unsigned int radiusBlock;     /* pixels of a row and column that share a density radius */
     unsigned int
-        coarseness; /* pixels of a row and column of the image that one of this camera stands for: 1, but of pilots */
-    float spread;   /* of places in a pixel about its centre: 1; 1 / coarseness: within a single pixel of the image */
+        coarseness; /* pixels of a row and column of the image that one of this camera stands for: 1, but of coarse cameras */
+    float spread; /* of places in a pixel about its centre: 1; 1 / coarseness: within a single pixel of the image */
     unsigned int
         countsEvents;  /* 1: what a path brings is not light but how many rays it follows, in the first component */
     float batchWeight; /* 1 / passes of the film's batch that ends with this pass, 0 where it goes on (film.clh) */
@@ -170,19 +171,19 @@ typedef struct {
 
 /* ---- density radius by pixel (kernels/adaptive_radius.cl) ---- */
 
-/* What the pilot measures of one class of light in one of its pixels, relative to the radiance there. */
+/* What coarse passes measure of one class of light in a pixel, relative to the radiance there. */
 typedef struct {
     float
         curvature; /* squared: the bias at radius r, in units of MapParams::radius of the first pass, is r^2 times its root */
     float curvatureNoise; /* of its estimate */
     float variance;       /* of a pass of radius 1, from photons */
-    float passes;         /* of the pilot with the radius that it has now */
+    float passes;         /* of the coarse camera with the radius that it has now */
     float squaredRadii;   /* sum over these of the squared radius, in units of MapParams::radius of the first pass */
     float inverseSquares; /* of its inverse */
 } RadiusMeasure;
 
 typedef struct {
-    unsigned int width, height; /* of the pilot */
+    unsigned int width, height; /* of the coarse camera */
     unsigned int passes;        /* of it */
     unsigned int newPasses;     /* since radii were last chosen */
     float

@@ -7,9 +7,9 @@
 #include "photon_trace.cl"
 
 #ifdef LEARNS
-#include "pilot_paths.cl"
+#include "importance_paths.cl"
 
-#include "pilot_records.cl"
+#include "importance_records.cl"
 #endif
 
 #ifdef ADAPTIVE_RADIUS

@@ -125,13 +125,13 @@ inline int arrivalCounts(const PhotonPath* path, uint lightClass) {
 #endif
 }
 
-/* Share of the photons that are stored where no pilot gathered any: hardly any path of the camera will, and sorting them takes time. */
+/* Share of the photons that are stored where no importance path gathered any: hardly any path of the camera will, and sorting them takes time. */
 #define UNSEEN_SHARE 0.125f
 
 inline float storedShare(const PhotonWorld* world, const Surface* s) {
 #if defined(LEARNS) && !defined(MAP_CAMERA)
     const ImportanceGrid* grid = &world->params->scene.learned.importance;
-    return pilotsGathered(world->tables, grid, s->position, importanceFace(s->geometricNormal)) ? 1.0f : UNSEEN_SHARE;
+    return cameraGathers(world->tables, grid, s->position, importanceFace(s->geometricNormal)) ? 1.0f : UNSEEN_SHARE;
 #else
     return 1;
 #endif

@@ -38,7 +38,7 @@ void put(std::vector<float>& film, unsigned pixel, const Light& light, double ra
 
 /// What the kernels make of a film.
 struct Choice {
-    std::vector<float> scales, pilotScales, film;
+    std::vector<float> scales, coarseScales, film;
 };
 
 Choice choose(const std::vector<float>& film, double largest = 2) {
@@ -47,9 +47,9 @@ Choice choose(const std::vector<float>& film, double largest = 2) {
     Buffer<float> sums(testDevice(), film, "film"), scales(testDevice(), size_t{width} * height, "scales");
     Buffer<float> before(testDevice(), size_t{width} * height, "scales before");
     Buffer<shared::RadiusMeasure> measures(testDevice(), size_t{width} * height, "measures");
-    Buffer<float> pilotScales(testDevice(), size_t{width} * height, "pilot's scales");
+    Buffer<float> coarseScales(testDevice(), size_t{width} * height, "coarse scales");
     before.fill(1);
-    pilotScales.fill(static_cast<float>(largest));
+    coarseScales.fill(static_cast<float>(largest));
     measures.write(std::vector<shared::RadiusMeasure>(measures.size()));
     const shared::RadiusParams params{width,
                                       height,
@@ -59,9 +59,9 @@ Choice choose(const std::vector<float>& film, double largest = 2) {
                                       static_cast<float>(inverseSquares * largest * largest),
                                       noiseToCurvature,
                                       static_cast<float>(largest)};
-    program.kernel("measureRadii").launch(size_t{width} * height, sums, pilotScales, measures, params);
-    program.kernel("chooseRadii").launch(size_t{width} * height, sums, measures, pilotScales, before, scales, params);
-    return {scales.read(), pilotScales.read(), sums.read()};
+    program.kernel("measureRadii").launch(size_t{width} * height, sums, coarseScales, measures, params);
+    program.kernel("chooseRadii").launch(size_t{width} * height, sums, measures, coarseScales, before, scales, params);
+    return {scales.read(), coarseScales.read(), sums.read()};
 }
 
 std::vector<float> chooseRadii(const std::vector<float>& film, double largest = 2) {
@@ -115,10 +115,10 @@ TEST(AdaptiveRadius, PilotNarrowsWhereBiasIsCertain) {
                            LIGHT_DIFFUSE * FILM_BIAS_FLOATS];
     };
     EXPECT_LT(choice.scales[4], 0.5);
-    EXPECT_LT(choice.pilotScales[4], 0.6);
+    EXPECT_LT(choice.coarseScales[4], 0.6);
     EXPECT_EQ(biasSum(4), 0);
     EXPECT_LT(choice.scales[width - 4], 2);
-    EXPECT_EQ(choice.pilotScales[width - 4], 2);
+    EXPECT_EQ(choice.coarseScales[width - 4], 2);
     EXPECT_GT(biasSum(width - 4), 0);
 }
 

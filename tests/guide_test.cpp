@@ -214,7 +214,7 @@ TEST(GuidedMean, AimedPhotonsBringNoMoreLightThere) {
 TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number;
-    std::vector<shared::PilotPath> paths(20000);
+    std::vector<shared::ImportancePath> paths(20000);
     for (auto& path : paths) {
         path = {};
         const double away = 0.02 * std::pow(100, number(random)), turn = 2 * std::numbers::pi * number(random);
@@ -244,7 +244,7 @@ TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
 TEST(Aims, FindTheWindowBeforeAPatchOfGroundInTheSun) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> number(-1, 1);
-    std::vector<shared::PilotPath> paths(20000);
+    std::vector<shared::ImportancePath> paths(20000);
     for (size_t k = 0; k < paths.size(); ++k) {
         auto& path = paths[k] = {};
         const glm::dvec3 inside(2 * number(random), 2 + 2 * number(random), 1.5 * number(random));

@@ -243,7 +243,7 @@ TEST(ManyEmitters, ListsOfDistantEmittersEnd) {
     EXPECT_EQ(choice.lights[1].first, 99u) << "the strongest first";
 }
 
-// A spot in front of a sky whose power is that of the whole, wide floor: where it shines, pilots must have met it, with genuine diffuse
+// A spot in front of a sky whose power is that of the whole, wide floor: where it shines, importance paths must have met it, with genuine diffuse
 // lobes and with others. By power alone it would be chosen 300 times less often than the sky.
 TEST(ManyEmitters, AWeakSpotIsLearnedWhereItShines) {
     for (const char* bsdf : {"diffuse", "roughconductor"}) {

@@ -1,4 +1,4 @@
-// Packets of sixteen rays (kernels/bvh_packet.clh) against single rays, with wrong kernels as control.
+// Packets of sixteen rays (kernels/micro/bvh_packet.clh) against single rays, with wrong kernels as control.
 #include "support/meshes.h"
 #include "support/traversal_device.h"
 
@@ -77,10 +77,10 @@ TEST(PacketsControl, WrongKernelsWouldDiffer) {
     const std::vector<BvhPrimitive> primitives = everyKind();
     TraversalDevice single(primitives, everyFeature);
     const Control controls[] = {
-        {"bvh_packet_box.clh", "down ? lower : upper", "down ? upper : lower"},
-        {"bvh_packet_box.clh", "return anyOf16(enter <= leave)", "return !anyOf16(enter <= leave)"},
-        {"bvh_packet_block.clh", "smaller16(smaller16(u, v), w) >= 0.0f", "smaller16(u, v) >= 0.0f"},
-        {"bvh_packet.clh", "(kinds == kind)", "(kinds != QL_NONE)"},
+        {"micro/bvh_packet_box.clh", "down ? lower : upper", "down ? upper : lower"},
+        {"micro/bvh_packet_box.clh", "return anyOf16(enter <= leave)", "return !anyOf16(enter <= leave)"},
+        {"micro/bvh_packet_block.clh", "smaller16(smaller16(u, v), w) >= 0.0f", "smaller16(u, v) >= 0.0f"},
+        {"micro/bvh_packet.clh", "(kinds == kind)", "(kinds != QL_NONE)"},
     };
     for (const Control& control : controls) {
         TraversalDevice wrong(primitives, everyFeature, mutant(control.file, control.from, control.to));
@@ -88,12 +88,12 @@ TEST(PacketsControl, WrongKernelsWouldDiffer) {
         EXPECT_GT(faults.distances, 0u) << control.to;
         EXPECT_GT(faults.occlusion, 0u) << control.to;
     }
-    TraversalDevice uAsV(primitives, everyFeature, mutant("bvh_packet_block.clh", "clamp(second", "clamp(first"));
+    TraversalDevice uAsV(primitives, everyFeature, mutant("micro/bvh_packet_block.clh", "clamp(second", "clamp(first"));
     EXPECT_GT(packetFaults(uAsV, single).coordinates, 0u);
     const Control occlusionControls[] = {
-        {"bvh_packet.clh", "&shear, 1, &t", "&shear, 0, &t"},                         // nulls met
-        {"bvh_packet.clh", "ray = rayOf(rays, lane)", "ray = rayOf(rays, lane ^ 1)"}, // few rays
-        {"bvh_packet_box.clh", "downY ? upperY : lowerY", "downY ? lowerY : upperY"}, // mixed signs
+        {"micro/bvh_packet.clh", "&shear, 1, &t", "&shear, 0, &t"},                         // nulls met
+        {"micro/bvh_packet.clh", "ray = rayOf(rays, lane)", "ray = rayOf(rays, lane ^ 1)"}, // few rays
+        {"micro/bvh_packet_box.clh", "downY ? upperY : lowerY", "downY ? lowerY : upperY"}, // mixed signs
     };
     for (const Control& control : occlusionControls) {
         TraversalDevice wrong(primitives, everyFeature, mutant(control.file, control.from, control.to));

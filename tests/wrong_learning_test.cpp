@@ -1,5 +1,5 @@
 // Whatever was learned before pass 0 (docs/method/learning.md), means stay and weights are bounded: closed forms with learning turned against
-// the scene, a lamp that pilots never find, the flux of photons.
+// the scene, a lamp that importance paths never find, the flux of photons.
 //
 // False alarms: readings are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case), and 0.5 % for density radii where
 // these take part; the seeds are fixed.
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
                     ClosedForm{"IlluminanceOfARoom", closedRoom, 250, 1, 16000, 4}),
     [](const auto& form) { return std::string(form.param.name); });
 
-// Away from what pilots gathered one photon in eight is stored, and stands for all.
+// Away from what importance paths gathered one photon in eight is stored, and stands for all.
 TEST(WrongLearning, PhotonsThatAreNotStoredAreMadeUpFor) {
     DeviceScene flat = flattenScene(projectScene("furnace_split.xml"));
     struct Stored {
@@ -134,7 +134,7 @@ TEST(GuideBounds, NoLeafOutweighsPlainEmission) {
         }
         return most;
     };
-    // All pilots found the same rays of the first emitter; numbers are what their rays invert to.
+    // All importance paths found the same rays of the first emitter; numbers are what their rays invert to.
     const auto invert = [](const auto& records, const auto& sources) {
         const auto numbers = samplesWithin(0.01, records.size());
         std::vector<shared::EmissionPoint> points(records.size());
@@ -159,10 +159,10 @@ TEST(GuideBounds, NoLeafOutweighsPlainEmission) {
     EXPECT_GT(heaviest(cornerGuide(flat.emitters)), 10.0001) << "negative control: a tree without plain photons";
 }
 
-// --- a lamp that no pilot finds ---
+// --- a lamp that no importance path finds ---
 
 // A patch at the origin is lit by a point lamp by way of two mirrors alone, as if from 22 above it; a lamp beside it, with all that
-// pilots find, is ten times as strong. Radiance of the patch: reflectance / pi * I / 22^2.
+// importance paths find, is ten times as strong. Radiance of the patch: reflectance / pi * I / 22^2.
 Scene periscope() {
     const auto rectangle = [](const std::string& transform, const std::string& bsdf) {
         return "<shape type=\"rectangle\"><transform name=\"to_world\">" + transform + "</transform>" + bsdf +

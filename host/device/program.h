@@ -33,12 +33,6 @@ public:
         launchInGroupsOf(device_->info().isCpu ? 1 : device_->workGroupSize(), count, args...);
     }
 
-    /// The same for a few long work-items: each is a group of its own, so that a CPU spreads them over its cores.
-    template <typename... Args>
-    void launchFew(size_t count, const Args&... args) {
-        launchInGroupsOf(1, count, args...);
-    }
-
     /// Called when a part of the work-items is done, with the number so far, where launches are split; empty: no more. A launch takes no
     /// longer than `longest` seconds meanwhile.
     void watchParts(std::function<void(size_t)> afterPart, double longest = longestLaunchSeconds) {

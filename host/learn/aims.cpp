@@ -123,7 +123,7 @@ double AimSet::claim(const UsefulRay& ray) const {
     return aimed / (aimed + 2); // half of all directions are those of a hemisphere
 }
 
-std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, size_t v) {
+std::optional<UsefulRay> scatteredRay(const shared::ImportancePath& path, size_t v) {
     const auto& from = path.vertices[v];
     if (!(from.weight > 0) || !std::isfinite(from.weight)) return std::nullopt;
     UsefulRay ray;
@@ -139,12 +139,13 @@ std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, size_t v) {
 
 namespace {
 
-// The ways of photons between the vertices of pilot paths, by the light that comes to the image along them: what was found from there on.
-std::vector<UsefulRay> usefulRays(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights) {
+// The ways of photons between the vertices of importance paths, by the light that comes to the image along them: what was found from there on.
+std::vector<UsefulRay> usefulRays(const std::vector<shared::ImportancePath>& paths,
+                                  const std::vector<double>& pathWeights) {
     std::vector<UsefulRay> rays;
     for (size_t k = 0; k < paths.size(); ++k) {
         double found = 0;
-        for (size_t v = PILOT_VERTICES - 1; v > 0; --v) {
+        for (size_t v = IMPORTANCE_VERTICES - 1; v > 0; --v) {
             const double here = paths[k].vertices[v].found;
             if (std::isfinite(here)) found += here;
             auto ray = scatteredRay(paths[k], v);
@@ -181,7 +182,7 @@ std::optional<AimSet> takeBest(std::vector<Candidate>& candidates, const std::ve
 
 } // namespace
 
-std::vector<AimSet> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
+std::vector<AimSet> findAims(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
                              const std::vector<Opening>& fromOutside, double radius) {
     std::vector<UsefulRay> rays = thinnedByWeight(usefulRays(paths, pathWeights));
     double all = 0;

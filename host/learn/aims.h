@@ -26,12 +26,12 @@ struct AimSet {
 
 inline constexpr std::size_t mostAimSets = 8;
 
-/// The way of a photon from vertex `v` of a pilot path to the one before, by the throughput there; none where it brings nothing.
-std::optional<UsefulRay> scatteredRay(const shared::PilotPath& path, std::size_t v);
+/// The way of a photon from vertex `v` of an importance path to the one before, by the throughput there; none where it brings nothing.
+std::optional<UsefulRay> scatteredRay(const shared::ImportancePath& path, std::size_t v);
 
 /// Sets of openings that light should come through: those that light from outside comes through, and what the paths found beside them.
 /// `pathWeights`: 1 / brightness of each path's pixel, over the number of paths; `radius`: of the order of the scene.
-std::vector<AimSet> findAims(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
+std::vector<AimSet> findAims(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
                              const std::vector<Opening>& fromOutside, double radius);
 
 /// As the kernels read them, and the place of a set's first opening there.

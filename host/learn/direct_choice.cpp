@@ -97,7 +97,7 @@ Block about(const Blocks& blocks, size_t b) {
 }
 
 // Emitters between which the light tree chooses, or a single one. A block's list begins with the whole tree and all others; the strongest
-// group is replaced by its children as long as there is room and pilots can distinguish these.
+// group is replaced by its children as long as there is room and importance paths can distinguish these.
 struct Group {
     unsigned first = 0, count = 1, node = 0;
     double strength = 0, finds = 0;

@@ -1,4 +1,4 @@
-// How direct light is to be taken, from what pilot paths saw of the emitters (docs/method/learning.md).
+// How direct light is to be taken, from what importance paths saw of the emitters (docs/method/learning.md).
 #pragma once
 
 #include "prepare/device_scene.h"
@@ -7,7 +7,7 @@
 
 namespace quasilux {
 
-/// Direct light that one pilot path found where the camera takes it.
+/// Direct light that one importance path found where the camera takes it.
 struct DirectFind {
     unsigned emitter = QL_NONE; ///< QL_NONE: none
     unsigned pixel = 0;
@@ -24,7 +24,7 @@ struct DirectChoice {
     unsigned lightBlockSize = 1;
 };
 
-/// `finds`: one for each pilot path. `mayUsePhotons`: or else none is taken from photons.
+/// `finds`: one for each importance path. `mayUsePhotons`: or else none is taken from photons.
 DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTables& emitters,
                           const shared::Camera& camera, bool mayUsePhotons);
 

@@ -13,18 +13,18 @@ namespace {
 
 constexpr double shareNearer = 0.01;
 
-double distance(const shared::PilotPath& path, const shared::Packed3& eye) {
+double distance(const shared::ImportancePath& path, const shared::Packed3& eye) {
     return glm::distance(unpack(path.vertices[0].position), unpack(eye));
 }
 
-double gathered(const shared::PilotPath& path, double pathWeight) {
+double gathered(const shared::ImportancePath& path, double pathWeight) {
     const double weight = path.vertices[0].weight;
     return weight > 0 && std::isfinite(weight) ? weight * pathWeight : 0;
 }
 
 } // namespace
 
-float nearestGathered(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
+float nearestGathered(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
                       const shared::Packed3& eye) {
     std::vector<std::pair<double, double>> found; // distance, weight
     double all = 0, nearer = 0, nearest = 1;
@@ -43,7 +43,7 @@ float nearestGathered(const std::vector<shared::PilotPath>& paths, const std::ve
     return std::max(static_cast<float>(nearest), std::numeric_limits<float>::min());
 }
 
-std::array<double, DISTANCE_OCTAVES> gatheredByOctave(const std::vector<shared::PilotPath>& paths,
+std::array<double, DISTANCE_OCTAVES> gatheredByOctave(const std::vector<shared::ImportancePath>& paths,
                                                       const std::vector<double>& pathWeights,
                                                       const shared::ImportanceGrid& grid) {
     std::array<double, DISTANCE_OCTAVES> sums{};

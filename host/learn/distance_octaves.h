@@ -9,11 +9,11 @@
 namespace quasilux {
 
 /// Distance within which a hundredth of what is gathered lies: there the first octave begins. Positive.
-float nearestGathered(const std::vector<shared::PilotPath>& paths, const std::vector<double>& pathWeights,
+float nearestGathered(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
                       const shared::Packed3& eye);
 
 /// Throughput with which photons are gathered, summed over the paths, each times its weight.
-std::array<double, DISTANCE_OCTAVES> gatheredByOctave(const std::vector<shared::PilotPath>& paths,
+std::array<double, DISTANCE_OCTAVES> gatheredByOctave(const std::vector<shared::ImportancePath>& paths,
                                                       const std::vector<double>& pathWeights,
                                                       const shared::ImportanceGrid& grid);
 

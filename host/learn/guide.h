@@ -1,4 +1,4 @@
-// Guided emission: from useful emission that pilots found to the tables of kernels/guide.clh (docs/method/learning.md).
+// Guided emission: from useful emission that importance paths found to the tables of kernels/guide.clh (docs/method/learning.md).
 #pragma once
 
 #include "learn/guide_tree.h"
@@ -14,14 +14,14 @@ namespace quasilux {
 /// An emitter's light through an opening, as GuideSource.
 shared::GuideSource openingSource(unsigned emitter, unsigned first, const Opening& opening);
 
-/// Learns from records; `invert` runs invertEmission of kernels/pilot_records.cl.
+/// Learns from records; `invert` runs invertEmission of kernels/importance_records.cl.
 class GuideLearner {
 public:
     using Invert = std::function<std::vector<shared::EmissionPoint>(const std::vector<shared::EmissionRecord>&,
                                                                     const std::vector<shared::GuideSource>& sources)>;
     GuideLearner(const EmitterTables& emitters, Invert invert) : emitters_(emitters), invert_(std::move(invert)) {}
 
-    /// Records whose weights estimate one measure: all those of one round of pilots.
+    /// Records whose weights estimate one measure: all those of one round of importance paths.
     void add(const std::vector<shared::EmissionRecord>& records);
     /// The guide learned from all rounds so far.
     GuideTables guide();

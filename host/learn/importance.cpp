@@ -19,7 +19,7 @@ constexpr double verticesOfCell = 128; // of those that the camera sees, about
 // A fine cell with fewer of those that light is scattered at leaves them to the coarse one.
 constexpr unsigned fewestScattering = 8;
 
-// One place in so many is taken for one where pilots gathered.
+// One place in so many is taken for one where importance paths gathered.
 constexpr size_t bitsOfCell = 16;
 
 constexpr double leastAim = 0.05; // probability below which photons are not aimed
@@ -43,7 +43,7 @@ struct Cell {
     Scattered scattered;
 };
 
-Scattered scatteredFrom(const shared::PilotPath& path, size_t v, const std::vector<AimSet>& aims) {
+Scattered scatteredFrom(const shared::ImportancePath& path, size_t v, const std::vector<AimSet>& aims) {
     Scattered scattered;
     const auto ray = scatteredRay(path, v);
     if (!ray) return scattered;
@@ -101,15 +101,15 @@ std::vector<uint32_t> seenCells(std::vector<uint32_t> keys) {
     return words;
 }
 
-std::vector<uint32_t> importanceCells(const std::vector<shared::PilotPath>& paths,
+std::vector<uint32_t> importanceCells(const std::vector<shared::ImportancePath>& paths,
                                       const std::vector<double>& pathWeights, const std::vector<uint32_t>& keys,
                                       const std::vector<float>& sizes, const std::vector<AimSet>& aims,
                                       shared::ImportanceGrid& grid) {
     std::unordered_map<uint32_t, Cell> cells;
     for (size_t k = 0; k < paths.size(); ++k)
-        for (size_t v = 0; v < PILOT_VERTICES; ++v) {
+        for (size_t v = 0; v < IMPORTANCE_VERTICES; ++v) {
             const auto& vertex = paths[k].vertices[v];
-            const size_t at = k * PILOT_VERTICES + v;
+            const size_t at = k * IMPORTANCE_VERTICES + v;
             if (!(vertex.weight > 0) || !std::isfinite(vertex.weight)) continue;
             const double value = pathWeights[k] * vertex.weight / (double(sizes[at]) * sizes[at]);
             Cell& fine = cells[keys[2 * at]];

@@ -22,15 +22,15 @@ constexpr double leastGuidingGain = 10;
 constexpr unsigned block = 16; // pixels of a row and column whose mean brightness weighs their errors
 
 // Fewer where the device has little memory: their buffer is to be no part worth mentioning.
-unsigned pilotCount(const shared::Camera& camera, const DeviceInfo& device) {
+unsigned importancePathCount(const shared::Camera& camera, const DeviceInfo& device) {
     const uint64_t wanted = uint64_t(pathsPerPixel) * camera.width * camera.height;
     const uint64_t room =
-        std::min(device.maximumAllocation, device.globalMemory / 4) / shareOfMemory / sizeof(shared::PilotPath);
+        std::min(device.maximumAllocation, device.globalMemory / 4) / shareOfMemory / sizeof(shared::ImportancePath);
     return static_cast<unsigned>(std::clamp<uint64_t>(std::min(wanted, room), fewestPaths / shareOfMemory, mostPaths));
 }
 
 // 1 / brightness of each path's pixel, as relMSE has it, over the number of paths.
-std::vector<double> pathWeights(const std::vector<shared::PilotPath>& paths, const shared::Camera& camera) {
+std::vector<double> pathWeights(const std::vector<shared::ImportancePath>& paths, const shared::Camera& camera) {
     const size_t columns = (camera.width + block - 1) / block, rows = (camera.height + block - 1) / block;
     std::vector<double> sums(columns * rows), counts(columns * rows);
     const auto blockOf = [&](unsigned pixel) {
@@ -89,22 +89,22 @@ Learning::Learning(Device& device, const Program& program, DeviceScene& scene, S
 
 std::vector<shared::EmissionPoint> Learning::invert(const std::vector<shared::EmissionRecord>& records,
                                                     const std::vector<shared::GuideSource>& sources) {
-    const Buffer<shared::EmissionRecord> from(device_, records, "pilot records");
-    const Buffer<shared::GuideSource> table(device_, sources, "pilot sources");
-    const Buffer<shared::EmissionPoint> points(device_, records.size(), "pilot points");
+    const Buffer<shared::EmissionRecord> from(device_, records, "importance records");
+    const Buffer<shared::GuideSource> table(device_, sources, "importance sources");
+    const Buffer<shared::EmissionPoint> points(device_, records.size(), "importance points");
     program_.kernel("invertEmission")
         .launch(records.size(), buffers_.tables, from, table, static_cast<unsigned>(sources.size()), points,
                 scene_.offsets, static_cast<unsigned>(records.size()));
     return points.read();
 }
 
-void Learning::makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
-                              const std::vector<double>& weights) {
+void Learning::makeImportance(const Buffer<shared::ImportancePath>& buffer,
+                              const std::vector<shared::ImportancePath>& paths, const std::vector<double>& weights) {
     const auto count = static_cast<unsigned>(paths.size());
     const double radius = std::sqrt(scene_.surfaceArea); // of the order of the scene
-    const Buffer<uint32_t> keys(device_, 2 * size_t(PILOT_VERTICES) * count, "pilot cell keys");
-    const Buffer<float> sizes(device_, size_t(PILOT_VERTICES) * count, "pilot cell sizes");
-    const Buffer<uint32_t> seenKeys(device_, count, "pilot gather keys");
+    const Buffer<uint32_t> keys(device_, 2 * size_t(IMPORTANCE_VERTICES) * count, "importance cell keys");
+    const Buffer<float> sizes(device_, size_t(IMPORTANCE_VERTICES) * count, "importance cell sizes");
+    const Buffer<uint32_t> seenKeys(device_, count, "importance gather keys");
     auto& grid = learned_.tables.importance;
     grid = importanceGrid(scene_, count);
     grid.nearest = nearestGathered(paths, weights, grid.eye);
@@ -123,10 +123,10 @@ void Learning::upload() {
     buffers_.tables = Buffer<uint32_t>(device_, scene_.tables, "scene tables");
 }
 
-void Learning::followPilots(bool directMayUsePhotons) {
-    const unsigned count = pilotCount(params_.camera, device_.info());
-    const Buffer<shared::PilotPath> buffer(device_, count, "pilot paths");
-    program_.kernel("tracePilotPaths")
+void Learning::followImportance(bool directMayUsePhotons) {
+    const unsigned count = importancePathCount(params_.camera, device_.info());
+    const Buffer<shared::ImportancePath> buffer(device_, count, "importance paths");
+    program_.kernel("traceImportancePaths")
         .launch(count, buffers_.nodes, buffers_.blocks, buffers_.tables, buffer, params_, count);
     const auto paths = buffer.read();
     const auto weights = pathWeights(paths, params_.camera);
@@ -190,7 +190,7 @@ void Learning::forget() {
     upload();
 }
 
-// In media pilots meet more than they can note (PILOT_VERTICES): what their cells say of importance there is too little.
+// In media importance paths meet more than they can note (IMPORTANCE_VERTICES): what their cells say of importance there is too little.
 bool Learning::windowsHold() const { return !scene_.features.media; }
 
 void Learning::note(const RoundResult& result) {

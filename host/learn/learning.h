@@ -22,7 +22,7 @@ struct RoundResult {
     std::vector<shared::PhotonRecord> photons;              ///< what each would bring to the image
     std::array<double, LIGHT_CLASSES> density{};            ///< sum of RegionCount::density over photons / their number
     std::array<double, DISTANCE_OCTAVES> densityByOctave{}; ///< likewise
-    double seenShare = 1;                                   ///< of photons on surfaces: where pilots gathered
+    double seenShare = 1;                                   ///< of photons on surfaces: where importance paths gathered
 };
 /// Traces photons, numbered as a round, guided by what `scene` has learned so far.
 using PhotonRound = std::function<RoundResult(unsigned round)>;
@@ -50,13 +50,13 @@ struct LearnedScene {
 
 class Learning {
 public:
-    /// `program` has kernels/pilot_paths.cl and pilot_records.cl; `params` as camera paths have them.
+    /// `program` has kernels/importance_paths.cl and importance_records.cl; `params` as camera paths have them.
     Learning(Device& device, const Program& program, DeviceScene& scene, SceneBuffers buffers,
              const shared::CameraParams& params);
 
     /// Follows paths from the camera; `scene` then has what they found: the guide, the importance, how direct light is to be taken,
     /// of some emitters from photons if it may.
-    void followPilots(bool directMayUsePhotons);
+    void followImportance(bool directMayUsePhotons);
     /// Rounds of photons, each guided by all before.
     void traceRounds(const PhotonRound& round);
 
@@ -65,7 +65,7 @@ public:
 private:
     std::vector<shared::EmissionPoint> invert(const std::vector<shared::EmissionRecord>& records,
                                               const std::vector<shared::GuideSource>& sources);
-    void makeImportance(const Buffer<shared::PilotPath>& buffer, const std::vector<shared::PilotPath>& paths,
+    void makeImportance(const Buffer<shared::ImportancePath>& buffer, const std::vector<shared::ImportancePath>& paths,
                         const std::vector<double>& weights);
     void note(const RoundResult& result);
     void learnFrom(const std::vector<shared::PhotonRecord>& photons);

@@ -16,7 +16,7 @@ static_assert(std::endian::native == std::endian::little, "numbers in checkpoint
 namespace {
 
 // Whoever changes the format changes the last digit.
-constexpr std::array<char, 8> magic{'Q', 'L', 'X', 'C', 'K', 'P', 'T', '1'};
+constexpr std::array<char, 8> magic{'Q', 'L', 'X', 'C', 'K', 'P', 'T', '2'};
 // At the end: bytes of the description, checksum of all before it.
 constexpr uint64_t tailBytes = sizeof(uint64_t) + Checksum::bytes;
 constexpr size_t bytesAtOnce = size_t(16) << 20;

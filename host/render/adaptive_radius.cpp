@@ -12,10 +12,10 @@ namespace quasilux {
 
 namespace {
 
-// The radii are chosen anew, and the pilot's discs narrowed, after so many of its passes; it ends with the last choice.
+// The radii are chosen anew, and the coarse camera's discs narrowed, after so many of its passes; these end with the last choice.
 constexpr std::array<unsigned, 4> choices{passesOfEqualRadius, 4, 8, 16};
 constexpr unsigned foreseenPasses = 1024;
-const std::string pilotOwner = "pilot's ";
+const std::string coarseOwner = "coarse ";
 
 double squaredShrink(unsigned pass) { return radiusShrink(pass) * radiusShrink(pass); }
 
@@ -37,48 +37,48 @@ size_t choicesWithin(unsigned passes) {
 
 std::string scalesLabel(size_t choice) { return "radii " + std::to_string(choice); }
 
-size_t scaleCount(const shared::Camera& pilot, unsigned classes) {
-    return size_t(pilot.width) * pilot.height * size_t(std::popcount(classes));
+size_t scaleCount(const shared::Camera& coarse, unsigned classes) {
+    return size_t(coarse.width) * coarse.height * size_t(std::popcount(classes));
 }
 
 } // namespace
 
 AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes)
     : block_(coarseBlock(camera)), camera_(coarseCamera(camera, block_)),
-      film_(std::in_place, device, camera_.width, camera_.height, FilmLayout{}, Film::inOneBuffer, pilotOwner),
+      film_(std::in_place, device, camera_.width, camera_.height, FilmLayout{}, Film::inOneBuffer, coarseOwner),
       measureRadii_(pass.kernel("measureRadii")), chooseRadii_(pass.kernel("chooseRadii")),
-      pilotScales_(device, scaleCount(camera_, classes), "pilot's radii"),
-      measures_(device, pilotScales_.size(), "pilot's measures") {
+      coarseScales_(device, scaleCount(camera_, classes), "coarse radii"),
+      measures_(device, coarseScales_.size(), "coarse measures") {
     for (size_t choice = 0; choice <= choices.size(); ++choice)
-        scales_.emplace_back(device, pilotScales_.size(), scalesLabel(choice)).fill(1);
-    pilotScales_.fill(largestAdaptiveRadius);
+        scales_.emplace_back(device, coarseScales_.size(), scalesLabel(choice)).fill(1);
+    coarseScales_.fill(largestAdaptiveRadius);
     measures_.write(std::vector<shared::RadiusMeasure>(measures_.size()));
 }
 
 std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
-    const shared::Camera pilot = coarseCamera(camera, coarseBlock(camera));
-    const uint64_t scales = scaleCount(pilot, classes);
-    auto bytes = Film::plan(size_t(pilot.width) * pilot.height, FilmLayout{}, Film::inOneBuffer, pilotOwner);
-    bytes["pilot's radii"] = scales * sizeof(float);
-    bytes["pilot's measures"] = scales * sizeof(shared::RadiusMeasure);
+    const shared::Camera coarse = coarseCamera(camera, coarseBlock(camera));
+    const uint64_t scales = scaleCount(coarse, classes);
+    auto bytes = Film::plan(size_t(coarse.width) * coarse.height, FilmLayout{}, Film::inOneBuffer, coarseOwner);
+    bytes["coarse radii"] = scales * sizeof(float);
+    bytes["coarse measures"] = scales * sizeof(shared::RadiusMeasure);
     for (size_t choice = 0; choice <= choices.size(); ++choice) bytes[scalesLabel(choice)] = scales * sizeof(float);
     return bytes;
 }
 
 void AdaptiveRadius::compile() {
     const shared::RadiusParams nothing{};
-    measureRadii_.launch(film_->pixels(), film_->sums(), pilotScales_, measures_, nothing);
-    chooseRadii_.launch(film_->pixels(), film_->sums(), measures_, pilotScales_, scales_[0], scales_[1], nothing);
+    measureRadii_.launch(film_->pixels(), film_->sums(), coarseScales_, measures_, nothing);
+    chooseRadii_.launch(film_->pixels(), film_->sums(), measures_, coarseScales_, scales_[0], scales_[1], nothing);
 }
 
-unsigned AdaptiveRadius::pilotPassesBefore(unsigned pass) {
+unsigned AdaptiveRadius::coarsePassesBefore(unsigned pass) {
     const size_t made = choicesWithin(pass);
     return made > 0 ? choices[made - 1] : 0;
 }
 
 const Buffer<float>& AdaptiveRadius::scales(unsigned pass) const { return scales_[choicesWithin(pass)]; }
 
-void AdaptiveRadius::endPilotPass() {
+void AdaptiveRadius::endCoarsePass() {
     squaredShrinks_ += squaredShrink(passes_);
     inverseShrinks_ += 1 / squaredShrink(passes_);
     ++passes_;
@@ -93,15 +93,15 @@ void AdaptiveRadius::endPilotPass() {
                                       static_cast<float>(noiseToCurvature()),
                                       largestAdaptiveRadius};
     squaredShrinks_ = inverseShrinks_ = 0;
-    measureRadii_.launch(film_->pixels(), film_->sums(), pilotScales_, measures_, params);
-    chooseRadii_.launch(film_->pixels(), film_->sums(), measures_, pilotScales_, scales_[made - 1], scales_[made],
+    measureRadii_.launch(film_->pixels(), film_->sums(), coarseScales_, measures_, params);
+    chooseRadii_.launch(film_->pixels(), film_->sums(), measures_, coarseScales_, scales_[made - 1], scales_[made],
                         params);
-    if (passes_ >= choices.back()) endPilot();
+    if (passes_ >= choices.back()) endCoarsePasses();
 }
 
-void AdaptiveRadius::endPilot() {
+void AdaptiveRadius::endCoarsePasses() {
     film_.reset();
-    pilotScales_ = {};
+    coarseScales_ = {};
     measures_ = {};
 }
 
@@ -109,9 +109,9 @@ void AdaptiveRadius::save(StateSink& sink) const {
     sink.array("radii counts", std::vector<double>{double(passes_), squaredShrinks_, inverseShrinks_});
     for (size_t choice = 1; choice < scales_.size(); ++choice) sink.array(scalesLabel(choice), scales_[choice].read());
     if (!film_) return;
-    film_->save(sink, "pilot's film");
-    sink.array("pilot's radii", pilotScales_.read());
-    sink.array("pilot's measures", measures_.read());
+    film_->save(sink, "coarse film");
+    sink.array("coarse radii", coarseScales_.read());
+    sink.array("coarse measures", measures_.read());
 }
 
 void AdaptiveRadius::restore(const StateSource& source) {
@@ -125,14 +125,14 @@ void AdaptiveRadius::restore(const StateSource& source) {
         scales_[choice].write(source.array<float>(scalesLabel(choice)));
     }
     if (passes_ >= choices.back()) {
-        endPilot();
+        endCoarsePasses();
         return;
     }
-    film_->restore(source, "pilot's film");
-    source.requireBytes("pilot's radii", pilotScales_.size() * sizeof(float));
-    pilotScales_.write(source.array<float>("pilot's radii"));
-    source.requireBytes("pilot's measures", measures_.size() * sizeof(shared::RadiusMeasure));
-    measures_.write(source.array<shared::RadiusMeasure>("pilot's measures"));
+    film_->restore(source, "coarse film");
+    source.requireBytes("coarse radii", coarseScales_.size() * sizeof(float));
+    coarseScales_.write(source.array<float>("coarse radii"));
+    source.requireBytes("coarse measures", measures_.size() * sizeof(shared::RadiusMeasure));
+    measures_.write(source.array<shared::RadiusMeasure>("coarse measures"));
 }
 
 } // namespace quasilux

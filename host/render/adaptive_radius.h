@@ -1,4 +1,4 @@
-// Density radius by block of pixels and class of light, chosen from a pilot (docs/method/radius.md, "Radius by pixel"). The pilot's passes
+// Density radius by block of pixels and class of light, chosen from passes of a coarse camera (docs/method/radius.md, "Radius by pixel"). Coarse passes
 // follow each other from 0 on, with the photons of the passes of these numbers. So the radii of a pass are a function of scene,
 // settings and seed, whichever passes have been rendered.
 #pragma once
@@ -28,23 +28,23 @@ public:
     /// Has the runtime compile the kernels.
     void compile();
 
-    /// How many passes of the pilot the radii of `pass` are chosen from.
-    static unsigned pilotPassesBefore(unsigned pass);
-    /// So many passes of the pilot have ended.
-    unsigned pilotPasses() const { return passes_; }
-    /// Is the pilot's next pass this one: is the bias of coarse pixels to be estimated, at the largest radius, with its photons?
-    bool pilotIsDue(unsigned pass) const { return film_ && passes_ == pass; }
-    const shared::Camera& pilotCamera() const { return camera_; }
-    Film& pilotFilm() { return *film_; }
-    const Buffer<float>& pilotScales() const { return pilotScales_; }
-    /// To be called when the pilot's film has taken its next pass. Chooses the radii anew after 2, 4, 8 and 16, and ends the pilot.
-    void endPilotPass();
+    /// How many coarse passes the radii of `pass` are chosen from.
+    static unsigned coarsePassesBefore(unsigned pass);
+    /// So many coarse passes have ended.
+    unsigned coarsePasses() const { return passes_; }
+    /// Is the next coarse pass due with this one: is the bias of coarse pixels to be estimated, at the largest radius, with its photons?
+    bool coarsePassIsDue(unsigned pass) const { return film_ && passes_ == pass; }
+    const shared::Camera& camera() const { return camera_; }
+    Film& coarseFilm() { return *film_; }
+    const Buffer<float>& coarseScales() const { return coarseScales_; }
+    /// To be called when the coarse film has taken its next pass. Chooses the radii anew after 2, 4, 8 and 16, and ends coarse passes.
+    void endCoarsePass();
 
     /// Have all radii been chosen?
-    bool pilotHasEnded() const { return !film_; }
+    bool coarsePassesHaveEnded() const { return !film_; }
 
     /// Radius of each block in a pass by that of the map, radiusIndex() in kernels/adaptive_radius.clh; 1 in the first passes. The
-    /// pilot passes before it must have ended.
+    /// coarse passes before it must have ended.
     const Buffer<float>& scales(unsigned pass) const;
     /// The radii chosen so far, and what those to come are chosen from.
     void save(StateSink& sink) const;
@@ -54,14 +54,14 @@ public:
     unsigned block() const { return block_; }
 
 private:
-    void endPilot();
+    void endCoarsePasses();
 
     unsigned block_;
     shared::Camera camera_;
-    std::optional<Film> film_; ///< until the pilot has ended
+    std::optional<Film> film_; ///< until coarse passes have ended
     Kernel measureRadii_, chooseRadii_;
     std::vector<Buffer<float>> scales_; ///< as chosen: not at all, the first time, …
-    Buffer<float> pilotScales_;
+    Buffer<float> coarseScales_;
     Buffer<shared::RadiusMeasure> measures_;
     unsigned passes_ = 0;
     double squaredShrinks_ = 0, inverseShrinks_ = 0; ///< shared::RadiusParams

@@ -2,7 +2,7 @@
 
 #include "render/method.h"
 #include "render/pass_params.h"
-#include "render/pilot.h"
+#include "render/photon_forecast.h"
 
 namespace quasilux {
 
@@ -11,9 +11,9 @@ CameraMapPass::CameraMapPass(const PassContext& context)
                                 context.photons, context.classes, meanRadiance(context.flat)) {
     if (!context.flat.media.empty()) {
         const Program photonMap(context.device, "photon_map_pass.cl", kernelOptions(context.flat, context.settings));
-        stage_.thinVolume(tracePilot(context, photonMap).keepProbability);
+        stage_.thinVolume(forecastPhotons(context, photonMap).keepProbability);
     }
-    stage_.makeRoom(pilotPass, context.radii.radii(0), context.radii.volumeScale(0));
+    stage_.makeRoom(forecastPass, context.radii.radii(0), context.radii.volumeScale(0));
     // All else has been written to; of points as traced not even that much, as regions have room to spare.
     forecast_ = forecastOf(context, context.buffers,
                            context.buffers.at("camera point cell counts") + context.buffers.at("camera point cells"));

@@ -10,9 +10,9 @@ namespace {
 
 // Where somebody waits for rows of the film, so that pictures come twice a second (docs/notes/live-view.md).
 constexpr double longestAwaitedSeconds = 0.2;
-// Added to the seed: what a pilot decides must know nothing of the image's camera paths.
+// Added to the seed: what coarse passes decide must know nothing of the image's camera paths.
 constexpr unsigned coarseSeed = 0x7F4A7C15u;
-const std::string ofOnePath = "pilot's ";
+const std::string ofOnePath = "coarse ";
 
 } // namespace
 
@@ -104,28 +104,28 @@ void CameraStage::runWithoutGathering(const PhotonStage& photons) {
 
 void CameraStage::runCoarse(Film& film, const shared::Camera& camera, unsigned pass, Brings brings,
                             const PathCounts& paths, const PhotonStage& photons) {
-    shared::CameraParams ofPilot = params(pass, photons);
-    ofPilot.seedLow += coarseSeed;
-    ofPilot.camera = camera;
-    ofPilot.coarseness = coarseBlock(params_.camera);
-    ofPilot.spread = 1.f / static_cast<float>(ofPilot.coarseness);
-    ofPilot.radiusBlock = 1;
-    if (brings != Brings::allLight) ofPilot.gatheringPaths = 0;
-    ofPilot.countsEvents = brings == Brings::rays;
-    runOn(film, film.beginBatch(), ofPilot, {paths, radiusScales(0)}, photons);
+    shared::CameraParams ofCoarse = params(pass, photons);
+    ofCoarse.seedLow += coarseSeed;
+    ofCoarse.camera = camera;
+    ofCoarse.coarseness = coarseBlock(params_.camera);
+    ofCoarse.spread = 1.f / static_cast<float>(ofCoarse.coarseness);
+    ofCoarse.radiusBlock = 1;
+    if (brings != Brings::allLight) ofCoarse.gatheringPaths = 0;
+    ofCoarse.countsEvents = brings == Brings::rays;
+    runOn(film, film.beginBatch(), ofCoarse, {paths, radiusScales(0)}, photons);
 }
 
-bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->pilotIsDue(pass); }
+bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->coarsePassIsDue(pass); }
 
 // With the same photons: passes to come, whose radii this decides, have others.
 size_t CameraStage::chooseRadius(unsigned pass, const PhotonStage& photons) {
-    shared::CameraParams ofPilot = params(pass, photons);
-    ofPilot.camera = radii_->pilotCamera();
-    ofPilot.coarseness = radii_->block();
-    ofPilot.radiusBlock = 1;
-    Film& film = radii_->pilotFilm();
-    runOn(film, film.beginPass(pass), ofPilot, {onePath_, &radii_->pilotScales()}, photons);
-    radii_->endPilotPass();
+    shared::CameraParams ofCoarse = params(pass, photons);
+    ofCoarse.camera = radii_->camera();
+    ofCoarse.coarseness = radii_->block();
+    ofCoarse.radiusBlock = 1;
+    Film& film = radii_->coarseFilm();
+    runOn(film, film.beginPass(pass), ofCoarse, {onePath_, &radii_->coarseScales()}, photons);
+    radii_->endCoarsePass();
     return film.pixels();
 }
 

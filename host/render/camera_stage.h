@@ -45,9 +45,9 @@ public:
     /// The same without photons, to learn what it takes: one path of each pixel, into the film.
     void runWithoutGathering(const PhotonStage& photons);
 
-    /// What the paths of a pilot bring: light that they find themselves, that and what photons carry, or how many rays they follow, as an image.
+    /// What the paths of a coarse camera bring: light that they find themselves, that and what photons carry, or how many rays they follow, as an image.
     enum class Brings { ownLight, allLight, rays };
-    /// Pass `pass` of a pilot, `paths` of each pixel of a coarse camera, a batch of the film of that camera; random numbers are its own. They begin within a
+    /// Pass `pass` of a coarse camera, `paths` of each of its pixels, a batch of its film; random numbers are its own. They begin within a
     /// single pixel of the image, in the middle: what differs between pixels is no noise.
     void runCoarse(Film& film, const shared::Camera& camera, unsigned pass, Brings brings, const PathCounts& paths,
                    const PhotonStage& photons);

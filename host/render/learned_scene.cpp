@@ -2,7 +2,7 @@
 
 #include "render/method.h"
 #include "render/pass_params.h"
-#include "render/pilot.h"
+#include "render/photon_forecast.h"
 #include "render/regions.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 constexpr unsigned samplesOfManyEmitters = 4;
 // Of a round while learning.
 constexpr unsigned fewestPhotonsOfRound = 8192, mostPhotonsOfRound = 131072;
-constexpr unsigned firstRoundPass = pilotPass - 16; // no render gets there
+constexpr unsigned firstRoundPass = forecastPass - 16; // no render gets there
 
 RoundResult sumOfRegions(const std::vector<shared::RegionCount>& regions, unsigned photons) {
     RoundResult result;
@@ -55,7 +55,7 @@ LearnedScene learnScene(Device& device, const Program& program, const Scene& sce
     if (!learns(flat.features, settings)) return {};
     Learning learning(device, program, flat, SceneBuffers{geometry.nodes, geometry.blocks, geometry.tables},
                       cameraParams(flat, settings, QL_NONE));
-    learning.followPilots(mayTakeDirectFromPhotons(flat.features, settings));
+    learning.followImportance(mayTakeDirectFromPhotons(flat.features, settings));
     if (settings.map == MapOrder::photons && flat.offsets.meter.kind == METER_NONE)
         learning.traceRounds([&](unsigned round) {
             return tracePhotonRound(device, program, geometry, photonParams(scene, flat, settings), round);

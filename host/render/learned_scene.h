@@ -7,7 +7,7 @@
 
 namespace quasilux {
 
-/// Follows pilots from the camera and rounds of photons from the emitters, as far as they serve the image; `flat` and the tables of `geometry` have
+/// Follows importance paths from the camera and rounds of photons from the emitters, as far as they serve the image; `flat` and the tables of `geometry` have
 /// what they found. Empty where there is nothing to learn, learns().
 LearnedScene learnScene(Device& device, const Program& program, const Scene& scene, const RenderSettings& settings,
                         DeviceScene& flat, GeometryBuffers& geometry);

@@ -5,7 +5,7 @@
 #include "render/meter_stage.h"
 #include "render/meter_sums.h"
 #include "render/method.h"
-#include "render/path_pilot.h"
+#include "render/noise_probe.h"
 #include "render/photon_arrays.h"
 #include "render/regions.h"
 #include "render/shared_samples.h"
@@ -79,7 +79,7 @@ BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, u
     const bool isMeter = scene.offsets.meter.kind != METER_NONE,
                isAdaptive = settings.cameraSampling == CameraSampling::adaptive;
     if (mayHaveCameraPaths(isMeter, settings)) sizes.merge(CameraStage::plan(scene.camera, isAdaptive));
-    if (isAdaptive) sizes.merge(PathPilot::plan(scene.camera));
+    if (isAdaptive) sizes.merge(NoiseProbe::plan(scene.camera));
     if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes));
     if (const shared::Meter& meter = scene.offsets.meter; isMeter) {
         sizes["meter"] = splatWords(classes) * pixelsOf(scene) * sizeof(uint32_t);

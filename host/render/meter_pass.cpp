@@ -9,7 +9,7 @@ MeterPass::MeterPass(const PassContext& context)
     : context_(context), meter_(context.device, context.program, context.geometry, context.film, context.camera,
                                 context.classes, meanRadiance(context.flat)),
       photons_(
-          context, [&](const PhotonStage& pilot) { meter_.compile(pilot); },
+          context, [&](const PhotonStage& forecast) { meter_.compile(forecast); },
           meterCountsPhotons(context.flat.features, context.settings) ? &meter_.counted() : nullptr) {
     forecast_ = photons_.forecast();
 }

@@ -1,7 +1,7 @@
 #include "render/pass_photons.h"
 
 #include "render/method.h"
-#include "render/pilot.h"
+#include "render/photon_forecast.h"
 #include "render/scene_report.h"
 
 namespace quasilux {
@@ -11,7 +11,7 @@ PassPhotons::PassPhotons(const PassContext& context, const std::function<void(co
     : context_(context), areTaken_(photonClasses(context.flat.features, context.settings) != 0) {
     const DeviceScene& flat = context.flat;
     const RenderSettings& settings = context.settings;
-    const PilotResult expected = tracePilot(context, context.program, compile);
+    const PhotonForecast expected = forecastPhotons(context, context.program, compile);
     const BufferSizes sizes = planPass(flat, settings, expected.photons, context.device.info());
     checkFits(sizes, context.device.info(), flat, settings);
     forecast_ = forecastOf(context, sizes, sumOf(sizes) - sumOf(planScene(flat, settings, context.device.info())));

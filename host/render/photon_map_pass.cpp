@@ -14,23 +14,23 @@ PhotonMapPass::PhotonMapPass(const PassContext& context) : context_(context) {
         samples_.emplace(context.device, context.program, camera, floats);
     camera_.emplace(context.device, context.program, context.geometry, context.film, context.camera,
                     context.settings.cameraPaths, radii_ ? &*radii_ : nullptr, samples_ ? &*samples_ : nullptr);
-    photons_.emplace(context, [&](const PhotonStage& pilot) { camera_->compile(pilot); });
+    photons_.emplace(context, [&](const PhotonStage& forecast) { camera_->compile(forecast); });
     forecast_ = photons_->forecast();
     if (context.settings.cameraSampling == CameraSampling::adaptive && context.settings.cameraPaths > 1)
         allocatePaths();
 }
 
-PathPilot PhotonMapPass::pathPilot() {
+NoiseProbe PhotonMapPass::noiseProbe() {
     return {context_.device, *camera_, *photons_, context_.flat.camera, context_.classes};
 }
 
 void PhotonMapPass::allocatePaths() {
     const shared::Camera& camera = context_.flat.camera;
     camera_->setPaths(
-        {context_.device, camera, coarseBlock(camera), pathPilot().allocate(context_.settings.cameraPaths)});
+        {context_.device, camera, coarseBlock(camera), noiseProbe().allocate(context_.settings.cameraPaths)});
 }
 
-SamplingGain PhotonMapPass::samplingGain(unsigned paths) { return pathPilot().gain(paths); }
+SamplingGain PhotonMapPass::samplingGain(unsigned paths) { return noiseProbe().gain(paths); }
 
 void PhotonMapPass::run(unsigned pass, RenderCounters& counters) {
     catchUpRadii(pass, counters);
@@ -44,8 +44,8 @@ void PhotonMapPass::run(unsigned pass, RenderCounters& counters) {
 // Radii of this pass are chosen with the photons of earlier ones; where these were not rendered here, they are traced for that
 // alone.
 void PhotonMapPass::catchUpRadii(unsigned pass, RenderCounters& counters) {
-    while (radii_ && photons_->areTaken() && radii_->pilotPasses() < AdaptiveRadius::pilotPassesBefore(pass)) {
-        const unsigned earlier = radii_->pilotPasses();
+    while (radii_ && photons_->areTaken() && radii_->coarsePasses() < AdaptiveRadius::coarsePassesBefore(pass)) {
+        const unsigned earlier = radii_->coarsePasses();
         photons_->traceUncounted(earlier);
         chooseRadii(earlier, counters);
     }
@@ -74,7 +74,9 @@ std::optional<GatheredCount> PhotonMapPass::countGathered(unsigned pass) {
                                    photons_->stage(), camera_->params(pass, photons_->stage()), camera_->tables(pass));
 }
 
-bool PhotonMapPass::radiiAreChosen() const { return !radii_ || !photons_->areTaken() || radii_->pilotHasEnded(); }
+bool PhotonMapPass::radiiAreChosen() const {
+    return !radii_ || !photons_->areTaken() || radii_->coarsePassesHaveEnded();
+}
 
 void PhotonMapPass::saveRadii(StateSink& sink) const {
     if (radii_) radii_->save(sink);

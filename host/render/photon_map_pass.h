@@ -2,8 +2,8 @@
 #pragma once
 
 #include "render/camera_stage.h"
+#include "render/noise_probe.h"
 #include "render/pass_photons.h"
-#include "render/path_pilot.h"
 
 namespace quasilux {
 
@@ -21,7 +21,7 @@ public:
     void restoreRadii(const StateSource& source) override;
 
 private:
-    PathPilot pathPilot();
+    NoiseProbe noiseProbe();
     void allocatePaths();
     void catchUpRadii(unsigned pass, RenderCounters& counters);
     void chooseRadii(unsigned pass, RenderCounters& counters);

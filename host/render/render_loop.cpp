@@ -79,11 +79,4 @@ RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stopAt,
     return {std::move(known.image), known.counters, failure};
 }
 
-FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
-                      const std::atomic<bool>& interrupted, const RenderedBefore& before) {
-    RenderOutcome outcome = renderAsFarAsItGoes(renderer, stop, onProgress, interrupted, before);
-    if (outcome.failure) std::rethrow_exception(outcome.failure);
-    return std::move(outcome.image);
-}
-
 } // namespace quasilux

@@ -3,9 +3,9 @@
 #include "render/adaptive_radius.h"
 #include "render/learned_scene.h"
 #include "render/method.h"
+#include "render/noise_probe.h"
 #include "render/pass.h"
 #include "render/pass_params.h"
-#include "render/path_pilot.h"
 #include "render/radius_field.h"
 #include "util/stopwatch.h"
 
@@ -189,7 +189,7 @@ double Renderer::secondsWithoutGathering() {
 
 SamplingGain Renderer::samplingGain(unsigned paths) { return stages_->passes->samplingGain(paths); }
 
-double Renderer::pathsOfSamplingGain() const { return PathPilot::pathsByPixel(stages_->flat.camera); }
+double Renderer::pathsOfSamplingGain() const { return NoiseProbe::pathsByPixel(stages_->flat.camera); }
 
 bool Renderer::isFilmWhole() const { return stages_->film->isWhole(); }
 

@@ -82,7 +82,7 @@ private:
     std::unique_ptr<Stages> stages_;
 };
 
-/// What a render has behind it when renderUntil begins.
+/// What a render has behind it when renderAsFarAsItGoes begins.
 struct RenderedBefore {
     double seconds = 0; ///< that the stop rule counts
 };
@@ -103,9 +103,5 @@ RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stop,
                                   const std::function<void(const Progress&)>& onProgress,
                                   const std::atomic<bool>& interrupted, const RenderedBefore& before = {},
                                   const AfterPass& afterPass = {});
-
-/// The same, but throws where a pass fails.
-FilmImage renderUntil(Renderer& renderer, const StopRule& stop, const std::function<void(const Progress&)>& onProgress,
-                      const std::atomic<bool>& interrupted, const RenderedBefore& before = {});
 
 } // namespace quasilux

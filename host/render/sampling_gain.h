@@ -1,4 +1,4 @@
-// What camera paths by pixel are worth (path_pilot.h).
+// What camera paths by pixel are worth (noise_probe.h).
 #pragma once
 
 namespace quasilux {

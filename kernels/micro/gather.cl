@@ -1,6 +1,6 @@
 /* gatherPhotons about whole discs, as the density estimate does away from borders: per query the sum of flux times
  * kernel. */
-#include "density.clh"
+#include "micro/gather_photons.clh"
 #include "micro/gather_types.h"
 
 __kernel void gather(__global const uint* cellStart, __global const uint* sorted, __global const GatherQuery* queries,

@@ -1,6 +1,6 @@
 /* Rays of a buffer (ray_buffer.clh) through kernels/bvh.clh, and of a
- * buffer of packets (Ray16) through kernels/bvh_packet.clh. */
-#include "bvh_packet.clh"
+ * buffer of packets (Ray16) through kernels/micro/bvh_packet.clh. */
+#include "micro/bvh_packet.clh"
 #include "micro/ray_buffer.clh"
 
 __kernel void closestHits(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,

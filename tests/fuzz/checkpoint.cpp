@@ -9,7 +9,7 @@ namespace quasilux::fuzz {
 
 namespace {
 
-constexpr std::string_view begin = "QLXCKPT1", kernels = "KERNELS";
+constexpr std::string_view begin = "QLXCKPT2", kernels = "KERNELS";
 
 std::string complete(std::string_view input) {
     const size_t zero = input.rfind('\0');

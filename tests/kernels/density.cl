@@ -1,5 +1,5 @@
 /* Density regions and estimates of irradiance at given surface points. */
-#include "density.clh"
+#include "micro/gather_photons.clh"
 
 /* As tests/support/density_scene.h has them. */
 typedef struct {

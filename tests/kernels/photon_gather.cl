@@ -1,5 +1,5 @@
 /* gatherPhotons about whole discs: per query the sum of flux times kernel, in R, G and B. */
-#include "density.clh"
+#include "micro/gather_photons.clh"
 
 __kernel void gather(__global const uint* cellStart, __global const uint* sorted, __global const float4* queries,
                      __global float4* sums, const MapParams map, const uint count, const uint lightClass,

@@ -3,10 +3,9 @@
 
 #define WARP_DISC 0
 #define WARP_COSINE_HEMISPHERE 1
-#define WARP_UNIFORM_HEMISPHERE 2
-#define WARP_UNIFORM_SPHERE 3
-#define WARP_UNIFORM_CONE 4 /* parameter: 1 - cosMax */
-#define WARP_TRIANGLE 5
+#define WARP_UNIFORM_SPHERE 2
+#define WARP_UNIFORM_CONE 3 /* parameter: 1 - cosMax */
+#define WARP_TRIANGLE 4
 
 static float4 warp(uint kind, float parameter, float2 u) {
     switch (kind) {
@@ -16,8 +15,6 @@ static float4 warp(uint kind, float parameter, float2 u) {
         const float3 d = sampleCosineHemisphere(u);
         return (float4)(d, pdfSolidAngleCosineHemisphere(d.z));
     }
-    case WARP_UNIFORM_HEMISPHERE:
-        return (float4)(sampleUniformHemisphere(u), pdfSolidAngleUniformHemisphere());
     case WARP_UNIFORM_SPHERE:
         return (float4)(sampleUniformSphere(u), pdfSolidAngleUniformSphere());
     case WARP_UNIFORM_CONE:

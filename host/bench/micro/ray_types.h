@@ -24,9 +24,9 @@ struct MicroHit {
     unsigned index() const { return primitive & PRIMITIVE_INDEX_MASK; }
 };
 
-constexpr unsigned packetSize = 16; ///< of kernels/bvh_packet.clh
+constexpr unsigned packetSize = 16; ///< of kernels/micro/bvh_packet.clh
 
-/// Rays as Embree (8 or 16) and kernels/bvh_packet_box.clh (Ray16) take them, field by field; origin and direction
+/// Rays as Embree (8 or 16) and kernels/micro/bvh_packet_box.clh (Ray16) take them, field by field; origin and direction
 /// axis by axis.
 template <unsigned size>
 struct alignas(4 * size) RayPacket {
@@ -39,7 +39,7 @@ struct alignas(4 * size) HitPacket {
     unsigned primitive[size];
 };
 
-/// As kernels/bvh_packet.clh writes it.
+/// As kernels/micro/bvh_packet.clh writes it.
 struct alignas(4 * packetSize) DeviceHitPacket {
     float t[packetSize], u[packetSize], v[packetSize];
     unsigned slot[packetSize], primitive[packetSize];

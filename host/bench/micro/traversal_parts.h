@@ -36,7 +36,7 @@ inline bool differ(const MicroHit& ours, const MicroHit& theirs) {
 }
 inline bool differ(unsigned ours, unsigned theirs) { return ours != theirs; }
 
-/// Packets of sixteen rays (kernels/bvh_packet.clh) against single rays and against Embree's packets; what is compared are
+/// Packets of sixteen rays (kernels/micro/bvh_packet.clh) against single rays and against Embree's packets; what is compared are
 /// the hits of packets and single rays.
 MicroRow packetRow(Device& device, unsigned threads, DeviceTree& tree, const EmbreeScene& embree, const RaySet& set,
                    unsigned rounds, const std::string& scene);

@@ -1,7 +1,7 @@
 /* Learning, step 1: paths from the camera to the emitters, which show where photons should begin and where they matter.
- * From: the camera. To: one PilotPath each.
+ * From: the camera. To: one ImportancePath each.
  *
- * A pilot path scatters with all lobes and is never cut short by the map. From the vertex on where the camera would gather diffuse
+ * An importance path scatters with all lobes and is never cut short by the map. From the vertex on where the camera would gather diffuse
  * photons, it is a photon's path backwards: what it finds at an emitter is emission that serves the image. */
 #include "camera.clh"
 #include "camera_surface.clh"
@@ -14,9 +14,9 @@
 #include "meter.clh"
 #endif
 
-#define PILOT_EVENTS_MAX 64u
-/* Pilot paths go on at most with this probability once they are past their first vertices. */
-#define PILOT_SURVIVAL_MAX 0.9f
+#define IMPORTANCE_EVENTS_MAX 64u
+/* Importance paths go on at most with this probability once they are past their first vertices. */
+#define IMPORTANCE_SURVIVAL_MAX 0.9f
 
 typedef struct {
     Ray ray;
@@ -31,7 +31,7 @@ typedef struct {
     float passed;  /* of the segment, before null surfaces */
     uint medium;
     int hasScattered;
-} PilotState;
+} ImportanceState;
 
 inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
 
@@ -55,8 +55,9 @@ inline int keepRecord(EmissionRecord* kept, float weight, uint emitter, uint ele
 
 /* Light from an emitter, chosen with this probability, at the end of a segment along `direction`, where `weight` of it comes to the
  * image; direct light: of this, photons might bring `gatheredShare`. */
-inline void foundEmission(PilotPath* path, const PilotState* state, int isDirect, float weight, float gatheredShare,
-                          float probability, uint emitter, uint element, float3 position, float3 direction, Rng* rng) {
+inline void foundEmission(ImportancePath* path, const ImportanceState* state, int isDirect, float weight,
+                          float gatheredShare, float probability, uint emitter, uint element, float3 position,
+                          float3 direction, Rng* rng) {
     path->radiance += weight;
     if (state->vertices > 0) path->vertices[state->vertices - 1].found += weight;
     if (!state->gathers && !isDirect) return;
@@ -66,9 +67,9 @@ inline void foundEmission(PilotPath* path, const PilotState* state, int isDirect
         path->gatheredShare = gatheredShare;
 }
 
-inline void storeVertex(PilotPath* path, PilotState* state, float3 position, uint face) {
-    if (state->vertices == PILOT_VERTICES) return;
-    PilotVertex* vertex = path->vertices + state->vertices++;
+inline void storeVertex(ImportancePath* path, ImportanceState* state, float3 position, uint face) {
+    if (state->vertices == IMPORTANCE_VERTICES) return;
+    ImportanceVertex* vertex = path->vertices + state->vertices++;
     vertex->position.x = position.x;
     vertex->position.y = position.y;
     vertex->position.z = position.z;
@@ -77,8 +78,8 @@ inline void storeVertex(PilotPath* path, PilotState* state, float3 position, uin
 }
 
 /* What a sample of an emitter brings to the image by the lobes of `mask`, and by the others in *rest. */
-inline float3 pilotDirectLight(const Surface* s, const Frame* frame, float3 wo, __global const Lobe* lobes,
-                               const LobeChoice* choice, const EmitterSample* light, uint mask, float3* rest) {
+inline float3 importanceDirectLight(const Surface* s, const Frame* frame, float3 wo, __global const Lobe* lobes,
+                                    const LobeChoice* choice, const EmitterSample* light, uint mask, float3* rest) {
     *rest = 0;
     const float3 wi = toLocal(frame, light->direction);
     if (!sameSides(s, light->direction, wi.z)) return 0;
@@ -102,14 +103,14 @@ typedef struct {
     EmitterSample light;
     float probability;
     uint emitter, element;
-} PilotLight;
+} ImportanceLight;
 
-inline PilotLight samplePilotLight(const World* world, float3 position, Rng* rng) {
+inline ImportanceLight sampleImportanceLight(const World* world, float3 position, Rng* rng) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
     const EmitterData data = emitterData(world->tables, scene);
     float uSelect = rngNext(rng);
-    PilotLight s;
+    ImportanceLight s;
     s.element = 0;
     s.emitter = unlearnedLight(world->tables, scene, position, &uSelect, &s.probability);
     s.light = emitterSampleDirection(emitters + s.emitter, &data, position, uSelect, rngNext2(rng));
@@ -124,8 +125,8 @@ inline PilotLight samplePilotLight(const World* world, float3 position, Rng* rng
 }
 
 /* Notes what the sample brings to `position` along the ray `shadow`, where photons might bring `wanted` and cannot bring `other`. */
-inline void foundBySample(const World* world, PilotPath* path, PilotState* state, const PilotLight* s, float3 position,
-                          float positionError, Ray shadow, float3 wanted, float3 other) {
+inline void foundBySample(const World* world, ImportancePath* path, ImportanceState* state, const ImportanceLight* s,
+                          float3 position, float positionError, Ray shadow, float3 wanted, float3 other) {
     if (!any(wanted + other > 0)) return;
     shadow.tMax = shadowReach(&s->light, positionError);
     const float3 visible =
@@ -137,22 +138,22 @@ inline void foundBySample(const World* world, PilotPath* path, PilotState* state
                   s->probability, s->emitter, s->element, end, s->light.direction, &state->rng);
 }
 
-inline void sampleEmitterFor(const World* world, PilotPath* path, PilotState* state, const Surface* s,
+inline void sampleEmitterFor(const World* world, ImportancePath* path, ImportanceState* state, const Surface* s,
                              const Frame* frame, float3 wo, __global const Lobe* lobes, const LobeChoice* choice) {
-    const PilotLight sample = samplePilotLight(world, s->position, &state->rng);
+    const ImportanceLight sample = sampleImportanceLight(world, s->position, &state->rng);
     if (!sample.light.valid) return;
     const int gathersHere = !state->gathers && state->d == world->params->bdd;
     uint mask = 0; /* of lobes whose light photons might bring */
     for (uint k = 0; k < s->lobeCount; ++k)
         mask |= (state->gathers || (gathersHere && lobes[k].scattering == SCATTER_GENUINE_DIFFUSE)) << k;
     float3 other;
-    const float3 wanted = pilotDirectLight(s, frame, wo, lobes, choice, &sample.light, mask, &other);
+    const float3 wanted = importanceDirectLight(s, frame, wo, lobes, choice, &sample.light, mask, &other);
     foundBySample(world, path, state, &sample, s->position, s->positionError, leavingRay(s, sample.light.direction),
                   wanted, other);
 }
 
 /* Emission that the path runs into. */
-inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, uint index, uint element,
+inline void meetEmitter(const World* world, ImportancePath* path, ImportanceState* state, uint index, uint element,
                         float distance, float3 normal, TexturePoint place, float3 end) {
     const SceneTables* scene = &world->params->scene;
     __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
@@ -169,7 +170,7 @@ inline void meetEmitter(const World* world, PilotPath* path, PilotState* state, 
                   end, state->ray.direction, &state->rng);
 }
 
-inline void noteScattering(PilotState* state, uint scattering, uint bdd) {
+inline void noteScattering(ImportanceState* state, uint scattering, uint bdd) {
     if (state->gathers)
         state->events |= scattering;
     else if (scattering == SCATTER_GENUINE_DIFFUSE && state->d++ == bdd)
@@ -177,7 +178,7 @@ inline void noteScattering(PilotState* state, uint scattering, uint bdd) {
 }
 
 /* Goes straight on through a surface, on the same segment. */
-inline void passPilot(const World* world, PilotState* state, const Surface* s, float distance) {
+inline void passImportance(const World* world, ImportanceState* state, const Surface* s, float distance) {
     state->ray = leavingRay(s, state->ray.direction);
     state->passed += max(distance, FLT_MIN);
 #ifdef HAS_MEDIA
@@ -187,8 +188,8 @@ inline void passPilot(const World* world, PilotState* state, const Surface* s, f
 }
 
 /* Goes on with one lobe; 0 where the path ends. It has come `distance` from the last surface. */
-inline int scatterPilot(const World* world, PilotState* state, const Surface* s, const Frame* frame, float3 wo,
-                        __global const Lobe* lobes, const LobeChoice* choice, float distance) {
+inline int scatterImportance(const World* world, ImportanceState* state, const Surface* s, const Frame* frame,
+                             float3 wo, __global const Lobe* lobes, const LobeChoice* choice, float distance) {
     float rest;
     const uint k = chooseLobe(choice, s->lobeCount, rngNext(&state->rng), &rest);
     if (k == s->lobeCount) return 0;
@@ -199,7 +200,7 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
     state->throughput *= sample.weight / choice->probability[k];
 #ifdef HAS_LOBE_PASSAGE
     if (LOBE_PASSES(lobes[k].type)) {
-        passPilot(world, state, s, distance);
+        passImportance(world, state, s, distance);
         return 1;
     }
 #endif
@@ -218,7 +219,7 @@ inline int scatterPilot(const World* world, PilotState* state, const Surface* s,
 }
 
 /* As looksThroughEmitters of camera paths. */
-inline int pilotLooksThrough(const PilotState* state) {
+inline int looksThrough(const ImportanceState* state) {
 #ifdef HAS_HIDDEN_EMITTERS
     return !state->hasScattered;
 #else
@@ -227,16 +228,16 @@ inline int pilotLooksThrough(const PilotState* state) {
 }
 
 /* A surface that the path has come to; 0 where it ends. */
-inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* state, Hit hit) {
+inline int meetImportanceSurface(const World* world, ImportancePath* path, ImportanceState* state, Hit hit) {
     const SceneTables* scene = &world->params->scene;
     const Surface s = surfaceAt(hit, state->ray.origin, state->ray.direction, world->blocks, world->tables, scene);
     __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
-    const int isHidden = s.emitter != QL_NONE && pilotLooksThrough(state);
+    const int isHidden = s.emitter != QL_NONE && looksThrough(state);
     if (s.emitter != QL_NONE && s.front && !isHidden)
         meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
                     hit.t, s.geometricNormal, placeOf(&s), s.position);
     if (s.isNull || isHidden) {
-        passPilot(world, state, &s, hit.t);
+        passImportance(world, state, &s, hit.t);
         return 1;
     }
     if (s.lobeCount == 0) return 0;
@@ -251,18 +252,18 @@ inline int meetPilotSurface(const World* world, PilotPath* path, PilotState* sta
         choice.probability[k] = maxComponent(state->throughput * tintedAlbedo(&s, lobes, k, wo)) / brightest;
         kinds |= lobes[k].scattering;
     }
-    choiceFromStrengths(&choice, s.lobeCount, state->gathers ? 1 / PILOT_SURVIVAL_MAX : CAMERA_ROULETTE_THRESHOLD);
+    choiceFromStrengths(&choice, s.lobeCount, state->gathers ? 1 / IMPORTANCE_SURVIVAL_MAX : CAMERA_ROULETTE_THRESHOLD);
     if (state->gathers || (kinds & SCATTER_GENUINE_DIFFUSE && state->d == world->params->bdd))
         storeVertex(path, state, s.position, importanceFace(s.geometricNormal));
     if (kinds != SCATTER_SPECULAR) sampleEmitterFor(world, path, state, &s, &frame, wo, lobes, &choice);
-    return scatterPilot(world, state, &s, &frame, wo, lobes, &choice, hit.t);
+    return scatterImportance(world, state, &s, &frame, wo, lobes, &choice, hit.t);
 }
 
 #ifdef HAS_MEDIA
 /* As sampleEmitterFor, at a collision; the path goes on with this probability. */
-inline void sampleEmitterAtCollision(const World* world, PilotPath* path, PilotState* state,
+inline void sampleEmitterAtCollision(const World* world, ImportancePath* path, ImportanceState* state,
                                      __global const Medium* medium, float3 position, float survival) {
-    const PilotLight sample = samplePilotLight(world, position, &state->rng);
+    const ImportanceLight sample = sampleImportanceLight(world, position, &state->rng);
     if (!sample.light.valid) return;
     const float p = phaseValue(medium, dot(state->ray.direction, sample.light.direction));
     const float share = sample.light.pdfSolidAngle > 0 ? shareOf(sample.light.pdfSolidAngle, survival * p) : 1.f;
@@ -277,14 +278,14 @@ inline void sampleEmitterAtCollision(const World* world, PilotPath* path, PilotS
 }
 
 /* A collision; 0 where the path ends. */
-inline int collidePilot(const World* world, PilotPath* path, PilotState* state, const FreeFlight* flight,
-                        __global const Medium* medium) {
+inline int collideImportance(const World* world, ImportancePath* path, ImportanceState* state, const FreeFlight* flight,
+                             __global const Medium* medium) {
     const float before = maxComponent(state->throughput);
     const float3 position = state->ray.origin + flight->distance * state->ray.direction;
     state->throughput *= flight->weight * mediumAlbedo(medium, position);
     if (state->gathers || (medium->level > 0 && state->d == world->params->bdd))
         storeVertex(path, state, position, IMPORTANCE_FACE_MEDIUM);
-    const float survival = min(PILOT_SURVIVAL_MAX, maxComponent(state->throughput) / before);
+    const float survival = min(IMPORTANCE_SURVIVAL_MAX, maxComponent(state->throughput) / before);
 #ifdef HAS_DIRECT_IN_MEDIA
     sampleEmitterAtCollision(world, path, state, medium, position, survival);
 #endif
@@ -310,7 +311,7 @@ inline int collidePilot(const World* world, PilotPath* path, PilotState* state, 
 #endif
 
 /* One segment and what happens at its end; 0 where the path ends. */
-inline int followPilot(const World* world, PilotPath* path, PilotState* state) {
+inline int followImportancePath(const World* world, ImportancePath* path, ImportanceState* state) {
     const SceneTables* scene = &world->params->scene;
     Hit hit;
 #ifdef HAS_MEDIA
@@ -318,22 +319,22 @@ inline int followPilot(const World* world, PilotPath* path, PilotState* state) {
         __global const Medium* medium = SCENE_TABLE(world->tables, scene, Medium, media) + state->medium;
         const MediumSegment segment = followMedium(medium, state->throughput, &state->ray, 0, rngNext2(&state->rng),
                                                    world->nodes, world->blocks, world->tables, scene);
-        if (segment.flight.collided) return collidePilot(world, path, state, &segment.flight, medium);
+        if (segment.flight.collided) return collideImportance(world, path, state, &segment.flight, medium);
         state->throughput *= segment.flight.weight;
         hit = segment.hit;
     } else
 #endif
         hit = intersectClosest(world->nodes, world->blocks, state->ray);
-    if (hit.primitive != QL_NONE) return meetPilotSurface(world, path, state, hit);
+    if (hit.primitive != QL_NONE) return meetImportanceSurface(world, path, state, hit);
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
     const uint surroundings = emitterOfSurroundings(emitters, scene->emitterCount);
-    if (surroundings != QL_NONE && !pilotLooksThrough(state))
+    if (surroundings != QL_NONE && !looksThrough(state))
         meetEmitter(world, path, state, surroundings, 0, INFINITY, -state->ray.direction, texturePointOf(0),
                     state->ray.origin);
     return 0;
 }
 
-inline Ray pilotRay(const Camera* camera, __global const uint* tables, uint pixel, Rng* rng) {
+inline Ray importanceRay(const Camera* camera, __global const uint* tables, uint pixel, Rng* rng) {
     const FilterPlace place = filterPlace(camera, tables, pixel, rngNext2(rng));
 #ifdef HAS_THIN_LENS
     return cameraRay(camera, pixel, place.offset, rngNext2(rng));
@@ -342,23 +343,23 @@ inline Ray pilotRay(const Camera* camera, __global const uint* tables, uint pixe
 #endif
 }
 
-__kernel void tracePilotPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
-                              __global const uint* tables, __global PilotPath* paths, const CameraParams params,
-                              const uint count) {
+__kernel void traceImportancePaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                                   __global const uint* tables, __global ImportancePath* paths,
+                                   const CameraParams params, const uint count) {
     const uint index = get_global_id(0);
     if (index >= count) return;
     const World world = {.nodes = nodes, .blocks = blocks, .tables = tables, .params = &params};
     const uint pixels = params.camera.width * params.camera.height;
     const uint pixel = pixels > count ? (uint)((ulong)index * pixels / count) : index % pixels;
-    PilotPath path;
+    ImportancePath path;
     path.indirect.emitter = path.direct.emitter = QL_NONE;
     path.indirect.weight = path.direct.weight = 0;
     path.indirect.inverseDensity = path.direct.inverseDensity = 0;
     path.radiance = path.gatheredShare = 0;
     path.pixel = path.indirect.pixel = path.direct.pixel = pixel;
-    for (uint k = 0; k < PILOT_VERTICES; ++k) path.vertices[k].weight = path.vertices[k].found = 0;
-    PilotState state;
-    state.rng = rngMake((ulong)params.seedHigh << 32 | params.seedLow, 0, STREAM_PILOT, index);
+    for (uint k = 0; k < IMPORTANCE_VERTICES; ++k) path.vertices[k].weight = path.vertices[k].found = 0;
+    ImportanceState state;
+    state.rng = rngMake((ulong)params.seedHigh << 32 | params.seedLow, 0, STREAM_IMPORTANCE, index);
     state.throughput = 1;
     state.d = state.events = state.vertices = 0;
     state.gathers = 0;
@@ -374,10 +375,10 @@ __kernel void tracePilotPaths(__global const BvhNode* nodes, __global const Prim
     state.gathers = 1;
     state.events = SCATTER_GENUINE_DIFFUSE; /* direct light at the meter is sampled */
 #else
-    state.ray = pilotRay(&params.camera, tables, pixel, &state.rng);
+    state.ray = importanceRay(&params.camera, tables, pixel, &state.rng);
 #endif
     state.from = state.ray.origin;
-    uint event = isBeyondImage(&state.ray) ? PILOT_EVENTS_MAX : 0;
-    while (event < PILOT_EVENTS_MAX && followPilot(&world, &path, &state)) ++event;
+    uint event = isBeyondImage(&state.ray) ? IMPORTANCE_EVENTS_MAX : 0;
+    while (event < IMPORTANCE_EVENTS_MAX && followImportancePath(&world, &path, &state)) ++event;
     paths[index] = path;
 }

@@ -1,4 +1,4 @@
-#include "render/path_pilot.h"
+#include "render/noise_probe.h"
 
 #include "render/coarse_camera.h"
 #include "render/error_estimate.h"
@@ -22,7 +22,7 @@ constexpr unsigned mostTimedPaths = 4;
 constexpr double costOfEvent = 8;
 constexpr FilmLayout layout{false, true};
 using Brings = CameraStage::Brings;
-const std::string owner = "path pilot's ";
+const std::string owner = "noise probe's ";
 
 shared::Camera coarseOf(const shared::Camera& camera) { return coarseCamera(camera, coarseBlock(camera)); }
 
@@ -41,25 +41,25 @@ void addPhotons(const FilmImage& gathered, const FilmImage& found, unsigned clas
 
 } // namespace
 
-PathPilot::PathPilot(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera,
-                     unsigned classes)
+NoiseProbe::NoiseProbe(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera,
+                       unsigned classes)
     : device_(device), paths_(paths), photons_(photons), coarse_(coarseOf(camera)), passes_(passesOfHalf(coarse_)) {
     measure(classes);
 }
 
-std::map<std::string, uint64_t> PathPilot::plan(const shared::Camera& camera) {
+std::map<std::string, uint64_t> NoiseProbe::plan(const shared::Camera& camera) {
     const shared::Camera coarse = coarseOf(camera);
     return Film::plan(size_t(coarse.width) * coarse.height, layout, Film::inOneBuffer, owner);
 }
 
-double PathPilot::pathsByPixel(const shared::Camera& camera) {
+double NoiseProbe::pathsByPixel(const shared::Camera& camera) {
     const shared::Camera coarse = coarseOf(camera);
     const double passes = 2.0 * passesOfHalf(coarse) + passesThatGather + passesThatCount + 4 * mostTimedPaths;
     return passes * coarse.width * coarse.height / (double(camera.width) * camera.height);
 }
 
 // Two halves that know nothing of each other, relative to one brightness.
-void PathPilot::measure(unsigned classes) {
+void NoiseProbe::measure(unsigned classes) {
     const FilmImage halves[2] = {render(Brings::ownLight, 0, passes_), render(Brings::ownLight, passes_, passes_)};
     std::vector<float> brightness = halves[0].radiance;
     for (size_t k = 0; k < brightness.size(); ++k) brightness[k] = (brightness[k] + halves[1].radiance[k]) / 2;
@@ -74,7 +74,7 @@ void PathPilot::measure(unsigned classes) {
     }
 }
 
-std::vector<double> PathPilot::costByBlock() {
+std::vector<double> NoiseProbe::costByBlock() {
     const FilmImage counted = render(Brings::rays, 0, passesThatCount);
     std::vector<double> cost;
     cost.reserve(counted.radiance.size() / 3);
@@ -83,7 +83,7 @@ std::vector<double> PathPilot::costByBlock() {
     return cost;
 }
 
-FilmImage PathPilot::render(Brings brings, unsigned from, unsigned passes) {
+FilmImage NoiseProbe::render(Brings brings, unsigned from, unsigned passes) {
     Film film(device_, coarse_.width, coarse_.height, layout, Film::inOneBuffer, owner);
     const PathCounts one(device_, coarse_, 1, owner);
     for (unsigned pass = 0; pass < passes; ++pass) {
@@ -93,11 +93,11 @@ FilmImage PathPilot::render(Brings brings, unsigned from, unsigned passes) {
     return film.develop(passes);
 }
 
-std::vector<uint32_t> PathPilot::allocate(unsigned paths) {
+std::vector<uint32_t> NoiseProbe::allocate(unsigned paths) {
     return allocatePaths(meanOf(halves_[0], halves_[1]), paths);
 }
 
-double PathPilot::secondsOf(const PathCounts& paths) {
+double NoiseProbe::secondsOf(const PathCounts& paths) {
     Film film(device_, coarse_.width, coarse_.height, layout, Film::inOneBuffer, owner);
     device_.finish();
     const Stopwatch watch;
@@ -106,7 +106,7 @@ double PathPilot::secondsOf(const PathCounts& paths) {
     return watch.seconds();
 }
 
-SamplingGain PathPilot::gain(unsigned paths) {
+SamplingGain NoiseProbe::gain(unsigned paths) {
     double inverse = 0; // of the variance that is saved
     for (unsigned k = 0; k < 2; ++k)
         inverse += 0.5 / varianceSaved(halves_[1 - k], allocatePaths(halves_[k], paths), paths);

@@ -1,4 +1,4 @@
-#include "render/pilot.h"
+#include "render/photon_forecast.h"
 
 #include "render/method.h"
 #include "render/pass_params.h"
@@ -22,11 +22,11 @@ double upperBound(double perPath, double count) {
 
 } // namespace
 
-PilotResult tracePilot(const PassContext& context, const Program& photonMap,
-                       const std::function<void(const PhotonStage&)>& compile) {
+PhotonForecast forecastPhotons(const PassContext& context, const Program& photonMap,
+                               const std::function<void(const PhotonStage&)>& compile) {
     Device& device = context.device;
     shared::PhotonParams params = context.photons;
-    params.paths = std::min(pilotPaths, params.paths);
+    params.paths = std::min(forecastPaths, params.paths);
     // Fewer photons carry more each: by the worth of a whole pass's, weight windows would split all of them.
     const float more = static_cast<float>(context.photons.paths) / static_cast<float>(params.paths);
     params.usualWorth *= more;
@@ -37,24 +37,24 @@ PilotResult tracePilot(const PassContext& context, const Program& photonMap,
     if (meterCountsPhotons(context.flat.features, context.settings))
         stage.countAt(uncounted.emplace(device, context.classes, context.film.pixels(), meanRadiance(context.flat)));
     stage.useField(context.field);
-    const PhotonPassCount counted = stage.run(pilotPass, context.radii.radii(0), context.radii.volumeScale(0));
+    const PhotonPassCount counted = stage.run(forecastPass, context.radii.radii(0), context.radii.volumeScale(0));
     stage.compile();
     if (compile) compile(stage);
     device.finish();
     return expectPass(counted, context.photons.paths);
 }
 
-PilotResult expectPass(const PhotonPassCount& counted, unsigned paths) {
-    PilotResult result;
-    const double traced = std::min(pilotPaths, paths), passesOverPilot = paths / traced;
+PhotonForecast expectPass(const PhotonPassCount& counted, unsigned paths) {
+    PhotonForecast result;
+    const double traced = std::min(forecastPaths, paths), passesOverForecast = paths / traced;
     double kept = 0;
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
         const auto inVolume = double(counted.stored[VOLUME_SLOT(c)]), onSurfaces = double(counted.stored[c]);
-        const double keep = std::min(1.0, volumePhotonsPerPath * paths / std::max(passesOverPilot * inVolume, 1.0));
+        const double keep = std::min(1.0, volumePhotonsPerPath * paths / std::max(passesOverForecast * inVolume, 1.0));
         result.keepProbability[c] = static_cast<float>(keep);
         kept += keep * inVolume + onSurfaces;
     }
-    // The pilot itself may have met fewer than is usual.
+    // The few paths may have met fewer than is usual.
     const double perPath = upperBound(kept / traced, traced) / traced;
     result.photons = static_cast<uint64_t>(std::ceil(upperBound(perPath, paths)));
     return result;

@@ -1,5 +1,5 @@
-/* Learning, steps 2 and 3: what becomes of what pilots found.
- * From: pilot paths (pilot_paths.cl) and the photons of learning. To: the numbers by which sources emit such rays, and the cells of the
+/* Learning, steps 2 and 3: what becomes of what importance paths found.
+ * From: importance paths (importance_paths.cl) and the photons of learning. To: the numbers by which sources emit such rays, and the cells of the
  * importance grid where paths were. */
 #include "guide.clh"
 #include "importance.clh"
@@ -17,7 +17,7 @@ inline uint firstSource(__global const GuideSource* sources, uint count, uint em
     return first;
 }
 
-/* The numbers of the rays that pilots found, in the coordinates of the source that is to emit them. */
+/* The numbers of the rays that importance paths found, in the coordinates of the source that is to emit them. */
 __kernel void invertEmission(__global const uint* tables, __global const EmissionRecord* records,
                              __global const GuideSource* sources, const uint sourceCount,
                              __global EmissionPoint* points, const SceneTables scene, const uint count) {
@@ -48,18 +48,18 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
 
 /* The keys of the importance grid's cells that each vertex lies in, fine and coarse, and the fine one's size; and of the
  * cell where each path gathers. */
-__kernel void findImportanceCells(__global const PilotPath* paths, __global uint* keys, __global float* sizes,
+__kernel void findImportanceCells(__global const ImportancePath* paths, __global uint* keys, __global float* sizes,
                                   __global uint* seenKeys, const ImportanceGrid grid, const uint count) {
     const uint index = get_global_id(0);
     if (index >= count) return;
-    for (uint k = 0; k < PILOT_VERTICES; ++k) {
-        const PilotVertex vertex = paths[index].vertices[k];
+    for (uint k = 0; k < IMPORTANCE_VERTICES; ++k) {
+        const ImportanceVertex vertex = paths[index].vertices[k];
         const float3 position = load3(vertex.position);
-        const uint place = index * PILOT_VERTICES + k;
+        const uint place = index * IMPORTANCE_VERTICES + k;
         keys[2 * place] = vertex.weight > 0 ? importanceKey(&grid, position, vertex.face, 1) : 0;
         keys[2 * place + 1] = vertex.weight > 0 ? importanceKey(&grid, position, vertex.face, IMPORTANCE_COARSE) : 0;
         sizes[place] = vertex.weight > 0 ? importanceCellSize(&grid, position) : 1;
     }
-    const PilotVertex gathers = paths[index].vertices[0];
+    const ImportanceVertex gathers = paths[index].vertices[0];
     seenKeys[index] = gathers.weight > 0 ? importanceKey(&grid, load3(gathers.position), gathers.face, SEEN_COARSE) : 0;
 }

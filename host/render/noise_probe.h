@@ -1,4 +1,4 @@
-// A pilot that finds where camera paths have their noise, before the first pass (docs/method/auto.md, Camera paths by pixel).
+// Finds where camera paths have their noise, before the first pass (docs/method/auto.md, Camera paths by pixel).
 #pragma once
 
 #include "render/camera_stage.h"
@@ -10,10 +10,11 @@ namespace quasilux {
 
 /// Traces photons, where they are taken, and coarse camera paths; leaves nothing in the image. What it finds is a function of the scene, the settings and the
 /// seed alone, but for times.
-class PathPilot {
+class NoiseProbe {
 public:
     /// `classes`: bits of the light that photons carry.
-    PathPilot(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera, unsigned classes);
+    NoiseProbe(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera,
+               unsigned classes);
 
     /// Bytes of its buffers by label, while it runs.
     static std::map<std::string, uint64_t> plan(const shared::Camera& camera);
