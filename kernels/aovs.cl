@@ -56,7 +56,7 @@ inline Surface addAovs(float* sums, const Ray* ray, Hit hit, float weight, __glo
                        __global const uint* tables, const SceneTables* scene) {
     const Surface s = surfaceAt(hit, ray->origin, ray->direction, blocks, tables, scene);
     __global const Lobe* lobes = SCENE_TABLE(tables, scene, Lobe, lobes) + s.firstLobe;
-    const Frame frame = frameFromNormal(s.shadingNormal);
+    const Frame frame = shadingFrame(&s);
     const float side = s.front ? weight : -weight; /* normals are those of the surface, on whatever side it is met */
     addTriple(sums + AOV_ALBEDO, weight * diffuseReflectance(&s, lobes, toLocal(&frame, -ray->direction)));
     addTriple(sums + AOV_POSITION, weight * s.position);

@@ -62,7 +62,7 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
 #endif
     if (s.lobeCount == 0) return 0;
     __global const Lobe* lobes = SCENE_TABLE(world->tables, &params->scene, Lobe, lobes) + s.firstLobe;
-    const Frame frame = frameFromNormal(s.shadingNormal);
+    const Frame frame = shadingFrame(&s);
     const float3 wo = toLocal(&frame, -path->ray.direction);
 #ifdef HAS_LOBE_PASSAGE
     if (path->onlyEmission || path->depth >= params->maxDepth || looksAway(&s, wo))

@@ -242,7 +242,7 @@ inline int meetImportanceSurface(const World* world, ImportancePath* path, Impor
     }
     if (s.lobeCount == 0) return 0;
     __global const Lobe* lobes = SCENE_TABLE(world->tables, scene, Lobe, lobes) + s.firstLobe;
-    const Frame frame = frameFromNormal(s.shadingNormal);
+    const Frame frame = shadingFrame(&s);
     const float3 wo = toLocal(&frame, -state->ray.direction);
     if (looksAway(&s, wo)) return 0;
     LobeChoice choice;

@@ -143,6 +143,7 @@ typedef struct {
 } LobeWeight;
 
 #define MATERIAL_NULL 1u
+#define MATERIAL_ANISOTROPIC 2u /* its lobes lie along the derivative of the position by u */
 /* Lobes seen from the side of the normal and from behind; a count of 0 is black. */
 typedef struct {
     unsigned int frontFirst, frontCount;

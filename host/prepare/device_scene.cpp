@@ -47,6 +47,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     for (const auto& weight : materials.weights) features.weightFunctions |= weight.function != WEIGHT_VALUE;
     for (const auto& material : materials.materials)
         features.manyLobes |= std::max(material.frontCount, material.backCount) > LOBES_MAX;
+    for (const auto& bsdf : scene.bsdfs) features.anisotropy |= bsdf.isAnisotropic();
     features.relief = !materials.reliefs.empty();
     features.alphaTextures = !materials.roughness.empty();
     features.textures |= features.relief || features.alphaTextures;

@@ -15,8 +15,8 @@ struct Features {
     std::set<unsigned> phases;       ///< PHASE_* in use
     bool spheres = false, nullPrimitives = false, cornerNormals = false, borders = false, depthLimit = false,
          orthographicCamera = false, textures = false, nestedTextures = false, meshAttributes = false,
-         lobeWeights = false, weightFunctions = false, manyLobes = false, relief = false, alphaTextures = false,
-         textureVolumes = false, thinLens = false, fisheyeCamera = false, instances = false,
+         lobeWeights = false, weightFunctions = false, manyLobes = false, relief = false, anisotropy = false,
+         alphaTextures = false, textureVolumes = false, thinLens = false, fisheyeCamera = false, instances = false,
          filterTable = false;                            ///< a reconstruction filter wider than a pixel
     bool radianceMeter = false, irradianceMeter = false; ///< what the sensor is, if no camera
     bool media = false, chromaticMedia = false;          ///< extinction differs between the channels of some medium

@@ -51,7 +51,7 @@ MaterialTables flattenMaterials(const Scene& scene, const std::vector<BsdfDecisi
     for (size_t k = 0; k < scene.bsdfs.size(); ++k) {
         const auto& bsdf = scene.bsdfs[k];
         shared::Material material{};
-        material.flags = bsdf.isNull ? MATERIAL_NULL : 0;
+        material.flags = (bsdf.isNull ? MATERIAL_NULL : 0) | (bsdf.isAnisotropic() ? MATERIAL_ANISOTROPIC : 0);
         material.frontFirst = static_cast<unsigned>(tables.lobes.size());
         material.frontCount = appendSide(bsdf, bsdf.front, split[k].front, tables);
         material.frontRoughness = appendRoughness(scene, bsdf, bsdf.front, material.frontFirst, tables);

@@ -126,10 +126,13 @@ bool hasUvLayers(const Scene& scene) {
     });
 }
 
+/// Anisotropic lobes lie along u where the shape has it.
+bool usesTexCoords(const Scene& scene, const Bsdf& bsdf) { return needsTexCoords(scene, bsdf) || bsdf.isAnisotropic(); }
+
 unsigned uvWords(const Scene& scene, const ShapeDescription& shape) {
     const bool isShown = hasUvLayers(scene) ||
                          (shape.emitter && shape.emitter->texture && needTexCoords(scene, {*shape.emitter->texture}));
-    if (!isShown && (shape.bsdf < 0 || !needsTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)]))) return 0;
+    if (!isShown && (shape.bsdf < 0 || !usesTexCoords(scene, scene.bsdfs[static_cast<size_t>(shape.bsdf)]))) return 0;
     return shape.sphere ? 9u : static_cast<unsigned>(2 * shape.mesh.cornerUvs.size());
 }
 

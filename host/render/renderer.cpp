@@ -13,11 +13,13 @@ namespace quasilux {
 
 namespace {
 
-/// Points of the camera map hold no plain normal.
-void refuseRelief(const Scene& scene) {
+/// Points of the camera map hold one normal and no direction about it.
+void refuseForCameraMap(const Scene& scene) {
     for (const Bsdf& bsdf : scene.bsdfs)
-        if (bsdf.frontRelief || bsdf.backRelief)
-            throw InputError(bsdf.where, "normal and bump maps need --map photons, and the map is 'camera'.");
+        if (bsdf.frontRelief || bsdf.backRelief || bsdf.isAnisotropic())
+            throw InputError(bsdf.where, std::string(bsdf.isAnisotropic() ? "anisotropic roughness needs"
+                                                                          : "normal and bump maps need") +
+                                             " --map photons, and the map is 'camera'.");
 }
 
 void checkCaustics(const Scene& scene, const Features& features, const RenderSettings& settings) {
@@ -106,7 +108,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
                    std::shared_ptr<const LearnedScene> known, const SceneChecksums& expected) {
     const Stopwatch watch;
     DeviceScene flat = flattenFor(scene, settings);
-    if (settings.map == MapOrder::camera) refuseRelief(scene);
+    if (settings.map == MapOrder::camera) refuseForCameraMap(scene);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
     checkCaustics(scene, flat.features, settings);
     auto checksums = checksumsOf(flat, scene.maxDepth);

@@ -68,6 +68,8 @@ struct Bsdf {
     bool isTextured() const { return !textures().empty(); }
     /// Whether light passes as if the surface were not there, at least in part.
     bool letsPass() const;
+    /// Whether a lobe is not the same in all directions about the normal, at least in part.
+    bool isAnisotropic() const;
 };
 
 /// Radiance that a shape emits on the side of its normal, W sr^-1 m^-2.

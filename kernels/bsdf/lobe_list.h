@@ -35,6 +35,11 @@ enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
 /* A lobe that lets light pass as if the surface were not there is no event of a path: neither a class nor a segment begins. */
 #define LOBE_PASSES(type) ((type) == LOBE_PASSAGE)
 
+/* Lobes of microfacets whose roughness may differ along two axes, alphaU and alphaV. */
+#define LOBE_HAS_TWO_ALPHAS(type)                                                                                      \
+    ((type) == LOBE_GGX || (type) == LOBE_BECKMANN || (type) == LOBE_GGXDIELECTRIC ||                                  \
+     (type) == LOBE_BECKMANNDIELECTRIC || (type) == LOBE_GGXSCHLICK || (type) == LOBE_THINGGX)
+
 /* Lobes that transmit without being delta: light from both sides of a surface counts (LOBE_TRANSMITS). */
 #if defined(HAS_LOBE_GGXDIELECTRIC) || defined(HAS_LOBE_BECKMANNDIELECTRIC) || defined(HAS_LOBE_THINGGX) ||            \
     defined(HAS_LOBE_DIFFUSETRANSMISSION)

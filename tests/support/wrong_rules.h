@@ -33,6 +33,9 @@ enum class PhotonRule {
 /// Camera paths by pixel, or a mistake: the path that gathers for all of a pixel counts as if there were four.
 enum class SamplingRule { right, fourEverywhere };
 
+/// Axes of lobes, or a mistake: those of anisotropic ones follow from the normal alone.
+enum class SurfaceRule { right, axesByNormal };
+
 /// Compiler options; none where it is the right one.
 inline std::string optionOf(LawRule rule) {
     return rule == LawRule::right ? "" : fmt::format(" -DLAW_RULE={}", static_cast<int>(rule));
@@ -42,6 +45,9 @@ inline std::string optionOf(MediumRule rule) {
 }
 inline std::string optionOf(SamplingRule rule) {
     return rule == SamplingRule::right ? "" : fmt::format(" -DSAMPLING_RULE={}", static_cast<int>(rule));
+}
+inline std::string optionOf(SurfaceRule rule) {
+    return rule == SurfaceRule::right ? "" : fmt::format(" -DSURFACE_RULE={}", static_cast<int>(rule));
 }
 inline std::string optionOf(PhotonRule rule) {
     return rule == PhotonRule::right ? "" : fmt::format(" -DPHOTON_RULE={}", static_cast<int>(rule));

@@ -44,6 +44,14 @@ bool Bsdf::letsPass() const {
     return isNull || std::any_of(front.begin(), front.end(), passes) || std::any_of(back.begin(), back.end(), passes);
 }
 
+bool Bsdf::isAnisotropic() const {
+    const auto differs = [](const LobeDescription& lobe) {
+        return LOBE_HAS_TWO_ALPHAS(lobe.device.type) &&
+               (lobe.device.alphaU != lobe.device.alphaV || lobe.levelTextures.size() > 1);
+    };
+    return std::any_of(front.begin(), front.end(), differs) || std::any_of(back.begin(), back.end(), differs);
+}
+
 LobeDescription passageLobe() {
     LobeDescription lobe = makeLobe(LOBE_PASSAGE, "passage", Rgb{0, 0, 0}, 0);
     lobe.device.scattering = SCATTER_SPECULAR;
