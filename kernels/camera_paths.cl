@@ -122,7 +122,7 @@ inline PathPlace pathPlace(const World* world, uint index, float2 even) {
 #endif
 
 /* Of path `k` of the `paths` of its pixel in a pass. Gathering costs most of a path, and what photons carry differs little between the paths of a pixel: the
- * first ones gather for all (docs/method/auto.md, Camera paths). */
+ * first ones gather for all (docs/method/camera-paths.md). */
 inline float gatheringWeight(const CameraParams* params, uint k, uint paths) {
     const uint all = SAMPLING_RULE == 1 ? 4 : paths;
     return k < params->gatheringPaths ? (float)all / params->gatheringPaths : 0.f;

@@ -40,6 +40,18 @@ TEST(Search, FindsWhatIsBetter) {
     EXPECT_THAT(found.report.line(), HasSubstr("auto: BDD 1, main, split none"));
 }
 
+// What was interrupted before anything was compared says so, and not that there was no time; once settings are chosen they are that.
+TEST(Search, SaysThatItWasInterrupted) {
+    const World world = [](const RenderSettings&) { return Truth{}; };
+    const Freedom all{true, true, true, true, true};
+    std::atomic<bool> interrupted = true;
+    const Found found = search(world, 200, all, std::nullopt, {}, 1000, &interrupted);
+    EXPECT_TRUE(found.report.interrupted);
+    EXPECT_THAT(found.report.line(), HasSubstr("interrupted before settings were chosen"));
+    interrupted = false;
+    EXPECT_FALSE(search(world, 200, all, std::nullopt, {}, 1000, &interrupted).report.interrupted);
+}
+
 // Either choice alone makes it worse; both together are the best by far.
 TEST(Search, FindsWhatIsBetterOnlyTogether) {
     const World world = [](const RenderSettings& s) {

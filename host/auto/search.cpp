@@ -60,6 +60,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     const double time = pilotShare * report_.horizon, ofMethods = shareOfMethods * time;
     const bool hasOthers =
         all.size() > 1 || freedom_.cameraPaths || !numbersBeside(start_, startPhotons_, freedom_).empty();
+    report_.interrupted = !begun && interrupted();
     report_.outOfTime = hasOthers && 2 * fewestPasses * startPassSeconds_ > ofMethods;
     if (!begun || !hasOthers || report_.outOfTime || report_.horizon < leastSeconds)
         return kept && begun ? withItsPaths(first, std::move(kept))
@@ -77,6 +78,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     chooseCameraPaths();
     report_.seconds = world_.clock() - began;
     for (const PilotRow& row : report_.rows) report_.passes += row.passes;
+    report_.interrupted = !best_.pilot && interrupted();
     if (!best_.pilot) return {start_, report_, nullptr}; // interrupted, or there was no time
     note(best_, "chosen");
     report_.chosen = best_.row;

@@ -10,6 +10,7 @@ namespace quasilux {
 std::string SearchReport::line() const {
     if (!notSearched.empty()) return "auto: nothing searched: " + notSearched;
     if (!freedom.any()) return "auto: nothing searched: all settings are given";
+    if (interrupted) return "auto: interrupted before settings were chosen";
     const PilotRow& row = rows.at(chosen);
     std::string line = "auto: " + text(row.settings, row.photonsPerPass);
     const auto failed = std::count_if(rows.begin(), rows.end(),

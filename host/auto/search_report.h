@@ -27,6 +27,7 @@ struct SearchReport {
     double seconds = 0;         ///< on the clock, for opening candidates and for their passes
     double horizon = 0;         ///< seconds for which errors were predicted
     bool outOfTime = false;     ///< candidates were left when the pilots' share of the time was used up
+    bool interrupted = false;   ///< before anything could be chosen
 
     /// "auto: BDD 0, main, …: predicted 1.2 % after 30 s (…)".
     std::string line() const;

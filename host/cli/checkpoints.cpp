@@ -69,7 +69,11 @@ void CheckpointKeeper::afterPass(const AutoRender& soFar, const Renderer& render
 
 void CheckpointKeeper::afterPasses(const AutoRender& soFar, const PassesSoFar& passes, double seconds, bool isLast) {
     if (options_.checkpoint.empty()) return;
-    if (isLast && passes.counters.passes == 0) return; // interrupted, maybe within the search
+    if (soFar.search.interrupted) { // a render that went on from its settings would never search
+        if (isLast && !options_.quiet)
+            printWarning("no checkpoint is written: the render was interrupted before its settings were chosen");
+        return;
+    }
     const bool isNew = !wasTried_ || !failure_.empty() || writtenPass_ != passes.nextPass;
     if (!(isLast ? isNew : secondsToNext() <= 0)) return;
     const auto start = Clock::now();

@@ -1,4 +1,4 @@
-// Finds where camera paths have their noise, before the first pass (docs/method/auto.md, Camera paths by pixel).
+// Finds where camera paths have their noise, before the first pass (docs/method/camera-paths.md).
 #pragma once
 
 #include "render/camera_stage.h"

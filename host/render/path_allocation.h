@@ -1,4 +1,4 @@
-// Camera paths by pixel: more where those of a pixel have more noise (docs/method/auto.md, Camera paths by pixel).
+// Camera paths by pixel: more where those of a pixel have more noise (docs/method/camera-paths.md).
 #pragma once
 
 #include <cstdint>

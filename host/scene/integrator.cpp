@@ -104,10 +104,12 @@ struct IntegratorPlugin {
     IntegratorChoice (*read)(Properties&);
 };
 constexpr IntegratorPlugin integratorPlugins[] = {
-    {"path", readPath},   {"volpath", readPath},  {"volpathmis", readPath},     {"direct", readDirect},
-    {"aov", readNested},  {"moment", readNested}, {"photonmapper", readFormer}, {"sppm", readFormer},
-    {"ppm", readFormer},  {"bdpt", readFormer},   {"mlt", readFormer},          {"pssmlt", readFormer},
-    {"erpt", readFormer},
+    {"path", readPath},           {"volpath", readPath},    {"volpathmis", readPath},
+    {"direct", readDirect},       {"aov", readNested},      {"moment", readNested},
+    {"photonmapper", readFormer}, {"sppm", readFormer},     {"ppm", readFormer},
+    {"bdpt", readFormer},         {"mlt", readFormer},      {"pssmlt", readFormer},
+    {"erpt", readFormer},         {"prb", readPath},        {"prb_basic", readPath},
+    {"prb_projective", readPath}, {"prbvolpath", readPath}, {"direct_projective", readDirect},
 };
 
 } // namespace

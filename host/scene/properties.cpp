@@ -66,6 +66,13 @@ double Properties::number(const std::string& name, double missing) {
     return parseNumber(parameter->get("value"), parameter->where, fmt::format("parameter '{}'", name));
 }
 
+double Properties::textureNumber(const std::string& name, double missing) {
+    const Element* parameter = find(name);
+    if (!parameter || (parameter->tag != "rgb" && parameter->tag != "spectrum")) return number(name, missing);
+    const Rgb color = parseColor(*parameter, ColorUse::unbounded, context_);
+    return (double(color.r) + double(color.g) + double(color.b)) / 3;
+}
+
 double Properties::numberAbove(const std::string& name, double missing, double lowest, bool open) {
     const double value = number(name, missing);
     if (value < lowest || (open && value == lowest))
@@ -75,7 +82,7 @@ double Properties::numberAbove(const std::string& name, double missing, double l
 }
 
 double Properties::share(const std::string& name, double missing) {
-    const double value = number(name, missing);
+    const double value = textureNumber(name, missing);
     if (value < 0 || value > 1)
         throw InputError(where(name), fmt::format("parameter '{}' of {} is {}; it must lie within [0, 1].", name,
                                                   describe(), value));
@@ -171,6 +178,10 @@ Rgb Properties::positiveColor(const std::string& name, Rgb missing, ColorUse use
         throw InputError(where(name), fmt::format("parameter '{}' of {} is ({}, {}, {}); no channel may be negative.",
                                                   name, describe(), color.r, color.g, color.b));
     return color;
+}
+
+Rgb Properties::unboundedColor(const std::string& name, Rgb missing) {
+    return color(name, ColorUse::unbounded).value_or(missing);
 }
 
 Rgb Properties::emission(const std::string& name, Rgb missing) {

@@ -27,6 +27,8 @@ public:
     bool has(const std::string& name);
 
     double number(const std::string& name, double missing);
+    /// The same of what may be a texture in Mitsuba: of a colour the mean of its channels, as there.
+    double textureNumber(const std::string& name, double missing);
     /// A number of at least `lowest` (greater than it where `open`).
     double numberAbove(const std::string& name, double missing, double lowest, bool open);
     /// A number within [0, 1].
@@ -48,6 +50,8 @@ public:
     Rgb reflectance(const std::string& name, float missing);
     /// Channels of at least 0. `use` is for spectra.
     Rgb positiveColor(const std::string& name, Rgb missing, ColorUse use = ColorUse::unbounded);
+    /// With any channels.
+    Rgb unboundedColor(const std::string& name, Rgb missing);
     /// Radiance or intensity: no channel negative, at least one positive.
     Rgb emission(const std::string& name, Rgb missing);
 

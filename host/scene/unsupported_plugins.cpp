@@ -11,8 +11,6 @@ struct Unsupported {
 constexpr std::string_view noPolarisation = "light has no polarisation here; remove it";
 constexpr std::string_view asMesh = "export the shape as a mesh, such as 'ply'";
 
-constexpr std::string_view derivatives = "it is there for derivatives; use 'path', or 'volpath' where there are media";
-
 constexpr std::string_view ofFormer = "it is of Mitsuba 0.x; use 'diffuse', or 'principled' with specular 0";
 
 constexpr Unsupported unsupported[] = {
@@ -41,11 +39,6 @@ constexpr Unsupported unsupported[] = {
     {"integrator", "depth", "it draws distances, not light; use 'path'"},
     {"integrator", "emission", "use 'path' with max_depth 1"},
     {"integrator", "stokes", "light has no polarisation here; use the integrator within it"},
-    {"integrator", "prb", derivatives},
-    {"integrator", "prb_basic", derivatives},
-    {"integrator", "prb_projective", derivatives},
-    {"integrator", "prbvolpath", derivatives},
-    {"integrator", "direct_projective", "it is there for derivatives; use 'direct'"},
     {"integrator", "volprim_rf_basic", "radiance fields are not supported; use shapes"},
     {"phase", "sggx", "use 'hg', or 'tabphase' with its mean over the fibres' directions"},
 };

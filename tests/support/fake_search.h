@@ -6,6 +6,7 @@
 #include "support/render_statistics.h"
 #include "util/error.h"
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <new>
@@ -67,9 +68,10 @@ struct Found {
 
 inline Found search(const World& world, double seconds, Freedom freedom = {true, true, true, true, true},
                     std::optional<double> error = std::nullopt, const RenderSettings& start = {},
-                    size_t mostOpen = 1000) {
+                    size_t mostOpen = 1000, const std::atomic<bool>* interrupted = nullptr) {
     double clock = 0;
     SearchWorld searched;
+    searched.interrupted = interrupted;
     searched.open = [&](const RenderSettings& settings) {
         clock += 0.05;
         const unsigned photons = settings.photonsPerPass > 0 ? settings.photonsPerPass : 1000;

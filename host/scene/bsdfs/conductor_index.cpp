@@ -97,6 +97,16 @@ const Metal& findMetal(const std::string& name, const SourceLocation& where) {
                                         knownNames(name, known)));
 }
 
+/// Fits to measured spectra, converted to RGB, may have a channel below 0, which Mitsuba takes as it is.
+Rgb readIndex(Properties& properties, const std::string& name, Rgb missing) {
+    const Rgb given = properties.unboundedColor(name, missing);
+    if (smallest(given) < 0)
+        properties.context().warn(properties.where(name),
+                                  fmt::format("parameter '{}' of {} has a negative channel, which is taken as 0.", name,
+                                              properties.describe()));
+    return {std::max(given.r, 0.f), std::max(given.g, 0.f), std::max(given.b, 0.f)};
+}
+
 } // namespace
 
 void readConductorIndex(Properties& properties, shared::Lobe& lobe) {
@@ -105,8 +115,8 @@ void readConductorIndex(Properties& properties, shared::Lobe& lobe) {
     if (measured && material != "none")
         throw InputError(properties.where("material"),
                          fmt::format("{} has both material and eta or k; keep one.", properties.describe()));
-    lobe.eta = properties.positiveColor("eta", {0, 0, 0});
-    lobe.k = properties.positiveColor("k", {1, 1, 1});
+    lobe.eta = readIndex(properties, "eta", {0, 0, 0});
+    lobe.k = readIndex(properties, "k", {1, 1, 1});
     if (material != "none") {
         const Metal& metal = findMetal(material, properties.where("material"));
         lobe.eta = metal.eta;

@@ -8,17 +8,21 @@ namespace quasilux {
 
 namespace {
 
-constexpr double smallestAlpha = 1e-4; // below, single precision cannot hold the distribution
+constexpr double smallestAlpha = 1e-4; // as in Mitsuba: below, single precision cannot hold the distribution
 constexpr float defaultAlpha = 0.1f;
 
 float readAlpha(Properties& properties, const std::string& name, double missing, const std::string& smooth) {
-    const double alpha = properties.number(name, missing);
-    if (alpha < smallestAlpha)
+    const double alpha = properties.textureNumber(name, missing);
+    if (alpha < 0)
         throw InputError(properties.where(name),
-                         fmt::format("parameter '{}' is {}; it must be at least {}. For a smooth surface use <bsdf "
-                                     "type=\"{}\">.",
-                                     name, alpha, smallestAlpha, smooth));
-    return static_cast<float>(alpha);
+                         fmt::format("parameter '{}' is {}; it must be at least 0.", name, alpha));
+    if (alpha < smallestAlpha)
+        properties.context().warn(
+            properties.where(name),
+            fmt::format("parameter '{}' is {}, which is taken as {}. A smooth surface has less noise "
+                        "as <bsdf type=\"{}\">.",
+                        name, alpha, smallestAlpha, smooth));
+    return static_cast<float>(std::max(alpha, smallestAlpha));
 }
 
 /// Of a texture its index and the mean.

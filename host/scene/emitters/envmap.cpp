@@ -17,13 +17,14 @@ constexpr double looseness = 1e-3;
 } // namespace
 
 glm::dmat3 axesOfSurroundings(Properties& properties) {
-    const glm::dmat3 given(properties.transform("to_world"));
+    glm::dmat3 given(properties.transform("to_world"));
+    const double scale = glm::length(given[0]); // of what is infinitely far away it changes nothing
+    if (scale > 0) given /= scale;
     if (!keepsAngles(given, 1, looseness))
-        throw InputError(
-            properties.where("to_world"),
-            fmt::format("the to_world of an emitter '{}' may turn and mirror it, not scale or shear it: the "
-                        "surroundings are infinitely far away. Remove <scale> from it.",
-                        properties.plugin()));
+        throw InputError(properties.where("to_world"),
+                         fmt::format("the to_world of an emitter '{}' may turn, mirror and scale it alike in all "
+                                     "directions, not shear it: the surroundings are infinitely far away.",
+                                     properties.plugin()));
     const glm::dvec3 x = glm::normalize(given[0]), y = glm::normalize(given[1] - glm::dot(given[1], x) * x);
     const glm::dvec3 z = glm::cross(x, y);
     return {x, y, glm::dot(z, given[2]) < 0 ? -z : z};

@@ -22,6 +22,9 @@ glm::dmat4 readPlacement(Properties& properties) {
     return toWorld;
 }
 
+/// Mitsuba has it for all cameras, but only a lens makes use of it.
+const Names ofLenses = {"focus_distance"};
+
 /// What both have.
 void readView(Properties& properties, Sensor& sensor) {
     sensor.fovX = readFieldOfView(properties, static_cast<double>(sensor.filmWidth) / sensor.filmHeight);
@@ -33,6 +36,7 @@ void readView(Properties& properties, Sensor& sensor) {
 /// <sensor type="perspective">: a pinhole camera.
 void readPerspective(Properties& properties, Sensor& sensor) {
     readView(properties, sensor);
+    properties.accept(ofLenses);
     sensor.principalPoint = {properties.number("principal_point_offset_x", 0),
                              properties.number("principal_point_offset_y", 0)};
 }
@@ -49,6 +53,7 @@ void readThinLens(Properties& properties, Sensor& sensor) {
 /// <sensor type="orthographic">: parallel rays; to_world scales the [-1, 1] that the film is wide.
 void readOrthographic(Properties& properties, Sensor& sensor) {
     sensor.orthographic = true;
+    properties.accept(ofLenses);
     sensor.toWorld = properties.transform("to_world");
 }
 
