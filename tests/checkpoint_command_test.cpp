@@ -188,6 +188,27 @@ TEST_F(CheckpointCommand, FullDiskLosesNoImage) {
     for (const auto& entry : fs::directory_iterator(folder)) EXPECT_NE(entry.path().extension(), ".tmp");
 }
 
+// A file system without hard links cannot keep both: the older one gives up its name only when the new one is on the disk, and where
+// the program ends just then, the render goes on from what there is.
+TEST_F(CheckpointCommand, WithoutLinksNoneIsLost) {
+    renderWell({"-o", "a.exr", "--passes", "4", "--checkpoint", "a.ckpt"});
+    const std::string good = readText(folder / "a.ckpt");
+    const Arguments resumed = render({"-o", "b.exr", "--passes", "6", "--resume", "a.ckpt", "--checkpoint", "a.ckpt"});
+    const Outcome failed =
+        runWith(QUASILUX_FAILING_CALLS, resumed,
+                {{"QUASILUX_NO_LINKS", "1"}, {"QUASILUX_FAIL_CALL", "fsync"}, {"QUASILUX_FAIL_AT", "-1"}});
+    EXPECT_EQ(failed.exitCode, 1);
+    ASSERT_TRUE(isThere("a.ckpt"));
+    EXPECT_EQ(readText(folder / "a.ckpt"), good);
+    fs::rename(folder / "a.ckpt", folder / "a.ckpt.previous");
+    expectRefused(render({"--checkpoint", "a.ckpt"}),
+                  "there is a checkpoint already: go on from it by --resume a.ckpt, or remove a.ckpt.previous first");
+    const Outcome outcome = run(resumed);
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_THAT(outcome.errors, HasSubstr("--resume a.ckpt: is not there, it goes on from a.ckpt.previous"));
+    EXPECT_EQ(checkpoint("a.ckpt").counters.passes, 6u);
+}
+
 // The other kinds of renders: camera points stored, and a grid, of which there is a table.
 TEST_F(CheckpointCommand, OtherKindsResumeToTheSameBits) {
     const auto renders = [&](const Arguments& kind, const Arguments& more) {
@@ -243,8 +264,23 @@ TEST_F(CheckpointCommand, MergesPassesOfAFarm) {
     EXPECT_LT(largestDifference(radianceOf("more.exr"), radianceOf("whole.exr")), 1.2e-7);
     expectRefused({"merge", "a.ckpt", "all.ckpt", "-o", "x.exr"},
                   "both have passes 0 to 15: each pass may be there once");
+    expectRefused({"merge", "a.ckpt", "b.ckpt", "--checkpoint", "./a.ckpt"}, "would be replaced");
     expectRefused({"merge", "a.ckpt", "b.ckpt"}, "nothing to write, expected --output, --png or --checkpoint");
     expectRefused({"merge", "-o", "x.exr"}, "CHECKPOINT is required");
+}
+
+// Alpha takes the scene: a merge says that it has none, and where there is.
+TEST_F(CheckpointCommand, MergeSaysWhatItLeavesOut) {
+    std::string scene = test::litPlate();
+    const std::string film = R"(type="hdrfilm">)";
+    writeScene(scene.insert(scene.find(film) + film.size(), R"(<string name="pixel_format" value="rgba"/>)"));
+    renderWell({"-o", "a.exr", "--passes", "0:4", "--checkpoint", "a.ckpt"});
+    renderWell({"-o", "b.exr", "--passes", "4:8", "--checkpoint", "b.ckpt"});
+    const Outcome merged = run({"merge", "a.ckpt", "b.ckpt", "-o", "all.exr", "--checkpoint", "all.ckpt"});
+    EXPECT_EQ(merged.exitCode, 0);
+    EXPECT_THAT(merged.errors, HasSubstr("warning: --output all.exr: without the layers A, which take the scene"));
+    renderWell({"-o", "with.exr", "--passes", "8", "--resume", "all.ckpt"});
+    expectSameImage("with.exr", "all.exr");
 }
 
 // The example of the documents, its array as a loop; each task twice, the second time as one that is requeued.

@@ -8,12 +8,14 @@
 #include "util/stopwatch.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sys/wait.h>
 
 namespace quasilux {
 namespace {
@@ -301,6 +303,53 @@ TEST(Settings, ComeFromTheSceneOverDefaults) {
     EXPECT_FALSE(settings.quasiSpecularOverridesScene);
     EXPECT_EQ(settings.photonsPerPass, 77u);
     EXPECT_EQ(settings.seed, 5u);
+}
+
+/// `arguments`, with all that the shell makes of them; the exit code.
+int runByShell(const fs::path& folder, const std::string& before, const std::string& arguments) {
+    const std::string command =
+        "cd '" + folder.string() + "' && { " + before + " '" QUASILUX_PROGRAM "' " + arguments + "; }";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+constexpr const char* quickRender = "render scene.xml --photons 64 --passes 2 --auto -o a.exr";
+
+// What cannot be said loses no image, and changes no exit code.
+TEST_F(CommandLineTest, MessagesThatCannotBeWrittenAreLeftOut) {
+    for (const char* nowhere : {" 2>/dev/full", " 2>&-"}) {
+        SCOPED_TRACE(nowhere);
+        EXPECT_EQ(runByShell(folder, "", "render none.xml" + std::string(nowhere)), 2);
+        EXPECT_EQ(runByShell(folder, "", quickRender + std::string(" >/dev/null") + nowhere), 0);
+        EXPECT_TRUE(fs::remove(folder / "a.exr"));
+    }
+    // To a pipe that nobody reads; the summary is lost in it.
+    const std::string piped = quickRender + std::string("; echo $? >code; } 2>&1 | { true");
+    EXPECT_EQ(runByShell(folder, "", piped), 0);
+    EXPECT_EQ(readText(folder / "code"), "1\n");
+    EXPECT_TRUE(fs::exists(folder / "a.exr"));
+}
+
+TEST_F(CommandLineTest, ResultsThatCannotBeWrittenAreAFailure) {
+    for (const char* nowhere : {" >/dev/full", " >&-"}) {
+        SCOPED_TRACE(nowhere);
+        EXPECT_EQ(runByShell(folder, "", "devices --json 2>errors" + std::string(nowhere)), 1);
+        EXPECT_THAT(readText(folder / "errors"), HasSubstr("error: cannot write to the standard output: "));
+        EXPECT_EQ(runByShell(folder, "", quickRender + std::string(" --json 2>errors") + nowhere), 1);
+        EXPECT_TRUE(fs::remove(folder / "a.exr"));
+        EXPECT_EQ(runByShell(folder, "", quickRender + std::string(" --quiet 2>errors") + nowhere), 0); // control
+    }
+}
+
+// A limit on files ends no command by a signal, which would leave what is half written.
+TEST_F(CommandLineTest, LimitsOnFilesAreErrorsOfEveryCommand) {
+    ASSERT_EQ(runByShell(folder, "", quickRender + std::string(" --quiet")), 0);
+    const auto before = filesInFolder();
+    for (const char* command : {"falsecolour a.exr -o f.png", "compare a.exr a.exr --html f.html"}) {
+        SCOPED_TRACE(command);
+        EXPECT_EQ(runByShell(folder, "ulimit -f 0;", command + std::string(" >/dev/null 2>/dev/null")), 1);
+        EXPECT_EQ(filesInFolder(), before);
+    }
 }
 
 } // namespace

@@ -77,6 +77,30 @@ TEST_F(FailuresTest, CameraPathsOfALatePassLoseTwoPercent) {
     expectImageOfPasses(outcome);
 }
 
+// Alpha is a layer that the device makes last, of one that has failed before or fails then.
+TEST_F(FailuresTest, LayersThatFailLoseNoImage) {
+    std::string scene = test::litPlate();
+    const std::string film = R"(type="hdrfilm">)";
+    ASSERT_NE(scene.find(film), std::string::npos);
+    std::ofstream(folder / "scene.xml") << scene.insert(scene.find(film) + film.size(),
+                                                        R"(<string name="pixel_format" value="rgba"/>)");
+    const auto late =
+        runFailing(endless, {{"QUASILUX_FAIL_CALL", "clEnqueueNDRangeKernel"}, {"QUASILUX_FAIL_AFTER", "4"}});
+    EXPECT_THAT(late.errors, HasSubstr("OpenCL error -5"));
+    EXPECT_THAT(late.errors, HasSubstr("the layers of what is met first are left out"));
+    expectImageOfPasses(late);
+    std::vector<std::string> few = endless;
+    few[5] = "60000";
+    few.insert(few.end(), {"--passes", "3"});
+    const auto last = runFailing(few, {{"QUASILUX_FAIL_CALL", "clEnqueueNDRangeKernel"},
+                                       {"QUASILUX_FAIL_KERNEL", "traceAovs"},
+                                       {"QUASILUX_FAIL_AT", "1"}});
+    EXPECT_EQ(last.exitCode, 1);
+    EXPECT_THAT(last.errors, HasSubstr("error: the layers of what is met first are left out"));
+    EXPECT_EQ(nlohmann::json::parse(last.output).at("passes"), 3);
+    EXPECT_NE(radianceOf("a.exr"), radianceOf("b.exr")); // of other passes
+}
+
 TEST_F(FailuresTest, TimesThatCannotBeAskedAreDeviceErrors) {
     const auto outcome =
         runFailing(endless, {{"QUASILUX_FAIL_CALL", "clGetEventProfilingInfo"}, {"QUASILUX_FAIL_AFTER", "4"}});

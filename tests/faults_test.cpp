@@ -167,6 +167,25 @@ TEST_F(FaultsTest, NoneLosesWhatIsThere) {
     EXPECT_GT(ends_[1], 10u);
 }
 
+// Each file that is there is whole, and all that could be written are.
+TEST_F(FaultsTest, OneFileThatFailsLosesNoOther) {
+    Arguments arguments = render(passes, "a.exr");
+    arguments.insert(arguments.end(), {"--png", "a.png", "--stats", "a.json"});
+    const std::vector<std::string> files{"a.exr", "a.png", "a.json"};
+    for (size_t k = 0; k < files.size(); ++k) {
+        const Outcome outcome =
+            runFailing(arguments, {{"QUASILUX_FAIL_CALL", "rename"}, {"QUASILUX_FAIL_AT", std::to_string(k + 1)}});
+        EXPECT_EQ(outcome.exitCode, 1);
+        EXPECT_THAT(outcome.errors, testing::HasSubstr("cannot write " + files[k]));
+        for (const std::string& file : files) EXPECT_EQ(fs::exists(folder / file), file != files[k]) << file;
+        expectWholeFiles(outcome);
+        clean();
+    }
+    const Outcome all = runFailing(arguments, {{"QUASILUX_FAIL_CALL", "rename"}, {"QUASILUX_FAIL_AT", "-1"}});
+    EXPECT_EQ(all.exitCode, 1);
+    for (const std::string& file : files) EXPECT_THAT(all.errors, testing::HasSubstr("cannot write " + file));
+}
+
 // A render that goes on reads its checkpoint.
 TEST_F(FaultsTest, NoneSpoilsAResumedRender) {
     Arguments first = render(2, "a.exr");

@@ -121,6 +121,7 @@ TEST_F(HabitsTest, NoFileIsWrittenTwice) {
     expectRefused({"render", "a.xml", "b.xml", "-o", "gone/{scene}.exr"}, "folder gone does not exist");
     expectRefused({"render", "a.xml", "-o", "{sceen}.exr"}, "unknown {sceen}");
     expectRefused({"render", "a.xml", "b.xml", "-j", "2", "--watch"}, "excludes");
+    expectRefused({"render", "a.xml", "--watch", "--checkpoint", "a.ckpt"}, "--watch excludes --checkpoint");
 }
 
 TEST_F(HabitsTest, OneSceneThatFailsStopsNoOther) {

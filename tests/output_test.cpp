@@ -209,6 +209,47 @@ TEST_F(OutputTest, AtomicFileKeepsTheOneBefore) {
     EXPECT_THAT(files(), testing::UnorderedElementsAre("a", "a.previous"));
 }
 
+// Where the older name cannot be given, or both are names of one file, no third one is left.
+TEST_F(OutputTest, AtomicFileLeavesNoThirdName) {
+    const auto commit = [&] {
+        AtomicFile file(path("a"));
+        std::ofstream(file.temporary()) << "new";
+        file.commitKeeping(path("a.previous"));
+    };
+    std::ofstream(path("a")) << "old";
+    fs::create_hard_link(path("a"), path("a.previous"));
+    commit();
+    EXPECT_EQ(readText(path("a.previous")), "old");
+    EXPECT_THAT(files(), testing::UnorderedElementsAre("a", "a.previous"));
+    fs::remove(path("a.previous"));
+    fs::create_directory(path("a.previous"));
+    EXPECT_THROW(commit(), std::system_error);
+    EXPECT_THAT(files(), testing::UnorderedElementsAre("a", "a.previous"));
+}
+
+// Two that write one file by one temporary name, as two renders of one checkpoint do: until the first has renamed it the second can
+// neither write nor remove it.
+TEST_F(OutputTest, AtomicFileIsOnesUntilItHasItsName) {
+    AtomicFile first(path("a"), path("a.tmp"));
+    OutputStream stream(first, path("a"));
+    stream.write("first", 5);
+    stream.close();
+    {
+        AtomicFile second(path("a"), path("a.tmp"));
+        EXPECT_THROW(OutputStream(second, path("a")), std::system_error);
+    }
+    EXPECT_THAT(files(), testing::ElementsAre("a.tmp"));
+    first.commit();
+    EXPECT_EQ(readText(path("a")), "first");
+    AtomicFile third(path("a"), path("a.tmp")); // the first is no longer in its way
+    OutputStream free(third, path("a"));
+    free.write("3", 1);
+    free.close();
+    third.commit();
+    EXPECT_EQ(readText(path("a")), "3");
+    EXPECT_THAT(files(), testing::ElementsAre("a"));
+}
+
 TEST_F(OutputTest, AtomicFileReplacesOnlyOnCommit) {
     std::ofstream(path("a.txt")) << "old";
     {

@@ -1,6 +1,7 @@
 // Which passes a worker is given, simulated without devices; lists of devices; states that are sent.
 #include "device/device_choice.h"
 #include "share/pass_dealer.h"
+#include "share/shared_render.h"
 #include "util/error.h"
 #include "util/memory_state.h"
 
@@ -174,6 +175,81 @@ TEST(PassDealer, EndsWithoutWaitingForTheSlow) {
 TEST(PassDealer, EqualOnesDoNotWaitForEachOther) {
     EXPECT_THAT((Simulated{{1, 1}, SIZE_MAX, 0}.run(4).rendered), testing::Each(1u));
     EXPECT_EQ((Simulated{{1, 1}, SIZE_MAX, 0}.run(16).end), 8);
+}
+
+/// Two, both of which fail: the first with the first passes of all, the second when it has given its own.
+class FailingWorkers : public PassWorkers {
+public:
+    bool wantsSums = false;
+    PassRange given; ///< to the second, at first
+
+    std::optional<WorkerEvent> wait(double) override {
+        using enum WorkerEvent::Kind;
+        switch (step_++) {
+        case 0:
+            return event(opened, 0);
+        case 1:
+            return event(opened, 1);
+        case 2:
+            wantsSums = true;
+            return event(rendered, 1);
+        case 3:
+            return event(gave, 1);
+        case 4:
+            return event(failed, 0);
+        case 5:
+            return event(summed, 0);
+        default:
+            return event(failed, 1);
+        }
+    }
+    bool areOpening() const override { return false; }
+    void render(size_t worker, const PassRange& passes) override {
+        if (worker == 1 && given.end == 0) given = passes;
+    }
+    void giveRadii(const RadiiState&) override {}
+    void askForSums() override { wantsSums = false; }
+    PassSums takeSums() override {
+        PassSums sums;
+        sums.shape = {1, 1, {}};
+        sums.film.resize(sums.shape.layout.floatsPerPixel());
+        sums.counts.batches = 1;
+        sums.counters.passes = given.end - given.first;
+        return sums;
+    }
+
+private:
+    WorkerEvent event(WorkerEvent::Kind kind, size_t worker) const {
+        WorkerEvent event;
+        event.kind = kind;
+        event.worker = worker;
+        event.passes = given;
+        event.seconds = 1;
+        return event;
+    }
+    unsigned step_ = 0;
+};
+
+// Passes that lack others before them are no state to go on from: they are no checkpoint, and that is said.
+TEST(SharedRender, GapsAreNoStateToGoOnFrom) {
+    FailingWorkers workers;
+    SharedStart start;
+    start.radii.areChosen = true;
+    unsigned whole = 0;
+    std::vector<PassRange> there;
+    SharedHooks hooks;
+    hooks.onSums = [&](const SharedPasses&, double, bool) { ++whole; };
+    hooks.onGap = [&](const std::vector<PassRange>& passes) { there = passes; };
+    hooks.secondsToNextSums = [&] { return workers.wantsSums ? 0. : 1e9; };
+    StopRule stop;
+    stop.passes = 100;
+    const std::atomic<bool> interrupted{false};
+    const RenderOutcome outcome = SharedRender(workers, std::move(start), stop, hooks, interrupted).run();
+    EXPECT_TRUE(outcome.failure);
+    EXPECT_EQ(outcome.counters.passes, 4u);
+    EXPECT_EQ(whole, 0u);
+    ASSERT_EQ(there.size(), 1u);
+    EXPECT_EQ(there[0].first, 4u);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace quasilux {
 
@@ -16,6 +17,17 @@ namespace fs = std::filesystem;
 
 // Checkpoints take at most this share of the time, however large the film is.
 constexpr double mostOfTime = 0.05;
+
+/// Layers of the image that the sums do not hold.
+std::string layersOf(const Scene& scene) {
+    const PixelFormat& format = scene.sensor.pixelFormat;
+    std::vector<std::string> names;
+    if (format.luminance) names.emplace_back("Y");
+    if (format.xyz) names.emplace_back("X, Y, Z");
+    if (format.alpha) names.emplace_back("A");
+    for (const AovLayer& layer : scene.aovs) names.push_back(layer.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
 
 } // namespace
 
@@ -28,6 +40,7 @@ Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const 
     checkpoint.meter = scene.sensor.meter;
     checkpoint.stop = stop;
     checkpoint.scene = fs::path(options.scene).filename().string();
+    if (checkpoint.meter == MeterKind::none) checkpoint.layersOfScene = layersOf(scene);
     return checkpoint;
 }
 
@@ -80,7 +93,7 @@ void CheckpointKeeper::afterPasses(const AutoRender& soFar, const PassesSoFar& p
     const auto why =
         failureOf([&] { writeCheckpoint(options_.checkpoint, describe(soFar, passes, seconds), passes.save); });
     if (why && failure_.empty() && !options_.quiet) {
-        fmt::print(stderr, "\n"); // below the progress line
+        printTo(stderr, "\n"); // below the progress line
         printWarning("no checkpoint could be written, the render goes on: " + *why);
     }
     failure_ = why.value_or("");
@@ -88,6 +101,10 @@ void CheckpointKeeper::afterPasses(const AutoRender& soFar, const PassesSoFar& p
     writtenPass_ = passes.nextPass;
     last_ = Clock::now();
     cost_ = std::chrono::duration<double>(last_ - start).count();
+}
+
+void CheckpointKeeper::missed(const std::string& why) {
+    if (!options_.checkpoint.empty()) failure_ = why;
 }
 
 Resumed::Resumed(const std::string& path, const Checkpoint& wanted)
@@ -129,15 +146,23 @@ std::unique_ptr<Renderer> Resumed::renderer(Device& device, const Scene& scene) 
     return renderer;
 }
 
+std::string checkpointThatIsThere(const std::string& path) {
+    const std::string previous = previousCheckpoint(path);
+    std::error_code status;
+    return !fs::exists(path, status) && fs::exists(previous, status) ? previous : path;
+}
+
 void checkCheckpointOptions(const RenderOptions& options) {
     if (options.checkpoint.empty()) return;
     checkOutputPath(options.checkpoint, "--checkpoint", checkpointExtension);
     std::error_code status;
-    const bool isResumed = !options.resume.empty() && fs::equivalent(options.checkpoint, options.resume, status);
-    if (fs::exists(options.checkpoint, status) && !isResumed)
+    const std::string there = checkpointThatIsThere(options.checkpoint);
+    const bool isResumed =
+        !options.resume.empty() && fs::equivalent(there, checkpointThatIsThere(options.resume), status);
+    if (fs::exists(there, status) && !isResumed)
         throw InputError(fmt::format("--checkpoint {}: there is a checkpoint already: go on from it by --resume {}, or "
-                                     "remove it first",
-                                     options.checkpoint, options.checkpoint));
+                                     "remove {} first",
+                                     options.checkpoint, options.checkpoint, there));
 }
 
 } // namespace quasilux

@@ -33,6 +33,8 @@ public:
     void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
     /// The same of passes that no single renderer has.
     void afterPasses(const AutoRender& soFar, const PassesSoFar& passes, double seconds, bool isLast);
+    /// The last one cannot be written.
+    void missed(const std::string& why);
     /// Seconds until the next one is due, 0 and less: it is; infinity where none will be.
     double secondsToNext() const;
     /// Why the last one could not be written; empty if it was.
@@ -68,6 +70,9 @@ private:
     CheckpointReader reader_;
     Checkpoint checkpoint_;
 };
+
+/// `path`, or the one before it where only that is there: a file system without hard links has none by the name of `path` for a moment.
+std::string checkpointThatIsThere(const std::string& path);
 
 /// Throws InputError where the file of a new checkpoint would replace that of another render, or cannot be written.
 void checkCheckpointOptions(const RenderOptions& options);

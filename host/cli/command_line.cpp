@@ -14,10 +14,15 @@
 #include "util/nearest.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <system_error>
+#include <unistd.h>
 
 namespace quasilux {
 
@@ -78,7 +83,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
                        : noCommand ? "no command given, expected render, view, merge, compare, photometry, "
                                      "falsecolour, report, dgp, bench, devices, doctor, manual or info"
                                    : error.what());
-    fmt::print(stderr, "`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " ");
+    printTo(stderr, fmt::format("`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " "));
     return exitBadInput;
 }
 
@@ -102,6 +107,25 @@ int runCommand(CLI::App& app, const Options& options) {
     return 0;
 }
 
+/// Results that nobody gets are a failure; one that is named here is not lost at the end without a word.
+void flushResults() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    const int why = errno;
+    throw std::system_error(why, std::generic_category(), "cannot write to the standard output");
+}
+
+// Without standard streams (`2>&-`) the next files that are opened would get their numbers, and messages would be written into them.
+// One that can be read alone is no place to write to, so that results which nobody gets still are a failure.
+void openStandardStreams() {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) return;
+}
+
+// A file that exceeds a limit, and a pipe that nobody reads, are to fail with an error code, not to end the program.
+void ignoreSignalsOfFiles() {
+    for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+}
+
 int parseAndRun(CLI::App& app, const Options& options, int argc, char** argv) {
     const CommandEnd end = endOf([&] {
         try {
@@ -111,7 +135,9 @@ int parseAndRun(CLI::App& app, const Options& options, int argc, char** argv) {
         } catch (const CLI::ParseError& error) {
             return failParsing(app, error);
         }
-        return runCommand(app, options);
+        const int code = runCommand(app, options);
+        flushResults();
+        return code;
     });
     return end.error.empty() ? end.exitCode : fail(end.exitCode, end.error);
 }
@@ -119,6 +145,8 @@ int parseAndRun(CLI::App& app, const Options& options, int argc, char** argv) {
 } // namespace
 
 int runCommandLine(int argc, char** argv) {
+    openStandardStreams();
+    ignoreSignalsOfFiles();
     CLI::App app(
         "Renders images by bidirectional Monte Carlo ray tracing with photon maps and quasi-specular elements, "
         "on any OpenCL device.",

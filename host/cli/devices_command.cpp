@@ -4,6 +4,7 @@
 #include "cli/text_table.h"
 #include "device/device.h"
 #include "output/statistics.h"
+#include "util/messages.h"
 
 #include <fmt/format.h>
 
@@ -23,8 +24,7 @@ void listDevicesCommand(bool json) {
     if (json)
         fmt::print("{}\n", rows.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else if (devices.empty())
-        fmt::print(stderr, "quasilux: no OpenCL device found, install a runtime, such as the Debian package "
-                           "pocl-opencl-icd for the CPU\n");
+        printNote("no OpenCL device found, install a runtime, such as the Debian package pocl-opencl-icd for the CPU");
     else
         fmt::print("{}", table.text());
 }

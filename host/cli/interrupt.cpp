@@ -39,8 +39,6 @@ void handle(void (*handler)(int)) {
     sigemptyset(&action.sa_mask);
     for (const int signal : endingSignals)
         if (signal != SIGHUP || !ignoresHangup) sigaction(signal, &action, nullptr);
-    // A file that exceeds a limit is to fail with an error code, not to end the program.
-    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 } // namespace

@@ -1,12 +1,15 @@
 #include "cli/commands.h"
 
 #include "cli/interrupt.h"
+#include "cli/written_files.h"
 #include "output/exr.h"
 #include "output/merge_checkpoints.h"
 #include "output/png.h"
 #include "output/statistics.h"
+#include "util/messages.h"
 
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -19,6 +22,20 @@ void checkOutputs(const MergeOptions& options) {
     if (!options.output.empty()) checkOutputPath(options.output, "--output", ".exr");
     if (!options.png.empty()) checkOutputPath(options.png, "--png", ".png");
     if (!options.checkpoint.empty()) checkOutputPath(options.checkpoint, "--checkpoint", checkpointExtension);
+    std::error_code status;
+    for (const std::string& part : options.parts)
+        if (!options.checkpoint.empty() && std::filesystem::equivalent(options.checkpoint, part, status))
+            throw InputError(fmt::format("--checkpoint {}: is {}, one of those to be merged, and would be replaced: "
+                                         "choose another name",
+                                         options.checkpoint, part));
+}
+
+/// The scene is not at hand, and some layers are made from it alone.
+void warnOfLayers(const MergeOptions& options, const Checkpoint& merged) {
+    if (options.quiet || options.output.empty() || merged.layersOfScene.empty()) return;
+    printWarning(fmt::format("--output {}: without the layers {}, which take the scene: render --resume of a merged "
+                             "checkpoint, with as many --passes as it has, writes them",
+                             options.output, merged.layersOfScene));
 }
 
 RenderRecord recordOf(const Checkpoint& merged, const FilmImage& image) {
@@ -36,21 +53,12 @@ RenderRecord recordOf(const Checkpoint& merged, const FilmImage& image) {
     return record;
 }
 
-std::vector<std::string> writeFiles(const MergeOptions& options, const MergedPasses& merged, const FilmImage& image,
-                                    const RenderRecord& record) {
-    std::vector<std::string> written;
-    if (!options.output.empty()) {
-        writeExr(options.output, image, record);
-        written.push_back(options.output);
-    }
-    if (!options.png.empty()) {
-        writePng(options.png, image, chooseToneCurve(image, {}), record);
-        written.push_back(options.png);
-    }
-    if (!options.checkpoint.empty()) {
-        merged.write(options.checkpoint);
-        written.push_back(options.checkpoint);
-    }
+WrittenFiles writeFiles(const MergeOptions& options, const MergedPasses& merged, const FilmImage& image,
+                        const RenderRecord& record) {
+    WrittenFiles written;
+    written.write(options.output, [&] { writeExr(options.output, image, record); });
+    written.write(options.png, [&] { writePng(options.png, image, chooseToneCurve(image, {}), record); });
+    written.write(options.checkpoint, [&] { merged.write(options.checkpoint); });
     return written;
 }
 
@@ -76,13 +84,18 @@ int mergeCommand(const MergeOptions& options) {
     exitOnInterrupt();
     checkOutputs(options);
     const MergedPasses merged(options.parts);
+    warnOfLayers(options, merged.checkpoint());
     const FilmImage image = merged.develop();
     const RenderRecord record = recordOf(merged.checkpoint(), image);
-    const auto written = writeFiles(options, merged, image, record);
-    if (options.json)
-        printJson(record, merged.checkpoint(), written);
-    else if (!options.quiet)
-        printSummary(record, merged.checkpoint(), written);
+    WrittenFiles written = writeFiles(options, merged, image, record);
+    const auto& files = written.paths();
+    written.attempt([&] {
+        if (options.json)
+            printJson(record, merged.checkpoint(), files);
+        else if (!options.quiet)
+            printSummary(record, merged.checkpoint(), files);
+    });
+    written.rethrow();
     return 0;
 }
 

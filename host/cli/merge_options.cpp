@@ -8,7 +8,9 @@ void declareMerge(CLI::App& app, MergeOptions& options) {
         *app.add_subcommand("merge", "Add the passes of several checkpoints of one render: the image of all of them");
     command.add_option("CHECKPOINT", options.parts, "Checkpoints whose passes have different numbers")->required();
     const char* group = "Files";
-    command.add_option("-o,--output", options.output, "OpenEXR image with all layers, .exr (default: none)")
+    command
+        .add_option("-o,--output", options.output,
+                    "OpenEXR image with all layers that the checkpoints hold, .exr (default: none)")
         ->type_name("FILE")
         ->group(group);
     command.add_option("--png", options.png, "Tone-mapped picture, .png (default: none)")

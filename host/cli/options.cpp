@@ -99,7 +99,9 @@ void declareTev(CLI::App& command, RenderOptions& options) {
 void excludeEachOther(CLI::App& render) {
     for (const char* name : {"--watch", "--view", "--show", "--resume"})
         render.get_option("--jobs")->excludes(render.get_option(name));
-    for (const char* name : {"--view", "--resume"}) render.get_option("--watch")->excludes(render.get_option(name));
+    // A checkpoint is of one render, and that of the scene before would be in the way of the next.
+    for (const char* name : {"--view", "--resume", "--checkpoint"})
+        render.get_option("--watch")->excludes(render.get_option(name));
     render.get_option("--show")->excludes(render.get_option("--json"));
 }
 

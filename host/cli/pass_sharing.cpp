@@ -86,9 +86,12 @@ SharedHooks PassSharing::hooks(const ChosenRender& chosen) {
     hooks.onSums = [&](const SharedPasses& soFar, double seconds, bool isLast) {
         keep(chosen, soFar, seconds, isLast);
     };
+    hooks.onGap = [this](const std::vector<PassRange>& there) {
+        keeper_.missed(fmt::format("passes {} are there, others before them are missing", text(there)));
+    };
     hooks.onDropped = [this](const std::string& name, const std::string& why) {
         if (options_.quiet) return;
-        fmt::print(stderr, "\n"); // below the progress line
+        printTo(stderr, "\n"); // below the progress line
         printWarning(fmt::format("{} is dropped, others render its passes: {}", name, why));
     };
     hooks.secondsToNextSums = [this] { return keeper_.secondsToNext(); };

@@ -8,6 +8,7 @@
 #include "cli/started_render.h"
 #include "cli/terminal_picture.h"
 #include "cli/text_table.h"
+#include "cli/written_files.h"
 #include "output/atomic_file.h"
 #include "output/exr.h"
 #include "output/grid_csv.h"
@@ -29,11 +30,6 @@ namespace quasilux {
 
 namespace {
 
-struct WrittenFiles {
-    std::vector<std::string> paths;
-    std::optional<ToneCurve> curve; ///< of the PNG
-};
-
 // When warnings are said: those before the first pass end a strict render, those after it only its exit code.
 enum class Moment { beforePasses, whenWritten };
 
@@ -54,32 +50,26 @@ void warn(const RenderOptions& options, const std::vector<std::string>& warnings
     endIfStrict(options, warnings, Moment::beforePasses);
 }
 
-WrittenFiles writeFiles(const RenderOptions& options, const FilmImage& image, const std::vector<AovImage>& aovs,
-                        RenderRecord& record) {
+/// The curve of the PNG, if there is one.
+std::optional<ToneCurve> writeFiles(const RenderOptions& options, const FilmImage& image,
+                                    const std::vector<AovImage>& aovs, RenderRecord& record, WrittenFiles& written) {
     const Stopwatch watch;
-    WrittenFiles written;
-    if (const std::string path = options.outputPath(); !path.empty()) {
-        writeExr(path, image, record, aovs);
-        written.paths.push_back(path);
-    }
-    if (!options.grid.empty()) {
-        writeGridCsv(options.grid, image, record);
-        written.paths.push_back(options.grid);
-    }
-    if (!options.png.empty()) {
-        written.curve = chooseToneCurve(image, options.exposure);
-        writePng(options.png, image, *written.curve, record);
-        written.paths.push_back(options.png);
-    }
+    std::optional<ToneCurve> curve;
+    const std::string path = options.outputPath();
+    written.write(path, [&] { writeExr(path, image, record, aovs); });
+    written.write(options.grid, [&] { writeGridCsv(options.grid, image, record); });
+    written.write(options.png, [&] {
+        const ToneCurve chosen = chooseToneCurve(image, options.exposure);
+        writePng(options.png, image, chosen, record);
+        curve = chosen;
+    });
     record.writeSeconds = watch.seconds();
-    if (!options.stats.empty()) {
-        writeJson(options.stats, statisticsJson(record, image));
-        written.paths.push_back(options.stats);
-    }
-    return written;
+    written.write(options.stats, [&] { writeJson(options.stats, statisticsJson(record, image)); });
+    return curve;
 }
 
-void printJsonSummary(const RenderRecord& record, const FilmImage& image, const WrittenFiles& written) {
+void printJsonSummary(const RenderRecord& record, const FilmImage& image, const std::vector<std::string>& files,
+                      const std::optional<ToneCurve>& curve) {
     nlohmann::json summary{{"version", record.version},
                            {"scene", record.scene},
                            {"device", record.device.name},
@@ -93,8 +83,8 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
                            {"nonFinite", record.counters.nonFinite},
                            {"cutPaths", record.counters.cutPaths},
                            {"workers", workersJson(record.workers)},
-                           {"files", written.paths}};
-    if (written.curve) summary["exposure"] = {{"scale", written.curve->scale}, {"white", written.curve->white}};
+                           {"files", files}};
+    if (curve) summary["exposure"] = {{"scale", curve->scale}, {"white", curve->white}};
     if (record.meter != MeterKind::none) summary["meter"] = meterJson(record, image);
     fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
@@ -133,7 +123,8 @@ void printWorkers(const std::vector<WorkerRecord>& workers) {
     fmt::print("{}", table.text());
 }
 
-void printSummary(const RenderRecord& record, const FilmImage& image, const WrittenFiles& written) {
+void printSummary(const RenderRecord& record, const FilmImage& image, const std::vector<std::string>& files,
+                  const std::optional<ToneCurve>& curve) {
     fmt::print("{} {}, {:.1f} s", record.counters.passes, record.counters.passes == 1 ? "pass" : "passes",
                record.counters.renderSeconds);
     if (record.interrupted) fmt::print(", interrupted");
@@ -141,10 +132,10 @@ void printSummary(const RenderRecord& record, const FilmImage& image, const Writ
     printErrorTable(record.error);
     printWorkers(record.workers);
     if (record.meter != MeterKind::none) fmt::print("{}", meterText(record, image));
-    for (const auto& path : written.paths) fmt::print("wrote {}\n", path);
-    if (written.curve)
-        fmt::print("exposure scale {:.6g} per {}, white at {:.6g}\n", written.curve->scale,
-                   record.settings.photometric ? "cd/m2" : "W sr^-1 m^-2", written.curve->white);
+    for (const auto& path : files) fmt::print("wrote {}\n", path);
+    if (curve)
+        fmt::print("exposure scale {:.6g} per {}, white at {:.6g}\n", curve->scale,
+                   record.settings.photometric ? "cd/m2" : "W sr^-1 m^-2", curve->white);
 }
 
 /// A render that is over, and what it needs while its files are written.
@@ -172,7 +163,8 @@ private:
         return devices.size() > 1 || Job::current().size() > 1;
     }
     void onChosen(const SearchReport& search);
-    std::vector<AovImage> layers();
+    std::vector<AovImage> layers(WrittenFiles& written);
+    void summarise(const RenderRecord& record, WrittenFiles& written, const std::optional<ToneCurve>& curve) const;
     int finish();
 
     const RenderOptions& options_;
@@ -192,7 +184,7 @@ void SensorRender::onChosen(const SearchReport& search) {
     progress_.clear();
     // Where nothing can be searched, only who asked for it need know.
     if (!options_.quiet && (search.notSearched.empty() ? search.freedom.any() : options_.autoAll))
-        fmt::print(stderr, "quasilux: {}\n", search.line());
+        printNote(search.line());
 }
 
 void SensorRender::render(const std::vector<DeviceChoice>& devices) {
@@ -210,7 +202,7 @@ void SensorRender::render(const std::vector<DeviceChoice>& devices) {
     if (options_.isViewed) {
         view.emplace(options_.view, interruptFlag());
         view->begin(*done_.device, scene, options_.settings(scene), started.stop(), false);
-        fmt::print(stderr, "quasilux: live view at {}\n", view->address());
+        printNote("live view at " + view->address());
     }
     std::optional<TevClient> tev;
     if (options_.tev) {
@@ -256,14 +248,24 @@ void SensorRender::renderOnFirstThatCan() {
 }
 
 // Of a device that has failed there may be none: the image is there all the same.
-std::vector<AovImage> SensorRender::layers() {
+std::vector<AovImage> SensorRender::layers(WrittenFiles& written) {
     std::vector<AovImage> found;
-    const auto make = [&] { found = renderLayers(*done_.device, *done_.loaded.scene, done_.render); };
-    if (done_.render.workers.empty())
-        make();
-    else if (const auto why = failureOf(make))
-        done_.warnings.push_back("the layers of what is met first are left out: " + *why);
+    const auto why = failureOf([&] { found = renderLayers(*done_.device, *done_.loaded.scene, done_.render); });
+    if (why)
+        written.addFailure(std::make_exception_ptr(std::runtime_error(
+            "the layers of what is met first are left out, as they could not be rendered: " + *why)));
     return found;
+}
+
+void SensorRender::summarise(const RenderRecord& record, WrittenFiles& written,
+                             const std::optional<ToneCurve>& curve) const {
+    const auto& files = written.paths();
+    written.attempt([&] {
+        if (options_.json)
+            printJsonSummary(record, done_.render.image, files, curve);
+        else if (!options_.quiet)
+            printSummary(record, done_.render.image, files, curve);
+    });
 }
 
 int SensorRender::run() {
@@ -286,13 +288,12 @@ int SensorRender::finish() {
     record.loadSeconds = done_.loaded.seconds;
     record.unobstructedIlluminance = done_.loaded.daylight;
     record.interrupted |= done_.isStopped;
-    const WrittenFiles written =
-        writeFiles(options_.named(namePartsOf(record.settings.seed, image.passes)), image, layers(), record);
+    WrittenFiles written;
+    if (render.failure) written.addFailure(render.failure);
+    const auto curve = writeFiles(options_.named(namePartsOf(record.settings.seed, image.passes)), image,
+                                  layers(written), record, written);
     progress_.clear();
-    if (options_.json)
-        printJsonSummary(record, image, written);
-    else if (!options_.quiet)
-        printSummary(record, image, written);
+    summarise(record, written, curve);
     std::vector<std::string> warnings =
         renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height);
     warnings.insert(warnings.end(), done_.warnings.begin(), done_.warnings.end());
@@ -300,9 +301,10 @@ int SensorRender::finish() {
         if (const auto why = showImage(options_.show, image, options_.exposure)) warnings.push_back(*why);
     // What there is has been written. Warnings come last: there they are seen.
     say(options_, warnings);
-    if (render.failure) std::rethrow_exception(render.failure);
     if (const auto why = done_.started->checkpointFailure(); !why.empty())
-        throw std::runtime_error("no checkpoint of the last passes could be written: " + why);
+        written.addFailure(
+            std::make_exception_ptr(std::runtime_error("no checkpoint of the last passes could be written: " + why)));
+    written.rethrow();
     endIfStrict(options_, warnings, Moment::whenWritten);
     return exitCodeWhenWritten();
 }

@@ -10,13 +10,16 @@ StartedRender::StartedRender(const RenderOptions& options, Device& device, const
                              const std::shared_ptr<const LearnedScene>& known)
     : options_(options), device_(device), scene_(scene), freedom_(options.freedom(scene)),
       wanted_(checkpointOf(options, scene, options.stop)) {
-    if (!options.resume.empty()) resumed_.emplace(options.resume, wanted_);
+    const std::string checkpoint = checkpointThatIsThere(options.resume);
+    if (!options.resume.empty()) resumed_.emplace(checkpoint, wanted_);
     wanted_.stop = resumed_ ? resumed_->stopRule(options.stop) : options.stop;
     settings_ = resumed_ ? resumed_->checkpoint().settings : searchStart(wanted_.wanted, scene, freedom_, wanted_.stop);
     settings_.countGathered = !options.stats.empty();
     renderer_ =
         resumed_ ? resumed_->renderer(device, scene) : std::make_unique<Renderer>(device, scene, settings_, known);
     warnings_ = renderer_->report().warnings;
+    if (checkpoint != options.resume)
+        warnings_.push_back(fmt::format("--resume {}: is not there, it goes on from {}", options.resume, checkpoint));
     if (resumed_) warnOfDevice(resumed_->checkpoint().device);
 }
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <stdexcept>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -80,34 +81,78 @@ void checkOutputPath(const std::string& path, const std::string& option, const s
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_(temporaryName(path_)) {}
 
 AtomicFile::~AtomicFile() {
-    if (!committed_) unlink(temporary_.c_str());
+    if (!committed_ && isOurs_) unlink(temporary_.c_str());
+    if (lock_ >= 0) close(lock_);
 }
 
 void AtomicFile::commit() {
     sync(temporary_, O_WRONLY, path_);
+    rename();
+}
+
+void AtomicFile::commitKeeping(const std::string& earlier) {
+    sync(temporary_, O_WRONLY, path_); // before the older file loses its name, if it must
+    keep(earlier);
+    rename();
+}
+
+void AtomicFile::rename() {
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_);
     committed_ = true;
     const fs::path folder = fs::path(path_).parent_path();
     sync(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY, path_);
 }
 
-void AtomicFile::commitKeeping(const std::string& earlier) {
+void AtomicFile::keep(const std::string& earlier) {
     const std::string beside = earlier + ".tmp";
     unlink(beside.c_str());
     // By a second name of the file, so that `path` is there at every moment; some file systems know no second names.
     if (link(path_.c_str(), beside.c_str()) == 0) {
-        if (std::rename(beside.c_str(), earlier.c_str()) != 0) fail(earlier);
+        const bool failed = std::rename(beside.c_str(), earlier.c_str()) != 0;
+        const int why = errno;
+        unlink(beside.c_str()); // it is there after a failure, and where both names were of one file
+        errno = why;
+        if (failed) fail(earlier);
     } else if (errno != ENOENT && std::rename(path_.c_str(), earlier.c_str()) != 0 && errno != ENOENT) {
         fail(earlier);
     }
-    commit();
 }
 
-OutputStream::OutputStream(const AtomicFile& file, std::string path) : path_(std::move(path)) {
-    descriptor_ = open(file.temporary().c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+namespace {
+
+/// Whether the name is still that of the open file: another process may have renamed it before its lock was free.
+bool hasName(int descriptor, const std::string& name) {
+    struct stat open {
+    }, named{};
+    return fstat(descriptor, &open) == 0 && stat(name.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+           open.st_ino == named.st_ino;
+}
+
+/// Opens and locks `name`; EWOULDBLOCK: another process has it. Below 0: errno says why.
+int openLocked(const std::string& name) {
+    for (unsigned tries = 0; tries < 100; ++tries) { // as often as another may be faster
+        const int descriptor = open(name.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+        if (descriptor < 0) return descriptor;
+        const bool isOthers = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        if (!isOthers && hasName(descriptor, name)) return descriptor;
+        close(descriptor);
+        if (isOthers) break;
+    }
+    errno = EWOULDBLOCK;
+    return -1;
+}
+
+} // namespace
+
+OutputStream::OutputStream(AtomicFile& file, std::string path) : path_(std::move(path)) {
+    descriptor_ = openLocked(file.temporary());
+    if (descriptor_ < 0 && errno == EWOULDBLOCK)
+        throw std::system_error(EWOULDBLOCK, std::generic_category(),
+                                "cannot write " + path_ + ", which another process writes just now");
     if (descriptor_ < 0) fail(path_);
-    const bool isOthers = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    if (isOthers || ftruncate(descriptor_, 0) != 0) {
+    file.isOurs_ = true;
+    file.lock_ = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0); // one lock, which ends with the last of both
+    if (file.lock_ < 0 || ftruncate(descriptor_, 0) != 0) {
         const int why = errno;
         ::close(std::exchange(descriptor_, -1));
         errno = why;

@@ -16,8 +16,10 @@ void checkOutputPath(const std::string& path, const std::string& option, const s
 class AtomicFile {
 public:
     explicit AtomicFile(std::string path);
-    /// `temporary`: a name that does not differ from process to process, so that those that are killed leave no more than one file.
-    AtomicFile(std::string path, std::string temporary) : path_(std::move(path)), temporary_(std::move(temporary)) {}
+    /// `temporary`: a name that does not differ from process to process, so that those that are killed leave no more than one file. It is
+    /// another's until an OutputStream has it.
+    AtomicFile(std::string path, std::string temporary)
+        : path_(std::move(path)), temporary_(std::move(temporary)), isOurs_(false) {}
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -29,15 +31,20 @@ public:
     void commitKeeping(const std::string& earlier);
 
 private:
+    friend class OutputStream;
+    void keep(const std::string& earlier);
+    void rename();
+
     std::string path_, temporary_;
-    bool committed_ = false;
+    bool isOurs_ = true, committed_ = false;
+    int lock_ = -1; ///< descriptor that holds the lock until the file has its final name
 };
 
-/// Bytes into the temporary file, which no other process writes meanwhile. Every failure throws std::system_error with what the system said of it.
+/// Bytes into the temporary file, which no other process writes until that is renamed or removed. Every failure throws std::system_error with what the system said of it.
 class OutputStream {
 public:
     /// `path` is the final name, for messages.
-    OutputStream(const AtomicFile& file, std::string path);
+    OutputStream(AtomicFile& file, std::string path);
     ~OutputStream();
     OutputStream(const OutputStream&) = delete;
     OutputStream& operator=(const OutputStream&) = delete;

@@ -1,6 +1,8 @@
 // Text of the progress line and when to redraw it.
 #include "output/progress_line.h"
 
+#include "util/messages.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -65,16 +67,15 @@ void ProgressLine::update(const Progress& progress) {
 
 void ProgressLine::append(const Progress& progress, Clock::time_point now) {
     if (now < nextLine_) return;
-    fmt::print(stream_, "quasilux: {}{}\n", label_, progressText(progress));
-    std::fflush(stream_);
+    printTo(stream_, fmt::format("quasilux: {}{}\n", label_, progressText(progress)));
     nextLine_ = now + std::max<Clock::duration>(betweenLines_, (now - begun_) / 10);
 }
 
 void ProgressLine::redraw(const Progress& progress, Clock::time_point now) {
     using namespace std::chrono_literals;
     if (drawn_ && progress.phase == phase_ && now - last_ < 500ms) return;
-    fmt::print(stream_, "\r{}\033[K", (label_ + progressText(progress)).substr(0, terminalColumns(stream_) - 1));
-    std::fflush(stream_);
+    const std::string text = label_ + progressText(progress);
+    printTo(stream_, fmt::format("\r{}\033[K", text.substr(0, terminalColumns(stream_) - 1)));
     drawn_ = true;
     phase_ = progress.phase;
     last_ = now;
@@ -82,8 +83,7 @@ void ProgressLine::redraw(const Progress& progress, Clock::time_point now) {
 
 void ProgressLine::clear() {
     if (!drawn_) return;
-    fmt::print(stream_, "\r\033[K");
-    std::fflush(stream_);
+    printTo(stream_, "\r\033[K");
     drawn_ = false;
 }
 

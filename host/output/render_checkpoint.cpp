@@ -52,6 +52,7 @@ Json describe(const Checkpoint& c) {
             {"seconds", c.seconds},
             {"counters", toJson(c.counters)},
             {"scene", c.scene},
+            {"layersOfScene", c.layersOfScene},
             {"photonsPerPass", c.photonsPerPass},
             {"search", toJson(c.search)},
             {"device", toJson(c.device)},
@@ -82,6 +83,7 @@ Checkpoint checkpointOf(const CheckpointReader& reader) {
         c.seconds = from.at("seconds");
         c.counters = parsed<RenderCounters>(from.at("counters"));
         c.scene = from.at("scene");
+        c.layersOfScene = from.value("layersOfScene", "");
         c.photonsPerPass = wholeNumber<decltype(c.photonsPerPass)>(from.at("photonsPerPass"));
         c.search = parsed<SearchReport>(from.at("search"));
         c.device = parsed<DeviceInfo>(from.at("device"));

@@ -34,7 +34,8 @@ struct Checkpoint {
     RenderCounters counters;
 
     /// For people.
-    std::string scene; ///< file name
+    std::string scene;         ///< file name
+    std::string layersOfScene; ///< of the image, which the film does not hold: "A, albedo", empty where there are none
     unsigned photonsPerPass = 0;
     SearchReport search;
     DeviceInfo device;

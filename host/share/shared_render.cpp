@@ -164,12 +164,13 @@ void SharedRender::noteSummed() {
 
 // Sums that lack passes of a worker that has failed are no state to go on from; the next ones will have them.
 void SharedRender::publish(bool isLast) {
-    if (sums_.isEmpty() || (added_.size() != 1 && !isLast)) return;
+    const bool isWhole = added_.size() == 1 && added_.front().first == first_;
+    if (sums_.isEmpty() || (!isWhole && !isLast)) return;
     sums_.counters.renderSeconds = renderedBefore_ + steadySeconds() - begun_;
     if (!isLast && sums_.counters.passes >= fewestPassesForError)
         progress_.relativeError = estimateError(sums_.develop()).sum();
-    if (added_.size() == 1 && hooks_.onSums)
-        hooks_.onSums({sums_, {first_, added_.front().end}, radii_}, elapsed(), isLast);
+    if (isWhole && hooks_.onSums) hooks_.onSums({sums_, {first_, added_.front().end}, radii_}, elapsed(), isLast);
+    if (isLast && !isWhole && hooks_.onGap) hooks_.onGap(added_);
     report();
 }
 

@@ -19,6 +19,8 @@ struct SharedHooks {
     std::function<void(const Progress&)> onProgress;
     /// Whenever all sums are there; `seconds` as the stop rule counts them.
     std::function<void(const SharedPasses& soFar, double seconds, bool isLast)> onSums;
+    /// At the end, where passes before or between these are missing, and are nobody's to render: no state to go on from. May be empty.
+    std::function<void(const std::vector<PassRange>& there)> onGap;
     /// What a worker is called, and why it was dropped.
     std::function<void(const std::string& name, const std::string& why)> onDropped;
     /// Seconds until sums are wanted beyond what the estimate of the error asks for; may be empty.

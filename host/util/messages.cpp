@@ -19,13 +19,20 @@ bool isColoured() {
 }
 
 void print(const char* kind, int colour, const std::string& message) {
-    if (isColoured())
-        fmt::print(stderr, "quasilux: \033[1;{}m{}:\033[0m {}\n", colour, kind, message);
-    else
-        fmt::print(stderr, "quasilux: {}: {}\n", kind, message);
+    const std::string start =
+        isColoured() ? fmt::format("\033[1;{}m{}:\033[0m", colour, kind) : fmt::format("{}:", kind);
+    printNote(start + " " + message);
 }
 
 } // namespace
+
+void printTo(std::FILE* stream, const std::string& text) {
+    std::fputs(text.c_str(), stream);
+    std::fflush(stream);
+    std::clearerr(stream);
+}
+
+void printNote(const std::string& message) { printTo(stderr, "quasilux: " + message + "\n"); }
 
 void printError(const std::string& message) { print("error", red, message); }
 
