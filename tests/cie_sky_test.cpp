@@ -134,12 +134,22 @@ TEST(CieSkyReader, SunStandsByPlaceAndTime) {
     EXPECT_NEAR(std::acos(from.z) / degree, 50.11, 0.01) << "with the refraction of sea level";
 }
 
+TEST(CieSkyReader, SomeSkiesNeedNoSun) {
+    for (const int type : {1, 3, 5, 16})
+        EXPECT_TRUE(test::meterScene(skyXml(fmt::format("<integer name=\"sky_type\" value=\"{}\"/>", type)) +
+                                     "<?quasilux illuminance-grid origin=\"0,0,0\" " + upwards + " nx=\"1\" ny=\"1\"?>")
+                        .surroundings)
+            << type;
+}
+
 TEST(CieSkyReader, SaysWhatIsWrong) {
     test::SceneFiles files;
     const std::pair<std::string, std::vector<std::string>> cases[] = {
         {"<integer name=\"sky_type\" value=\"17\"/>", {"scene.xml:5:1", "expected 1 to 15"}},
         {"<vector name=\"sun_direction\" value=\"0,1,-1\"/>", {"scene.xml:5:1", "below the horizon"}},
         {"<float name=\"illuminance\" value=\"0\"/>", {"scene.xml:5:1", "illuminance"}},
+        {"<integer name=\"sky_type\" value=\"12\"/>", {"scene.xml:5:1", "needs the sun, as its sky_type is 12"}},
+        {"<integer name=\"sky_type\" value=\"2\"/>", {"scene.xml:5:1", "needs the sun, as its sky_type is 2"}},
         {"<integer name=\"year\" value=\"2020\"/>", {"scene.xml:5:1", "has year but no latitude"}},
         {"<float name=\"illuminance\" value=\"1\"/><float name=\"zenith_luminance\" value=\"1\"/>", {"keep one"}},
         {"<float name=\"ground_albedo\" value=\"1.5\"/>", {"scene.xml:5:1", "ground_albedo"}},

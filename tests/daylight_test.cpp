@@ -262,6 +262,22 @@ TEST_F(DaylightFactorTest, IsThatOfTheSkyAlone) {
     EXPECT_FALSE(all.contains("daylightFactor"));
 }
 
+// Looking down at the ground outside, as a point does through a low window: its albedo times what it has by the sky.
+TEST_F(DaylightFactorTest, SunOnTheGroundDoesNotCount) {
+    std::ofstream(folder / "free.xml")
+        << "<scene version=\"3.0.0\"><emitter type=\"quasilux_cie_sky\"><float name=\"sun_illuminance\" "
+           "value=\"80000\"/><float name=\"ground_albedo\" value=\"0.2\"/></emitter><shape "
+           "type=\"rectangle\"><transform "
+           "name=\"to_world\"><scale value=\"0.01\"/><translate z=\"9\"/></transform></shape><?quasilux "
+           "illuminance-grid origin=\"0,0,0\" edge-u=\"1,0,0\" edge-v=\"0,1,0\" normal=\"0,0,-1\" nx=\"1\" "
+           "ny=\"1\"?></scene>";
+    const Outcome outcome = run({"render", "free.xml", "--grid", "out.csv", "--stats", "out.json", "--passes", "8",
+                                 "--fixed", "--daylight-factor"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    const auto meter = nlohmann::json::parse(readText(folder / "out.json"))["meter"];
+    EXPECT_NEAR(meter["daylightFactor"].get<double>(), 20, 0.1);
+}
+
 TEST_F(DaylightFactorTest, OfAUniformSkyIsTheConfigurationFactor) {
     write("<emitter type=\"constant\"><rgb name=\"radiance\" value=\"3,2,1\"/></emitter>");
     ASSERT_EQ(run({"render", "room.xml", "--grid", "out.csv", "--stats", "out.json", "--passes", "64", "--fixed",

@@ -75,6 +75,11 @@ TEST(GoniogramErrors, OfIesFilesSayLineAndWhatToDo) {
              t.horizontal = {0, 100};
          }),
          {"lamp.ies:7: horizontal angles from 0 to 100"}},
+        {withNumbers([](IesText& t) {
+             for (int h = 30; h <= 300; h += 30) t.horizontal.push_back(h); // without 330 and 360
+         }),
+         {"lamp.ies:7: horizontal angles from 0 to 300"}},
+        {replaced(plain, "1 -1 1", "1.5 -1 1"), {"lamp.ies:4: number of lamps: '1.5'", "not an integer"}},
         {withNumbers([](IesText& t) { t.factors = "0 1 5"; }), {"lamp.ies:5: ballast factor: 0"}},
         {withNumbers([](IesText& t) { t.factors = "1 1 -5"; }), {"lamp.ies:5: input watts: -5"}},
         {withNumbers([](IesText& t) { t.type = 2; }), {"horizontal angles: one; expected at least two"}},

@@ -1,5 +1,4 @@
 // Luminaire files: IES LM-63 of every edition, type and symmetry, EULUMDAT of every symmetry. What is refused: goniogram_errors_test.
-#include "scene/goniograms/ies_file.h"
 #include "support/luminaire_files.h"
 #include "support/scene_files.h"
 
@@ -161,7 +160,8 @@ TEST(Goniogram, FactorsAreThoseOfTheEdition) {
         EXPECT_EQ(goniogram.lampSets.at(0).lumens, 3000);
         EXPECT_EQ(goniogram.lampSets[0].watts, 36);
         EXPECT_EQ(goniogram.luminaire, "of a test");
-        EXPECT_EQ(goniogram.warnings.size(), goniogram.format == "IES LM-63-2002" ? 1u : 0u);
+        EXPECT_EQ(goniogram.warnings.size(),
+                  goniogram.format == "IES LM-63-2002" || goniogram.format == "IES LM-63-1986" ? 1u : 0u);
     }
 }
 
@@ -203,6 +203,14 @@ TEST(Goniogram, TiltMultipliesByAngle) {
     EXPECT_EQ(luminaireOf(IesText{}).tiltFactor(12, {}), 1);
 }
 
+/// Of a file with this first line and these sizes in metres.
+LuminousShape shapeOf(const std::string& header, double width, double length, double height) {
+    IesText ies;
+    ies.header = header;
+    ies.size = fmt::format("{} {} {}", width, length, height);
+    return luminaireOf(ies).shape;
+}
+
 TEST(Goniogram, ShapesAreThoseOfTheStandard) {
     using Kind = LuminousShape::Kind;
     const struct {
@@ -218,7 +226,7 @@ TEST(Goniogram, ShapesAreThoseOfTheStandard) {
                  {-2, 0, -2, Kind::rodAlongC0, pi, 0, 0},   {-2, 0, -4, Kind::rodAlongC0, 2 * pi, 0, 0}};
     for (const auto& expected : cases) {
         SCOPED_TRACE(fmt::format("{} {} {}", expected.width, expected.length, expected.height));
-        const LuminousShape shape = shapeOfLm63(expected.width, expected.length, expected.height, 1);
+        const LuminousShape shape = shapeOf("IESNA:LM-63-2002", expected.width, expected.length, expected.height);
         EXPECT_EQ(shape.kind, expected.kind);
         EXPECT_NEAR(shape.projectedArea({1, 0, 0}), expected.alongX, 1e-12);
         EXPECT_NEAR(shape.projectedArea({0, 1, 0}), expected.alongY, 1e-12);
@@ -227,12 +235,97 @@ TEST(Goniogram, ShapesAreThoseOfTheStandard) {
     }
     // A sphere and a cube from aslant.
     const glm::dvec3 aslant = glm::normalize(glm::dvec3(1, 1, 1));
-    EXPECT_NEAR(shapeOfLm63(-2, -2, -2, 1).projectedArea(aslant), pi, 1e-12);
-    EXPECT_NEAR(shapeOfLm63(1, 1, 1, 1).projectedArea(aslant), std::sqrt(3.0), 1e-12);
+    EXPECT_NEAR(shapeOf("IESNA:LM-63-2002", -2, -2, -2).projectedArea(aslant), pi, 1e-12);
+    EXPECT_NEAR(shapeOf("IESNA:LM-63-2002", 1, 1, 1).projectedArea(aslant), std::sqrt(3.0), 1e-12);
     IesText ies;
     ies.units = 1;
     ies.size = "2 4 0";
     EXPECT_NEAR(luminaireOf(ies).shape.sizeC0, 4 * 0.3048, 1e-12) << "feet";
+}
+
+// The table of LM-63-1995 as I. Ashdown, "Parsing the IESNA LM-63 photometric data file" (1998), has it.
+TEST(Goniogram, ShapesUntil1995AreThoseOfTheTableOfThen) {
+    using Kind = LuminousShape::Kind;
+    const struct {
+        double width, length, height;
+        Kind kind;
+        double alongX, alongY, alongZ; ///< area seen along C0, C90 and the axis, by hand
+    } cases[] = {{0, 0, 0, Kind::point, 0, 0, 0},
+                 {2, 3, 0.5, Kind::box, 1, 1.5, 6},
+                 {-2, 0, 0, Kind::uprightRod, 0, 0, pi},
+                 {-2, 0, 3, Kind::uprightRod, 6, 6, pi},
+                 {-2, 0, -2, Kind::ellipsoid, pi, pi, pi},
+                 {0, 5, -2, Kind::rodAlongC0, pi, 10, 10},
+                 {5, 0, -2, Kind::rodAlongC90, 10, pi, 10},
+                 {-2, 4, 0, Kind::uprightRod, 0, 0, 2 * pi},
+                 {-2, 4, 3, Kind::uprightRod, 6, 12, 2 * pi},
+                 {2, -4, 3, Kind::uprightRod, 6, 12, 2 * pi},
+                 {-2, 4, -6, Kind::ellipsoid, 3 * pi, 6 * pi, 2 * pi},
+                 {2, -4, -6, Kind::ellipsoid, 3 * pi, 6 * pi, 2 * pi}};
+    for (const char* header : {"a lamp", "IESNA91", "IESNA:LM-63-1995"})
+        for (const auto& expected : cases) {
+            SCOPED_TRACE(fmt::format("{}: {} {} {}", header, expected.width, expected.length, expected.height));
+            const LuminousShape shape = shapeOf(header, expected.width, expected.length, expected.height);
+            EXPECT_EQ(shape.kind, expected.kind);
+            EXPECT_NEAR(shape.projectedArea({1, 0, 0}), expected.alongX, 1e-12);
+            EXPECT_NEAR(shape.projectedArea({0, 1, 0}), expected.alongY, 1e-12);
+            EXPECT_NEAR(shape.projectedArea({0, 0, 1}), expected.alongZ, 1e-12);
+        }
+}
+
+TEST(Goniogram, AFlatShapeSeenEdgeOnCoversNothing) {
+    for (const LuminousShape& shape : {shapeOf("IESNA:LM-63-2002", 2, 3, 0), shapeOf("IESNA:LM-63-2002", -2, -2, 0)}) {
+        EXPECT_EQ(shape.projectedArea(directionAt(30, 90)), 0) << "the cosine of 90 degrees is 6e-17";
+        EXPECT_GT(shape.projectedArea(directionAt(30, 89.99)), 0);
+    }
+    EXPECT_EQ(shapeOf("IESNA:LM-63-2002", -2, 0, -2).projectedArea(directionAt(90, 60)), 0) << "a disc that faces C0";
+}
+
+// A byte order mark, or another case, makes no other edition of a file: the third factor is none since 2002.
+TEST(Goniogram, FirstLinesAreReadWithoutMarkAndCase) {
+    IesText ies;
+    ies.factors = "1 1.5 50";
+    const std::string mark = "\xef\xbb\xbf";
+    for (const char* header : {"IES:LM-63-2019", "ies:lm-63-2019"})
+        for (const std::string& before : {std::string(), mark}) {
+            ies.header = before + header;
+            const Goniogram read = luminaireOf(ies);
+            EXPECT_EQ(read.format, "IES LM-63-2019");
+            EXPECT_NEAR(read.largest(), 100, 1e-9);
+        }
+    ies.header = "a lamp";
+    const Goniogram old = luminaireOf(ies);
+    EXPECT_NEAR(old.largest(), 150, 1e-9);
+    ASSERT_EQ(old.warnings.size(), 1u);
+    EXPECT_NE(old.warnings[0].find("names no edition"), std::string::npos) << old.warnings[0];
+    EXPECT_EQ(luminaireOf(mark + LdtText{}.text(), "lamp.ldt").largest(), 100);
+}
+
+TEST(Goniogram, EverydayFilesAreRead) {
+    IesText ies;
+    ies.lamps = "1.0 -1 1";
+    for (const char* tilt : {"none\n", " NONE\n", "include\n1.\n2.0\n0 90\n1 0.5\n"}) {
+        ies.tilt = tilt;
+        EXPECT_EQ(luminaireOf(ies).largest(), 100) << tilt;
+    }
+    EXPECT_EQ(luminaireOf(ies).tilt.factors.size(), 2u);
+    std::string spaced = IesText{}.text();
+    EXPECT_EQ(luminaireOf(spaced.replace(spaced.find("TILT="), 5, "Tilt = ")).largest(), 100);
+    std::string blankTilt = LdtText{}.text();
+    blankTilt.replace(blankTilt.find("\n80\n1\n0\n") + 6, 1, "");
+    EXPECT_EQ(luminaireOf(blankTilt, "lamp.ldt").largest(), 100);
+}
+
+TEST(Goniogram, ACircleWithoutItsEndIsClosed) {
+    IesText ies;
+    ies.horizontal.clear();
+    for (int h = 0; h < 360; h += 15) ies.horizontal.push_back(h);
+    ies.candela = [](double, double h) { return 100 + h; };
+    const Goniogram read = luminaireOf(ies);
+    EXPECT_NEAR(read.intensity(directionAt(345, 45)), 445, 1e-9);
+    EXPECT_NEAR(read.intensity(directionAt(352.5, 45)), (445 + 100) / 2.0, 1e-9);
+    ASSERT_EQ(read.warnings.size(), 1u);
+    EXPECT_NE(read.warnings[0].find("end at 345, without 360"), std::string::npos) << read.warnings[0];
 }
 
 TEST(Goniogram, EverySymmetryOfEulumdatIsTheWholeSphere) {

@@ -135,6 +135,7 @@ TEST_F(GridTest, StatesWhatNormsAskFor) {
 }
 
 // EN 12464-1: of 4.8 m x 7.2 m the longer side counts, 0.2 * 5^lg 7.2 = 0.794 m; of 2 m x 7.2 m the shorter one, 0.325 m; 10 m at most.
+// The other side goes by the spacing that results: of 6.2 m x 3.8 m 9 points along 6.2 m are 0.689 m apart, and 3.8 m has 5.5 such spacings.
 TEST_F(GridTest, SpacingIsThatOfTheNorm) {
     const auto sizeOf = [&](const std::string& u, const std::string& v) {
         const Scene scene = test::meterScene("<?quasilux illuminance-grid origin=\"0,0,0\" edge-u=\"" + u +
@@ -143,6 +144,8 @@ TEST_F(GridTest, SpacingIsThatOfTheNorm) {
     };
     EXPECT_EQ(sizeOf("4.8,0,0", "0,7.2,0"), std::pair(6u, 9u));
     EXPECT_EQ(sizeOf("0,0,2", "0,7.2,0"), std::pair(6u, 22u));
+    EXPECT_EQ(sizeOf("6.2,0,0", "0,3.8,0"), std::pair(9u, 6u));
+    EXPECT_EQ(sizeOf("0,3.8,0", "6.2,0,0"), std::pair(6u, 9u));
     EXPECT_EQ(sizeOf("1000,0,0", "0,900,0"), std::pair(100u, 90u));
     EXPECT_EQ(sizeOf("0.01,0,0", "0,0.01,0"), std::pair(1u, 1u));
     write("grid.xml", pointLight + grid.substr(0, grid.size() - 2) + " spacing=\"en12464\"?>");

@@ -123,6 +123,33 @@ TEST_F(ReportTest, NeedsNeitherCameraNorGrid) {
     write("room.xml", camera + lamp);
     EXPECT_TRUE(figuresOf({"--time", "0.5"})["grids"].empty());
     EXPECT_TRUE(holds(readText(folder / "room.html"), "no illuminance-grid and no observer"));
+    write("room.xml", lamp + observer);
+    const auto alone = figuresOf({"--time", "1"});
+    EXPECT_TRUE(alone["grids"].empty());
+    EXPECT_FALSE(alone.contains("picture"));
+    const double rating = alone["observers"].at(0)["UGR"]["value"].get<double>();
+    write("room.xml", camera + lamp + grid + observer);
+    EXPECT_NEAR(rating, figuresOf({"--time", "2"})["observers"].at(0)["UGR"]["value"].get<double>(), 0.3);
+    write("room.xml", lamp + observer);
+    expectRefused({"render", "room.xml"}, "the scene has no <sensor>");
+}
+
+// What limits a rating stands among the warnings too.
+TEST_F(ReportTest, RemarksOnGlareAreWarnings) {
+    write("room.xml", lamp +
+                          "<emitter type=\"point\" id=\"bulb\"><point name=\"position\" value=\"0,0,2\"/></emitter>" +
+                          observer + grid);
+    const std::string warnings = figuresOf({"--time", "0.5"})["warnings"].dump();
+    EXPECT_THAT(warnings, HasSubstr("UGR, desk: Not rated: 'bulb' is a point"));
+}
+
+// An eye in the plane of a panel: the area that it sees there is rounding.
+TEST_F(ReportTest, APanelSeenEdgeOnDoesNotGlare) {
+    test::IesText ies;
+    ies.size = "0.6 0.6 0";
+    std::ofstream(folder / "panel.ies") << ies.text(); // 100 cd along its plane as well
+    write("room.xml", lamp + "<?quasilux observer name=\"desk\" position=\"0.3,-2,2.5\" direction=\"0,1,0\"?>" + grid);
+    EXPECT_TRUE(figuresOf({"--time", "0.5"})["observers"].at(0)["sources"].empty());
 }
 
 TEST_F(ReportTest, RefusesBadInput) {

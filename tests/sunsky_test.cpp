@@ -220,6 +220,24 @@ TEST(SunSkyRender, GroundHasTheIlluminanceOfTheModel) {
     EXPECT_LT(lux, 100000);
 }
 
+// Per nanometre lux are 107 times too low, which is said where lux are asked for.
+TEST(SunSkyReader, SaysThatLuxAreTooLow) {
+    const std::string watts = R"(<float name="sky_scale" value="106.75"/><float name="sun_scale" value="106.75"/>)",
+                      grid = "<?quasilux illuminance-grid origin=\"0,0,0\" edge-u=\"1,0,0\" edge-v=\"0,1,0\" "
+                             "nx=\"1\" ny=\"1\"?>";
+    const auto isSaid = [](const std::string& scene) {
+        const std::vector<std::string> warnings = test::meterScene(scene).warnings;
+        return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+            return warning.find("107 times too low") != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(isSaid(sunsky(highSun) + grid));
+    EXPECT_TRUE(isSaid(sunsky(highSun + "<float name=\"sky_scale\" value=\"106.75\"/>") + grid)) << "the sun's is 1";
+    EXPECT_FALSE(isSaid(sunsky(highSun + watts) + grid));
+    EXPECT_FALSE(isSaid(sunsky(noSun + highSun + "<float name=\"sky_scale\" value=\"106.75\"/>") + grid));
+    EXPECT_FALSE(isSaid(sunsky(highSun) + grid + "<?quasilux units=\"photometric\"?>"));
+}
+
 TEST(SunSkyReader, SaysWhatIsWrong) {
     test::SceneFiles files;
     const std::pair<std::string, std::vector<std::string>> cases[] = {

@@ -33,7 +33,7 @@ class ReportMaker {
 public:
     explicit ReportMaker(const ReportOptions& options)
         : options_(options), progress_(stderr, !options.quiet),
-          scene_(loadScene(options.scene, options.parameters(), options.choice())),
+          scene_(loadScene(options.scene, options.parameters(), choiceOf(options))),
           device_(options.device, options.workGroupSize, options.deviceMemory),
           photometric_(options.settings(scene_).photometric) {}
 
@@ -61,6 +61,12 @@ public:
 
 private:
     using Enough = std::function<bool(const Renderer&)>;
+
+    static LoadChoice choiceOf(const ReportOptions& options) {
+        LoadChoice choice = options.choice();
+        choice.observersSuffice = true;
+        return choice;
+    }
 
     double seconds() const { return watch_.seconds(); }
     static bool isInterrupted() { return interruptFlag(); }

@@ -105,7 +105,26 @@ std::vector<TableRow> figureRows(const ReportContent& content) {
     return rows;
 }
 
+std::vector<std::string> glareRemarks(const ObserverFigures& figures) {
+    std::vector<std::string> remarks;
+    const std::vector<GlareSource>& seen = figures.sources.seen;
+    const auto isBeyond = [](const GlareSource& s) {
+        return s.solidAngle < smallestSource || s.solidAngle > largestSource;
+    };
+    if (!seen.empty() && std::isnan(figures.rating.value))
+        remarks.push_back("No indirect light was found at the eye, so that there is no background to rate against.");
+    if (std::any_of(seen.begin(), seen.end(), isBeyond))
+        remarks.push_back("Some are smaller than 0.0003 sr or larger than 0.1 sr, for which UGR was not made.");
+    for (const std::string& why : figures.sources.leftOut)
+        remarks.push_back("Not rated: " + why + " The rating is too low by it.");
+    return remarks;
+}
+
 nlohmann::json reportJson(const ReportContent& content) {
+    std::vector<std::string> warnings = content.warnings;
+    for (const ObserverPart& part : content.observers)
+        for (const std::string& remark : glareRemarks(part.figures))
+            warnings.push_back(fmt::format("UGR, {}: {}", part.figures.observer.name, remark));
     nlohmann::json observers = nlohmann::json::array(), grids = nlohmann::json::array();
     for (const ObserverPart& part : content.observers) observers.push_back(observerJson(part));
     for (const GridPart& part : content.grids) grids.push_back(gridJson(part));
@@ -117,7 +136,7 @@ nlohmann::json reportJson(const ReportContent& content) {
                         {"reached", content.isKnown()},
                         {"grids", grids},
                         {"observers", observers},
-                        {"warnings", content.warnings}};
+                        {"warnings", warnings}};
     if (content.picture)
         json["picture"] = {{"passes", content.picture->passes},
                            {"seconds", content.picture->seconds},

@@ -16,6 +16,9 @@ std::string intervalText(const Figure& figure);
 /// Name, value, interval, relative interval, standard error, bias; the first row is the headings.
 std::vector<TableRow> figureRows(const ReportContent& content);
 
+/// What limits the rating, a sentence or two each.
+std::vector<std::string> glareRemarks(const ObserverFigures& figures);
+
 nlohmann::json reportJson(const ReportContent& content);
 
 } // namespace quasilux

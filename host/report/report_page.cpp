@@ -103,24 +103,6 @@ std::string sourceTable(const GlareSources& sources) {
     return table + paragraph(fmt::format("and {} weaker ones.", sources.seen.size() - listedSources));
 }
 
-/// What limits the rating.
-std::string glareRemarks(const ObserverFigures& figures) {
-    std::string out;
-    const std::vector<GlareSource>& seen = figures.sources.seen;
-    const auto isBeyond = [](const GlareSource& s) {
-        return s.solidAngle < smallestSource || s.solidAngle > largestSource;
-    };
-    if (!seen.empty() && std::isnan(figures.rating.value))
-        out += paragraph("No indirect light was found at the eye, so that there is no background to rate against.",
-                         "warning");
-    if (std::any_of(seen.begin(), seen.end(), isBeyond))
-        out +=
-            paragraph("Some are smaller than 0.0003 sr or larger than 0.1 sr, for which UGR was not made.", "warning");
-    for (const std::string& why : figures.sources.leftOut)
-        out += paragraph("Not rated: " + why + " The rating is too low by it.", "warning");
-    return out;
-}
-
 std::string observer(const ObserverPart& part, bool hasSky) {
     const ObserverFigures& figures = part.figures;
     const glm::dvec3 &p = figures.observer.position, &d = figures.observer.direction;
@@ -129,8 +111,10 @@ std::string observer(const ObserverPart& part, bool hasSky) {
         "({}), direct {} lx; {} passes, {:.1f} s.{}",
         p.x, p.y, p.z, d.x, d.y, d.z, valueText(figures.indirect), intervalText(figures.indirect),
         valueText(figures.direct), part.passes, part.seconds, hasSky ? " By the lamps alone, without the sky." : "");
+    std::string remarks;
+    for (const std::string& remark : glareRemarks(figures)) remarks += paragraph(remark, "warning");
     return fmt::format("<section><h3>{}</h3>\n", htmlEscaped(figures.observer.name)) + paragraph(text) +
-           sourceTable(figures.sources) + glareRemarks(figures) + "</section>\n";
+           sourceTable(figures.sources) + remarks + "</section>\n";
 }
 
 std::string luminaire(const LuminaireRow& row) {

@@ -36,7 +36,8 @@ IlluminanceKind kindOf(const InstructionValues& values, const SourceLocation& wh
 }
 
 /// EN 12464-1:2021, 4.4: at most p = 0.2 * 5^(log10 d) m between points, d being the longer side, or the shorter one where the longer is twice
-/// as long or more; p is at most 10 m. Sides are in metres.
+/// as long or more; p is at most 10 m. Along d there are d / p points, to the nearest whole number, and the other side is divided by the
+/// spacing that they then have, so that cells are nearly square. Sides are in metres.
 void countBySpacing(const InstructionValues& values, IlluminanceGrid& grid) {
     const std::string& rule = values.text("spacing");
     if (rule != "en12464")
@@ -50,11 +51,12 @@ void countBySpacing(const InstructionValues& values, IlluminanceGrid& grid) {
     const double u = glm::length(grid.edgeU), v = glm::length(grid.edgeV);
     const double shorter = std::min(u, v), longer = std::max(u, v), d = longer / shorter < 2 ? longer : shorter;
     const double p = std::min(0.2 * std::pow(5, std::log10(d)), 10.0);
-    const auto count = [&](double side) {
-        return static_cast<unsigned>(std::clamp(std::round(side / p), 1.0, double(maximumPoints)));
+    const auto count = [](double side, double spacing) {
+        return static_cast<unsigned>(std::clamp(std::round(side / spacing), 1.0, double(maximumPoints)));
     };
-    grid.nx = count(u);
-    grid.ny = count(v);
+    const double spacing = d / count(d, p);
+    grid.nx = count(u, spacing);
+    grid.ny = count(v, spacing);
 }
 
 /// `normal` only chooses one of the two sides: photons are counted where they cross the grid.

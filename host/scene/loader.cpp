@@ -177,10 +177,15 @@ size_t chooseSensor(const std::vector<PlacedSensor>& sensors, const std::string&
 }
 
 /// A scene with grids needs no sensor: the grids are what is measured then. All sensors are checked, one is kept.
-void readSensors(const std::vector<PlacedSensor>& sensors, const std::string& wanted, LoadContext& context) {
+void readSensors(const std::vector<PlacedSensor>& sensors, const LoadChoice& choice, LoadContext& context) {
+    const std::string& wanted = choice.sensor;
     context.scene.sensorCount = sensors.size();
     if (sensors.empty() && !context.scene.grids.empty() && wanted.empty()) {
         useGridsAsSensor(context.scene);
+        return;
+    }
+    if (sensors.empty() && choice.observersSuffice && !context.scene.observers.empty() && wanted.empty()) {
+        context.scene.sensor.meter = MeterKind::grid; // of eyes, whose grids come when each is measured
         return;
     }
     if (sensors.empty())
@@ -208,6 +213,19 @@ void checkEmitters(const Scene& scene) {
             "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
             "<emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or <emitter "
             "type=\"envmap\">.");
+}
+
+/// Lux that are asked for of a sky that has none.
+void checkUnitsOfSky(LoadContext& context) {
+    const Scene& scene = context.scene;
+    if (!scene.surroundings || !scene.surroundings->isPerNanometre) return;
+    if (isIrradiance(scene.sensor.meter) || !scene.grids.empty() || !scene.observers.empty() ||
+        !scene.luminaireTypes.empty())
+        context.warn(scene.surroundings->where,
+                     fmt::format("emitter '{}' is in W per nanometre, so that lux are some 107 times too low, and too "
+                                 "low beside luminaires; set sun_scale and sky_scale to 106.75, or begin the scene "
+                                 "with <?quasilux units=\"photometric\"?>.",
+                                 scene.surroundings->plugin));
 }
 
 /// What is read more than once, such as a group by its instances, says what it has to say each time.
@@ -274,7 +292,7 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
     checkUnusedBsdfs(root, context, nestedBsdfs);
     checkUnusedTextures(root, context);
     checkUnusedEmitters(root, context);
-    readSensors(sensors, choice.sensor, context);
+    readSensors(sensors, choice, context);
     checkUnusedMedia(root, context);
     checkUnusedVolumes(root, context);
     if (integrators.size() > 1) throw InputError(integrators[1]->where, "a second <integrator>; keep one.");
@@ -284,6 +302,7 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
         scene.hideEmitters = integrator.hidesEmitters;
     }
     checkEmitters(scene);
+    checkUnitsOfSky(context);
     for (auto* messages : {&scene.warnings, &scene.withoutEffect, &context.forgiven}) keepEachOnce(*messages);
     listForgiven(context);
     return scene;

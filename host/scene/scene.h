@@ -238,6 +238,7 @@ struct EnvironmentImage {
     std::vector<Rgb> pixels;        ///< W sr^-1 m^-2, row by row from +y on
     glm::dmat3 axes{1.0};           ///< its own x, y, z in the world, orthonormal
     bool hasSun = false;            ///< the sun's disc is a part of it
+    Rgb groundBySun{};              ///< what the lower half has by a sun that is parallel light
 };
 
 /// Radiance that comes from everywhere outside of the scene, W sr^-1 m^-2.
@@ -245,7 +246,8 @@ struct Surroundings {
     std::string id;
     SourceLocation where;
     std::string plugin;
-    Rgb radiance{}; ///< without an image: the same from everywhere
+    Rgb radiance{};              ///< without an image: the same from everywhere
+    bool isPerNanometre = false; ///< radiance is W m^-2 sr^-1 nm^-1, of which 683 lm/W makes no lux
     std::optional<EnvironmentImage> image;
 };
 
@@ -391,6 +393,7 @@ struct LoadChoice {
     std::string sensor = {}; ///< its number in the order of the file, from 0 on, or its id; empty: the first one
     Unknown unknown = Unknown::refused;
     std::optional<LoadLimits> limits = {}; ///< of a scene that is not trusted
+    bool observersSuffice = false;         ///< a scene with observers needs neither sensor nor grid
 };
 
 /// Loads a Mitsuba 3 scene (docs/reference/scene-language.md). Throws InputError at file:line:column.

@@ -44,6 +44,12 @@ double indicatrix(const SkyParameters& p, double cosine) {
 
 } // namespace
 
+bool dependsOnSun(int type) {
+    if (type == cieSkyTypes) return false;
+    const SkyParameters& p = skyParameters.at(static_cast<size_t>(type) - 1);
+    return p.c != 0 || p.e != 0;
+}
+
 double cieSkyLuminance(int type, const glm::dvec3& direction, const glm::dvec3& sun) {
     if (direction.z < 0) return 0;
     if (type == cieSkyTypes) return (1 + 2 * direction.z) / 3; // eq. 8

@@ -65,6 +65,9 @@ SunSky readSunSky(Properties& properties, const glm::dmat3& axes) {
     return found;
 }
 
+/// Whether the model's radiance per nanometre becomes that of all light, or nothing (docs/reference/photometry.md#skies).
+bool isScaledToWatts(double scale) { return scale == 0 || std::abs(scale / hosekWilkieResponse() - 1) < 0.01; }
+
 /// sRGB does not hold every colour of the sky; what is left out of it is light that the other channels have too much of.
 Rgb withinGamut(const glm::dvec3& radiance) {
     const glm::dvec3 positive = glm::max(radiance, glm::dvec3(0));
@@ -97,6 +100,8 @@ void readSunSky(Properties& properties) {
     const glm::dmat3 axes = axesOfSurroundings(properties);
     const SunSky given = readSunSky(properties, axes);
     const double factor = isPhotometric(properties) ? luminousEfficacy * hosekWilkieResponse() : 1;
+    surroundings.isPerNanometre =
+        !isPhotometric(properties) && !(isScaledToWatts(given.sunScale) && isScaledToWatts(given.skyScale));
     const HosekWilkieSky sky(given.turbidity, given.albedo, std::asin(std::min(given.sun.z, 1.0)));
     const bool hasSun = given.sunScale > 0;
     const unsigned height = hasSun ? skyHeightFor(given.sunHalfAngle) : coarsestSkyHeight;

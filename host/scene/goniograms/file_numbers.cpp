@@ -65,7 +65,12 @@ double FileNumbers::positive(const std::string& what) {
 
 unsigned FileNumbers::integer(const std::string& what, unsigned lowest, unsigned highest) {
     const Piece& piece = take(what);
-    return static_cast<unsigned>(parseUnsigned(piece.text, lowest, highest, where(), what));
+    // Some programs write all numbers with decimals: "1.0".
+    const size_t point = piece.text.find('.');
+    const bool isWhole = point != std::string_view::npos && point > 0 &&
+                         piece.text.find_first_not_of('0', point + 1) == std::string_view::npos;
+    const std::string_view digits = isWhole ? piece.text.substr(0, point) : piece.text;
+    return static_cast<unsigned>(parseUnsigned(digits, lowest, highest, where(), what));
 }
 
 std::vector<double> FileNumbers::increasing(const std::string& what, unsigned count, double lowest, double highest) {

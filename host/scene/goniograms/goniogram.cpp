@@ -32,12 +32,15 @@ std::pair<double, double> linearTimesSine(double a, double b) {
     return {whole - upper, upper};
 }
 
-} // namespace
+// Less of a shape's sides is rounding: directions come from angles and from transforms in single precision.
+constexpr double edgeOn = 1e-6;
 
-double LuminousShape::projectedArea(const glm::dvec3& d) const {
+/// Of a direction whose components are not negative.
+double areaAlong(const LuminousShape& shape, const glm::dvec3& d) {
     constexpr double quarter = std::numbers::pi / 4;
-    const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z), a = sizeC0, b = sizeC90, h = height;
-    switch (kind) {
+    const double x = d.x, y = d.y, z = d.z, a = shape.sizeC0, b = shape.sizeC90, h = shape.height;
+    using Kind = LuminousShape::Kind;
+    switch (shape.kind) {
     case Kind::point:
         return 0;
     case Kind::box:
@@ -52,6 +55,13 @@ double LuminousShape::projectedArea(const glm::dvec3& d) const {
         return quarter * std::hypot(b * h * x, a * h * y, a * b * z);
     }
     return 0;
+}
+
+} // namespace
+
+double LuminousShape::projectedArea(const glm::dvec3& d) const {
+    const double a = sizeC0, b = sizeC90, h = height, area = areaAlong(*this, glm::abs(d));
+    return area > edgeOn * std::max({a * b, b * h, a * h}) ? area : 0;
 }
 
 std::string LuminousShape::text() const {

@@ -24,7 +24,7 @@ struct LuminousShape {
     Kind kind = Kind::point;
     double sizeC0 = 0, sizeC90 = 0, height = 0; ///< along C0–C180, along C90–C270, along the axis
 
-    /// Square metres that it covers seen along the unit vector `direction`.
+    /// Square metres that it covers seen along the unit vector `direction`; 0 where it is flat and seen edge-on, to a millionth of its sides.
     double projectedArea(const glm::dvec3& direction) const;
     /// "rectangle 1.2 m × 0.6 m".
     std::string text() const;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 
 namespace quasilux {
 
@@ -25,10 +26,64 @@ constexpr std::pair<std::string_view, Edition> editionHeaders[] = {{"IESNA91", E
 constexpr std::string_view editionFormats[] = {"IES LM-63-1986", "IES LM-63-1991", "IES LM-63-1995", "IES LM-63-2002",
                                                "IES LM-63-2019"};
 
+/// Without regard to case, which files have either way.
+bool isWord(std::string_view text, std::string_view word) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : int(c); };
+    return std::equal(text.begin(), text.end(), word.begin(), word.end(),
+                      [&](char a, char b) { return lower(a) == lower(b); });
+}
+
 std::string_view withoutBlanks(std::string_view text) {
     const size_t first = text.find_first_not_of(" \t");
     return first == std::string_view::npos ? std::string_view{}
                                            : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// The rows of LM-63-1995 that the edition of 2002 gives another meaning, or none, after I. Ashdown, "Parsing the IESNA LM-63 photometric
+/// data file" (1998), where (width, length, height) are (-d, 0, -d) a sphere, (0, l, -d) and (w, 0, -d) cylinders that lie, (-w, l, h) and
+/// (w, -l, h) ellipses, and with -h ellipsoids. False for all others: circles, upright cylinders and boxes are the same in both tables.
+bool setShapeUntil1995(LuminousShape& shape, double width, double length, double height) {
+    using Kind = LuminousShape::Kind;
+    if (width * length < 0) { // one of them is negative: an ellipse
+        shape.kind = height < 0 ? Kind::ellipsoid : Kind::uprightRod;
+        return true;
+    }
+    if (height >= 0 || (width == 0) == (length == 0)) return false;
+    if (width < 0) {
+        shape.kind = Kind::ellipsoid;
+        shape.sizeC0 = shape.sizeC90;
+    } else if (length > 0) {
+        shape.kind = Kind::rodAlongC0;
+        shape.sizeC90 = shape.height;
+    } else if (width > 0) {
+        shape.kind = Kind::rodAlongC90;
+        shape.sizeC0 = shape.height;
+    } else {
+        return false; // (0, -l, -h) is in neither
+    }
+    return true;
+}
+
+/// What width (along C90), length (along C0) and height stand for, signs included, in units of `metres`.
+LuminousShape shapeOfLm63(Edition edition, double width, double length, double height, double metres) {
+    using Kind = LuminousShape::Kind;
+    LuminousShape shape;
+    shape.sizeC0 = std::abs(length) * metres;
+    shape.sizeC90 = std::abs(width) * metres;
+    shape.height = std::abs(height) * metres;
+    const bool isRound = width < 0 || length < 0;
+    if (edition < Edition::of2002 && setShapeUntil1995(shape, width, length, height)) return shape;
+    if (height < 0 && isRound) { // rounded also upright: an ellipsoid, or a cylinder that lies
+        shape.kind = width >= 0 ? Kind::rodAlongC90 : length >= 0 ? Kind::rodAlongC0 : Kind::ellipsoid;
+    } else if (isRound && !(width > 0) && !(length > 0)) {
+        shape.kind = Kind::uprightRod;
+        // Until 1995 one diameter says it.
+        if (length == 0) shape.sizeC0 = shape.sizeC90;
+        if (width == 0) shape.sizeC90 = shape.sizeC0;
+    } else {
+        shape.kind = width == 0 && length == 0 && height == 0 ? Kind::point : Kind::box;
+    }
+    return shape;
 }
 
 /// Beam angles of candela as the file lists them: `horizontal` half planes, or for type B what lies across.
@@ -46,11 +101,11 @@ public:
     Goniogram read() {
         readHeader();
         const size_t tiltLine = findTilt();
-        const std::string_view tilt = withoutBlanks(lines_[tiltLine]).substr(5);
+        const std::string_view tilt = withoutBlanks(tiltOf(lines_[tiltLine]).value());
         FileNumbers numbers(out_.path, lines_, tiltLine + 1);
-        if (tilt == "INCLUDE")
+        if (isWord(tilt, "INCLUDE"))
             readTilt(numbers);
-        else if (tilt != "NONE")
+        else if (!isWord(tilt, "NONE"))
             readTiltFile(std::string(tilt), lineAt(tiltLine));
         readData(numbers);
         return std::move(out_);
@@ -62,21 +117,28 @@ private:
     void readHeader() {
         const std::string_view first = lines_.empty() ? std::string_view{} : withoutBlanks(lines_[0]);
         for (const auto& [name, edition] : editionHeaders)
-            if (first == name) edition_ = edition;
+            if (isWord(first, name)) edition_ = edition;
         // The edition of 1986 begins with any line.
-        if (edition_ == Edition::of1986 && (first.substr(0, 4) == "IES:" || first.substr(0, 5) == "IESNA"))
+        if (edition_ == Edition::of1986 && (isWord(first.substr(0, 4), "IES:") || isWord(first.substr(0, 5), "IESNA")))
             throw InputError(lineAt(0), fmt::format("'{}' is no known edition; expected IESNA91, IESNA:LM-63-1995, "
                                                     "IESNA:LM-63-2002, IES:LM-63-2019 or, of 1986, none.",
                                                     first.substr(0, 60)));
         out_.format = editionFormats[static_cast<size_t>(edition_)];
     }
 
+    /// What follows TILT=, around whose sign files have blanks.
+    static std::optional<std::string_view> tiltOf(std::string_view line) {
+        const size_t sign = line.find('=');
+        if (sign == std::string_view::npos || !isWord(withoutBlanks(line.substr(0, sign)), "TILT")) return {};
+        return line.substr(sign + 1);
+    }
+
     /// Index of the line, after those of keywords.
     size_t findTilt() {
         for (size_t k = 0; k < lines_.size(); ++k) {
             const std::string_view line = withoutBlanks(lines_[k]);
-            if (line.substr(0, 5) == "TILT=") return k;
-            if (line.substr(0, 11) == "[LUMINAIRE]") out_.luminaire = withoutBlanks(line.substr(11));
+            if (tiltOf(line)) return k;
+            if (isWord(line.substr(0, 11), "[LUMINAIRE]")) out_.luminaire = withoutBlanks(line.substr(11));
         }
         throw InputError(SourceLocation{out_.path, static_cast<int>(lines_.size()), 0},
                          "the file has no line TILT=NONE, TILT=INCLUDE or TILT= with the name of a file; it is no IES "
@@ -115,22 +177,31 @@ private:
         const double metres = numbers.integer("units type (1 = feet, 2 = metres)", 1, 2) == 1 ? metresPerFoot : 1;
         const double width = numbers.number("width"), length = numbers.number("length"),
                      height = numbers.number("height");
-        out_.shape = shapeOfLm63(width, length, height, metres);
+        out_.shape = shapeOfLm63(edition_, width, length, height, metres);
         factor *= numbers.positive("ballast factor");
-        const double third = numbers.positive(edition_ < Edition::of2002    ? "ballast-lamp photometric factor"
-                                              : edition_ == Edition::of2002 ? "number for future use"
-                                                                            : "file generation type");
-        if (edition_ < Edition::of2002)
-            factor *= third;
-        else if (edition_ == Edition::of2002 && third != 1)
-            out_.warnings.push_back(
-                fmt::format("{}: the number for future use is {}; it is no factor since 2002 and is "
-                            "left out.",
-                            numbers.where().text(), third));
+        factor *= readThirdFactor(numbers);
         lamps.watts = numbers.numberFrom("input watts", 0);
         lamps.lumens = out_.absolute ? 0 : lamps.lamps * lumensPerLamp;
         out_.lampSets = {lamps};
         readIntensities(numbers, type, verticalCount, horizontalCount, factor);
+    }
+
+    /// What follows the ballast factor; 1 where the edition has it for something else.
+    double readThirdFactor(FileNumbers& numbers) {
+        const double third = numbers.positive(edition_ < Edition::of2002    ? "ballast-lamp photometric factor"
+                                              : edition_ == Edition::of2002 ? "number for future use"
+                                                                            : "file generation type");
+        if (edition_ == Edition::of2002 && third != 1)
+            out_.warnings.push_back(fmt::format("{}: the number for future use is {}; it is no factor since 2002 and "
+                                                "is left out.",
+                                                numbers.where().text(), third));
+        // A file whose first line is damaged is taken for one of 1986.
+        if (edition_ == Edition::of1986 && third != 1)
+            out_.warnings.push_back(fmt::format("{}: the first line names no edition, so that the file is one of 1986 "
+                                                "and intensities are multiplied by its ballast-lamp photometric "
+                                                "factor, {}.",
+                                                numbers.where().text(), third));
+        return edition_ < Edition::of2002 ? third : 1;
     }
 
     void readIntensities(FileNumbers& numbers, unsigned type, unsigned verticalCount, unsigned horizontalCount,
@@ -155,9 +226,13 @@ private:
                 planes.back().candela.push_back(factor * numbers.numberFrom("candela value", 0));
         }
         numbers.finish("candela value");
-        if (type == 1)
+        if (type == 1) {
+            if (lacksEnd(angles.horizontal)) // setSphere closes the circle
+                out_.warnings.push_back(fmt::format("{}: horizontal angles end at {}, without 360; intensities there "
+                                                    "are taken to be those at 0.",
+                                                    numbers.where().text(), angles.horizontal.back()));
             setTypeC(angles, std::move(planes));
-        else
+        } else
             setTypeAOrB(type == 3, angles, planes);
         if (!(out_.largest() > 0)) numbers.fail("every candela value is 0; a luminaire emits light.");
     }
@@ -172,12 +247,21 @@ private:
     static void checkHorizontal(const FileNumbers& numbers, const std::vector<double>& angles) {
         const double first = angles.front(), last = angles.back();
         const bool isKnown =
-            (first == 0 && (last == 0 || last == 90 || last == 180 || last == 360)) || (first == 90 && last == 270);
+            (first == 0 && (last == 0 || last == 90 || last == 180 || last == 360 || lacksEnd(angles))) ||
+            (first == 90 && last == 270);
         if (!isKnown)
             numbers.fail(
                 fmt::format("horizontal angles from {} to {}; expected 0 alone, 0 to 90, 0 to 180, 0 to 360, or "
                             "90 to 270 in photometry of type C.",
                             first, last));
+    }
+
+    /// Angles all the way round but for the last, 360: it is no further on than others are apart.
+    static bool lacksEnd(const std::vector<double>& angles) {
+        if (angles.front() != 0 || angles.back() <= 270 || angles.back() == 360) return false;
+        double widest = 0;
+        for (size_t k = 1; k < angles.size(); ++k) widest = std::max(widest, angles[k] - angles[k - 1]);
+        return 360 - angles.back() <= widest * (1 + 1e-6);
     }
 
     void setTypeC(const IesAngles& angles, std::vector<HalfPlane> planes) {
@@ -231,26 +315,6 @@ private:
 
 Goniogram readIes(const std::string& path, const std::string& content, const FileCheck& mayRead) {
     return IesReader(path, content, mayRead).read();
-}
-
-LuminousShape shapeOfLm63(double width, double length, double height, double metres) {
-    using Kind = LuminousShape::Kind;
-    LuminousShape shape;
-    shape.sizeC0 = std::abs(length) * metres;
-    shape.sizeC90 = std::abs(width) * metres;
-    shape.height = std::abs(height) * metres;
-    const bool isRound = width < 0 || length < 0;
-    if (height < 0 && isRound) { // rounded also upright: an ellipsoid, or a cylinder that lies
-        shape.kind = width >= 0 ? Kind::rodAlongC90 : length >= 0 ? Kind::rodAlongC0 : Kind::ellipsoid;
-    } else if (isRound && !(width > 0) && !(length > 0)) {
-        shape.kind = Kind::uprightRod;
-        // Until 1995 one diameter says it.
-        if (length == 0) shape.sizeC0 = shape.sizeC90;
-        if (width == 0) shape.sizeC90 = shape.sizeC0;
-    } else {
-        shape.kind = width == 0 && length == 0 && height == 0 ? Kind::point : Kind::box;
-    }
-    return shape;
 }
 
 } // namespace quasilux

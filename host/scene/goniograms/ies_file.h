@@ -8,7 +8,4 @@ namespace quasilux {
 /// `content` is that of the file `path`; a table that TILT names is looked for beside it, where `mayRead` allows it.
 Goniogram readIes(const std::string& path, const std::string& content, const FileCheck& mayRead = {});
 
-/// The shape that width (along C90), length (along C0) and height stand for, signs included, in units of `metres`.
-LuminousShape shapeOfLm63(double width, double length, double height, double metres);
-
 } // namespace quasilux

@@ -51,6 +51,7 @@ void addDaylight(Properties& properties, Surroundings& surroundings, const Dayli
     surroundings.image =
         makeSkyImage(coarsestSkyHeight, axes, coloured(albedo / pi * onGround),
                      [&](const glm::dvec3& direction) { return coloured(daylight.luminance(direction)); });
+    surroundings.image->groundBySun = coloured(albedo / pi * daylight.sunIlluminance * daylight.sun.z);
     if (daylight.sunIlluminance > 0) addSun(properties, axes * daylight.sun, coloured(daylight.sunIlluminance));
 }
 

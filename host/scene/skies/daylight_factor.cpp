@@ -12,7 +12,7 @@ SkyAlone keepSkyAlone(Scene& scene) {
     if (!scene.surroundings)
         throw InputError({scene.path}, "a daylight factor needs a sky: an emitter 'quasilux_cie_sky' (16 is the CIE's "
                                        "overcast one), 'quasilux_perez_sky', 'sunsky', 'envmap' or 'constant'.");
-    const Surroundings& sky = *scene.surroundings;
+    Surroundings& sky = *scene.surroundings;
     if (sky.image && sky.image->hasSun)
         throw InputError(sky.where, fmt::format("a daylight factor is of the sky without the sun, which is a part of "
                                                 "this emitter '{}'; set its sun_scale to 0.",
@@ -27,6 +27,7 @@ SkyAlone keepSkyAlone(Scene& scene) {
     found.leftOut = scene.pointEmitters.size() + scene.directionalEmitters.size();
     scene.pointEmitters.clear();
     scene.directionalEmitters.clear();
+    if (sky.image) takeSunOffGround(*sky.image);
     for (ShapeDescription& shape : scene.shapes) {
         found.leftOut += shape.emitter ? 1 : 0;
         shape.emitter.reset();

@@ -85,4 +85,18 @@ EnvironmentImage makeSkyImage(unsigned height, const glm::dmat3& axes, Rgb groun
     return image;
 }
 
+void takeSunOffGround(EnvironmentImage& image) {
+    const Rgb sun = image.groundBySun;
+    for (unsigned row = image.height / 2; row < image.height; ++row) {
+        const float share = isHorizon(row, image.height) ? 0.5f : 1.0f;
+        for (unsigned column = 0; column < image.width; ++column) {
+            Rgb& pixel = image.pixels[size_t(row) * image.width + column];
+            // Not below 0 by rounding.
+            pixel = {std::max(pixel.r - share * sun.r, 0.0f), std::max(pixel.g - share * sun.g, 0.0f),
+                     std::max(pixel.b - share * sun.b, 0.0f)};
+        }
+    }
+    image.groundBySun = {};
+}
+
 } // namespace quasilux

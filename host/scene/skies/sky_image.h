@@ -29,4 +29,7 @@ glm::dvec3 directionOfSkyPixel(unsigned column, unsigned row, unsigned height);
 EnvironmentImage makeSkyImage(unsigned height, const glm::dmat3& axes, Rgb ground,
                               const std::function<Rgb(const glm::dvec3&)>& radiance);
 
+/// Leaves the ground what it has by the sky.
+void takeSunOffGround(EnvironmentImage& image);
+
 } // namespace quasilux
