@@ -50,6 +50,28 @@ TEST(Colors, EveryForm) {
     expectRgb(radiance(""), 1, 1, 1);
 }
 
+// As scenes from the web have it; Mitsuba takes the mean of the channels where it wants a number.
+TEST(Numbers, MayBeColours) {
+    const Bsdf rough = loadBsdf(R"(<bsdf type="roughconductor"><rgb name="alpha" value="0.1,0.2,0.6"/></bsdf>)");
+    EXPECT_NEAR(rough.front.at(0).device.alphaU, 0.3, 1e-6);
+    const Bsdf mask = loadBsdf(R"(<bsdf type="mask"><rgb name="opacity" value="1,0,0"/><bsdf type="diffuse"/></bsdf>)");
+    EXPECT_THAT(mask.front, testing::Contains(testing::Field(
+                                &LobeDescription::device,
+                                testing::Field(&shared::Lobe::transmittance,
+                                               testing::Field(&Rgb::r, testing::FloatNear(2.f / 3, 1e-6f))))));
+}
+
+TEST(RoughConductor, WhatMitsubaClampsIsTakenWithAWarning) {
+    const Scene scene = load(R"(<shape type="rectangle"><bsdf type="roughconductor"><float name="alpha" value="0"/>
+        <rgb name="eta" value="-0.05,4,5"/><rgb name="k" value="2,2,2"/></bsdf></shape>)");
+    const auto& lobe = scene.bsdfs.at(0).front.at(0).device;
+    EXPECT_FLOAT_EQ(lobe.alphaU, 1e-4f);
+    expectRgb(lobe.eta, 0, 4, 5);
+    EXPECT_THAT(scene.warnings,
+                testing::IsSupersetOf({testing::HasSubstr("'alpha' is 0, which is taken as 0.0001"),
+                                       testing::HasSubstr("'eta' of bsdf 'roughconductor' has a negative")}));
+}
+
 TEST(PhongBsdf, LobesAndWidth) {
     const Bsdf bsdf = loadBsdf(R"(<bsdf type="phong"><float name="exponent" value="1000"/></bsdf>)");
     ASSERT_EQ(bsdf.front.size(), 2u);

@@ -153,7 +153,7 @@ TEST(CieSkyReader, SaysWhatIsWrong) {
         {"<integer name=\"year\" value=\"2020\"/>", {"scene.xml:5:1", "has year but no latitude"}},
         {"<float name=\"illuminance\" value=\"1\"/><float name=\"zenith_luminance\" value=\"1\"/>", {"keep one"}},
         {"<float name=\"ground_albedo\" value=\"1.5\"/>", {"scene.xml:5:1", "ground_albedo"}},
-        {"<transform name=\"to_world\"><scale value=\"2\"/></transform>", {"scene.xml:5:1", "Remove <scale>"}},
+        {"<transform name=\"to_world\"><scale x=\"2\"/></transform>", {"scene.xml:5:1", "not shear it"}},
         {"<float name=\"illuminanc\" value=\"1\"/>", {"Did you mean 'illuminance'"}}};
     test::expectErrors(files, cases, skyXml);
 }

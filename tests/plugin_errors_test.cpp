@@ -25,8 +25,8 @@ const BadBody badPlugins[] = {
      "<bsdf type=\"phong\">\n<float name=\"exponent\" value=\"-1\"/></bsdf>",
      {"scene.xml:5:1: parameter 'exponent' of bsdf 'phong' is -1; it must be at least 0"}},
     {"Alpha",
-     "<bsdf type=\"roughconductor\">\n<float name=\"alpha\" value=\"0\"/></bsdf>",
-     {"scene.xml:5:1: parameter 'alpha' is 0", "conductor"}},
+     "<bsdf type=\"roughconductor\">\n<float name=\"alpha\" value=\"-1\"/></bsdf>",
+     {"scene.xml:5:1: parameter 'alpha' is -1", "at least 0"}},
     {"AlphaAndAlphaU",
      "<bsdf type=\"roughconductor\"><float name=\"alpha\" value=\"0.1\"/>\n<float name=\"alpha_u\" "
      "value=\"0.1\"/></bsdf>",
@@ -47,8 +47,8 @@ const BadBody badPlugins[] = {
      "<bsdf type=\"dielectric\">\n<float name=\"int_ior\" value=\"0\"/></bsdf>",
      {"scene.xml:5:1: parameter 'int_ior' of bsdf 'dielectric' is 0; it must be greater than 0"}},
     {"RoughGlassTooSmooth",
-     "<bsdf type=\"roughdielectric\">\n<float name=\"alpha\" value=\"0\"/></bsdf>",
-     {"scene.xml:5:1: parameter 'alpha' is 0", "<bsdf type=\"dielectric\">"}},
+     "<bsdf type=\"roughdielectric\">\n<float name=\"alpha\" value=\"-1\"/></bsdf>",
+     {"scene.xml:5:1: parameter 'alpha' is -1", "at least 0"}},
     {"RoughGlassOfAir",
      "<bsdf type=\"roughdielectric\"><float name=\"ext_ior\" value=\"1.2\"/>\n<float name=\"int_ior\" "
      "value=\"1.2\"/></bsdf>",

@@ -39,7 +39,7 @@ void readCieSky(Properties& properties) {
     Surroundings& surroundings = addSurroundings(properties);
     const int type = readSkyType(properties);
     if (dependsOnSun(type) && !properties.has("sun_direction") && givenPlaceOrTime(properties).empty())
-        throw InputError(properties.element().where,
+        throw InputError(properties.where("sky_type"),
                          fmt::format("{} needs the sun, as its sky_type is {}: sun_direction, or place and time; only "
                                      "types 1, 3, 5 and 16 are the same wherever it stands.",
                                      properties.describe(), type));
