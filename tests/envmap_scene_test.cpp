@@ -140,7 +140,7 @@ TEST(EnvmapReader, SaysWhatIsWrong) {
         {envmap(skyFile + "<float name=\"sclae\" value=\"1\"/>"),
          {"scene.xml:6:1", "unknown parameter 'sclae'", "'scale'"}},
         {envmap(skyFile + "<transform name=\"to_world\"><scale x=\"2\"/></transform>"),
-         {"scene.xml:6:1", "may turn and mirror it, not scale"}},
+         {"scene.xml:6:1", "may turn, mirror and scale it alike"}},
         {"<emitter type=\"constant\"/>\n" + envmap(skyFile),
          {"scene.xml:5:1", "a second emitter all around the scene, after the emitter 'constant' at ",
           "scene.xml:4:1; keep"}},
