@@ -203,7 +203,7 @@ public:
             return event(failed, 1);
         }
     }
-    bool areOpening() const override { return false; }
+    bool areOpening() const override { return step_ < 2; }
     void render(size_t worker, const PassRange& passes) override {
         if (worker == 1 && given.end == 0) given = passes;
     }
@@ -225,6 +225,7 @@ private:
         event.worker = worker;
         event.passes = given;
         event.seconds = 1;
+        if (kind == WorkerEvent::Kind::opened) event.radii = std::make_shared<RadiiState>(RadiiState{{}, true});
         return event;
     }
     unsigned step_ = 0;
@@ -234,7 +235,6 @@ private:
 TEST(SharedRender, GapsAreNoStateToGoOnFrom) {
     FailingWorkers workers;
     SharedStart start;
-    start.radii.areChosen = true;
     unsigned whole = 0;
     std::vector<PassRange> there;
     SharedHooks hooks;

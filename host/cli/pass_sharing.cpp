@@ -69,8 +69,7 @@ RenderOutcome PassSharing::run(const ChosenRender& chosen) {
     SharedStart start;
     start.passes = {chosen.stop.firstPass, std::max(renderer.nextPass(), chosen.stop.firstPass)};
     start.seconds = chosen.seconds;
-    start.radii.areChosen = renderer.radiiAreChosen();
-    renderer.saveRadii(start.radii.state);
+    renderer.saveRadii(start.radii);
     start.sums = takeSums(*devices_.first, renderer);
     const auto all = workers(chosen);
     SharedRender shared(*all, std::move(start), chosen.stop, hooks(chosen), chosen.interrupted);

@@ -33,7 +33,7 @@ SharedRender::SharedRender(PassWorkers& workers, SharedStart start, const StopRu
                            const std::atomic<bool>& interrupted)
     : workers_(workers), stop_(withDefault(stop)), hooks_(std::move(hooks)), interrupted_(interrupted),
       dealer_(start.passes.end, stop.passes), sums_(std::move(start.sums)), first_(start.passes.first),
-      radii_(std::move(start.radii.state)), rendered_(sums_.counters.passes), begun_(steadySeconds()),
+      radii_(std::move(start.radii)), rendered_(sums_.counters.passes), begun_(steadySeconds()),
       secondsBefore_(start.seconds) {
     if (!sums_.isEmpty()) added_ = {start.passes};
     renderedBefore_ = sums_.counters.renderSeconds;

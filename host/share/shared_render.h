@@ -31,7 +31,7 @@ struct SharedHooks {
 struct SharedStart {
     PassSums sums;
     PassRange passes; ///< the first pass of all, and the one that comes next
-    RadiiState radii;
+    MemoryState radii; ///< of the passes before; workers say themselves whether these are the last ones
     double seconds = 0;
 };
 
