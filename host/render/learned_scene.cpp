@@ -11,7 +11,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr unsigned samplesOfManyEmitters = 4;
+constexpr unsigned samplesOfPixel = 8, mostSamplesOfPath = 4; // of many emitters, in a pass
 // Of a round while learning.
 constexpr unsigned fewestPhotonsOfRound = 8192, mostPhotonsOfRound = 131072;
 constexpr unsigned firstRoundPass = forecastPass - 16; // no render gets there
@@ -63,8 +63,10 @@ LearnedScene learnScene(Device& device, const Program& program, const Scene& sce
     return learning.learned();
 }
 
-unsigned directSamplesOf(const LearnedScene& learned) {
-    return learned.tables.lights.empty() ? 1 : samplesOfManyEmitters;
+// A path without photons costs little more than its samples: another path is worth more than another sample of this one.
+unsigned directSamplesOf(const LearnedScene& learned, unsigned classes, unsigned cameraPaths) {
+    if (learned.tables.lights.empty() || classes == 0) return 1;
+    return std::clamp(samplesOfPixel / cameraPaths, 1u, mostSamplesOfPath);
 }
 
 } // namespace quasilux

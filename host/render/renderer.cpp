@@ -79,7 +79,8 @@ struct Renderer::Stages {
         auto photon = photonParams(scene, flat, settings);
         photon.usualWorth = static_cast<float>(learned->usualWorth / photon.paths);
         auto camera = cameraParams(flat, settings, photon.maxDepth);
-        camera.directSamples = directSamplesOf(*learned);
+        camera.directSamples = report.learned.directSamples =
+            directSamplesOf(*learned, photonClasses(flat.features, settings), settings.cameraPaths);
         context.emplace(PassContext{device, *program, *geometry, flat, settings, *radii, field, *film, buffers,
                                     compiledClasses(flat.features, settings), camera, photon});
         passes = makePass(*context);

@@ -94,7 +94,6 @@ SceneReport::Learned describeLearned(const LearnedScene& learned, const shared::
     for (const auto& source : tables.guide.sources) row.openings += source.halfU > 0;
     row.aims = tables.aims.size();
     for (const bool byPhotons : tables.directByPhotons) row.emittersByPhotons += byPhotons;
-    row.directSamples = directSamplesOf(learned);
     row.hasWeightWindows = learned.usualWorth > 0;
     row.lightOfPhotons = learned.lightOfPhotons;
     if (learned.effectiveShare >= 0) row.effectivePhotons = learned.effectiveShare * photons;
