@@ -156,7 +156,7 @@ inline float traceCameraPath(const World* world, uint index, uint number, uint p
 #endif
     path.throughput = 1;
     path.radianceScale = 1;
-    path.d = path.q = path.depth = 0;
+    path.d = path.q = path.events = path.depth = 0;
     path.passed = 0;
     path.from = path.ray.origin;
     path.specularSoFar = 1;

@@ -32,11 +32,11 @@ __kernel void chooseEvenly(uint shift, __global float* result, uint passes) {
     result[i] = netNumbers(&net, NET_EMITTER).x;
 }
 
-/* Both pairs and choices of the nets of a pixel with `paths` paths a pass: six numbers a point. */
-__kernel void drawNets(ulong seed, uint paths, uint place, __global float* result, uint points) {
+/* Both pairs and choices of the nets of a pixel with `paths` paths a pass, of their first event (0) or of a later one: six numbers a point. */
+__kernel void drawNets(ulong seed, uint paths, uint place, uint event, __global float* result, uint points) {
     const uint i = get_global_id(0);
     if (i >= points) return;
-    const Net net = netOfPath(seed, i, paths, place);
+    const Net first = netOfPath(seed, i, paths, place), net = event == 0 ? first : netOfEvent(&first, event);
     for (uint use = 0; use < 2; ++use) vstore3(netNumbers(&net, use).yzx, 0, result + 6 * i + 3 * use);
 }
 
