@@ -103,8 +103,8 @@ TEST(AdaptiveRadius, IsBoundedAndNeedsLight) {
     EXPECT_FLOAT_EQ(scales[28], 1); // black: as it was
 }
 
-// The pilot's disc follows the radius that is chosen where it is sure of the bias, and what it measured with wider discs is forgotten.
-TEST(AdaptiveRadius, PilotNarrowsWhereBiasIsCertain) {
+// The coarse camera's disc follows the radius that is chosen where it is sure of the bias, and what it measured with wider discs is forgotten.
+TEST(AdaptiveRadius, DiscsNarrowWhereBiasIsCertain) {
     const Light certain{0.5, 0.001}, uncertain{0.1, 0.2};
     std::vector<float> film(size_t{width} * height * layout.floatsPerPixel());
     for (unsigned pixel = 0; pixel < width * height; ++pixel)

@@ -93,7 +93,7 @@ TEST_F(MemoryTest, OfAnotherRenderDiffers) {
     EXPECT_FALSE(isClose(fewer.device, photons.device));
 }
 
-// Photons that weight windows split are forecast from a pilot of fewer paths, each of which carries more. A forecast that took these
+// Photons that weight windows split are forecast from fewer paths, each of which carries more. A forecast that took these
 // for bright photons made room for 19 times as many here.
 TEST_F(MemoryTest, RoomForSplitPhotonsIsNearTheirNumber) {
     const Outcome outcome = CommandLineTest::run({"render", scene("real/daylight.xml"), "--quiet", "--passes", "2",

@@ -84,7 +84,7 @@ TEST(PathAllocation, SavesVariance) {
     EXPECT_LT(varianceSaved(halves(1, 16), counts, 64) / cost, 0.8) << "negative control";
 }
 
-// A pilot's two halves, a rare path met in one of them: what the other one says is saved is nothing. Negative control: judged by itself it saves much.
+// A noise probe's two halves, a rare path met in one of them: what the other one says is saved is nothing. Negative control: judged by itself it saves much.
 TEST(PathAllocation, IsJudgedByWhatDidNotChooseIt) {
     PathNoise chose = halves(1, 1), other = halves(1, 1);
     chose.variance[3 * side + 3] = 1e4;
@@ -188,7 +188,7 @@ CameraSampling chosen(const Truth& truth, Freedom freedom = ofSampling) {
     return found.settings.cameraSampling;
 }
 
-// 1.2 times less error at least, time counted; photons' noise is not lowered, and the pilot is to take little of the time.
+// 1.2 times less error at least, time counted; photons' noise is not lowered, and the probe is to take little of the time.
 TEST(PathAllocation, IsChosenWhereItGains) {
     EXPECT_EQ(chosen(gaining(2, 1)), CameraSampling::adaptive);
     EXPECT_EQ(chosen(gaining(1.1, 1)), CameraSampling::even);

@@ -66,8 +66,8 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         ->group(group);
     command
         .add_option("--emission", options.emission,
-                    "Where photons begin: guided (where pilots found that they serve the image) or plain (in "
-                    "proportion to the emitters' power) (default: guided)")
+                    "Where photons begin: guided (where importance paths found that they serve the image) or "
+                    "plain (in proportion to the emitters' power) (default: guided)")
         ->type_name("NAME")
         ->check(oneOf(choiceNames<Emission>()))
         ->group(group);
@@ -89,7 +89,7 @@ void declareSettings(CLI::App& command, SceneOptions& options) {
         .add_option(
             "--camera-sampling", options.cameraSampling,
             "Camera paths by pixel: even (all have the same number) or adaptive (more where they have more noise, "
-            "found by a pilot, where there are several) (default: the scene's, else searched unless --camera-paths is "
+            "found by a noise probe, where there are several) (default: the scene's, else searched unless --camera-paths is "
             "given, else even)")
         ->type_name("NAME")
         ->check(oneOf(choiceNames<CameraSampling>()))
