@@ -2,6 +2,7 @@
 #pragma once
 
 #include "share/pass_workers.h"
+#include "util/stopwatch.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -71,7 +72,8 @@ private:
     std::deque<Task> tasks_;
     PassSums given_;
     std::atomic<bool> isBusy_{true}, isOver_{false};
-    std::atomic<double> lastSign_, longestPass_{0};
+    Stopwatch watch_;
+    std::atomic<double> lastSign_{0}, longestPass_{0}; ///< the first by watch_
 };
 
 } // namespace quasilux

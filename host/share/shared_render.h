@@ -5,6 +5,7 @@
 #include "render/worker_record.h"
 #include "share/pass_dealer.h"
 #include "share/pass_workers.h"
+#include "util/stopwatch.h"
 
 namespace quasilux {
 
@@ -56,7 +57,7 @@ private:
         std::deque<PassRange> running; ///< given, not yet rendered
         std::vector<Given> loose;      ///< given, and lost if it fails now
         double secondsPerPass = 0;
-        double freeAt = 0; ///< expected
+        double freeAt = 0; ///< expected, by watch_
     };
 
     void note(const WorkerEvent& event);
@@ -98,7 +99,8 @@ private:
     Progress progress_;
     uint64_t photons_ = 0, paths_ = 0; ///< since it began, also those that were lost
     uint64_t rendered_;                ///< passes, those before among them
-    double begun_, secondsBefore_, renderedBefore_ = 0, lastSums_ = 0, costOfSums_ = 0, slowestGiving_ = 0;
+    Stopwatch watch_;                  ///< since it began
+    double secondsBefore_, renderedBefore_ = 0, lastSums_ = 0, costOfSums_ = 0, slowestGiving_ = 0;
 };
 
 } // namespace quasilux
