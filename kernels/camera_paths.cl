@@ -56,7 +56,7 @@ inline int followCameraPath(const World* world, CameraPath* path, Rng* rng, floa
     takeEmission(world, path, &s, hit.t, components);
 #if defined(HAS_NULL_PRIMITIVES) || defined(HAS_MEDIA) || defined(HAS_HIDDEN_EMITTERS)
     if (s.isNull || (s.emitter != QL_NONE && looksThroughEmitters(path))) {
-        passSurface(world, path, &s, hit.t);
+        crossSurface(world, path, &s, hit.t);
         return 1;
     }
 #endif
@@ -128,17 +128,13 @@ inline float gatheringWeight(const CameraParams* params, uint k, uint paths) {
     return k < params->gatheringPaths ? (float)all / params->gatheringPaths : 0.f;
 }
 
-/* Light that a path takes, by component, and its bias; paths of a pixel follow each other in `index`. `number`: of the path among all that
- * have the same index, over the passes, each of which has `paths` of them. Returns the throughput, mean of R, G, B, with which it was cut, or -1 where it
- * ended by itself. */
-inline float traceCameraPath(const World* world, uint index, uint number, uint paths, float3* components) {
+/* Path `number` of those of `index`, where it leaves the camera: nothing has happened to it. */
+inline CameraPath beginCameraPath(const World* world, uint index, uint number, uint paths, ulong seed,
+                                  const PathPlace* place) {
     const CameraParams* params = world->params;
-    const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
-    Rng rng = rngMake(seed, number, STREAM_CAMERA, index);
+    const uint pixel = place->pixel;
     CameraPath path;
-    const PathPlace place = pathPlace(world, index, pixelPlace(index, number, seed));
-    const uint pixel = place.pixel;
-    path.ray = cameraRay(&params->camera, pixel, place.inside.offset, lensNumbers(index, number, seed));
+    path.ray = cameraRay(&params->camera, pixel, place->inside.offset, lensNumbers(index, number, seed));
     path.net = netOfPath(seed, number, paths, index);
     const float3 ofLobe = netNumbers(&path.net, NET_LOBE);
     path.firstChoice = ofLobe.x;
@@ -168,6 +164,18 @@ inline float traceCameraPath(const World* world, uint index, uint number, uint p
     path.roulette.number = pixelRoulette(index, number, seed);
     path.roulette.survival = 1;
 #endif
+    return path;
+}
+
+/* Light that a path takes, by component, and its bias; paths of a pixel follow each other in `index`. `number`: of the path among all that
+ * have the same index, over the passes, each of which has `paths` of them. Returns the throughput, mean of R, G, B, with which it was cut, or -1 where it
+ * ended by itself. */
+inline float traceCameraPath(const World* world, uint index, uint number, uint paths, float3* components) {
+    const CameraParams* params = world->params;
+    const ulong seed = (ulong)params->seedHigh << 32 | params->seedLow;
+    Rng rng = rngMake(seed, number, STREAM_CAMERA, index);
+    const PathPlace place = pathPlace(world, index, pixelPlace(index, number, seed));
+    CameraPath path = beginCameraPath(world, index, number, paths, seed, &place);
     for (uint k = 0; k < FILM_SAMPLES; ++k) components[k] = 0;
     if (isBeyondImage(&path.ray)) return -1;
 #ifdef HAS_DEPTH_LIMIT
@@ -175,8 +183,8 @@ inline float traceCameraPath(const World* world, uint index, uint number, uint p
 #endif
 #ifdef HAS_IRRADIANCE_METER
     const MeterSequence sequence = {index % pathsPerPixel(params), pathsPerPixel(params),
-                                    rngMake(seed, params->pass, STREAM_PIXEL, pixel).key};
-    leaveMeter(world, &path, &sequence, pixel, &rng, components);
+                                    rngMake(seed, params->pass, STREAM_PIXEL, place.pixel).key};
+    leaveMeter(world, &path, &sequence, place.pixel, &rng, components);
 #endif
 #if defined(HAS_FILTER_TABLE) && defined(MAP_CAMERA)
     world->store->filterWeight = place.inside.weight;

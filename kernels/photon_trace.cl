@@ -137,7 +137,7 @@ inline float storedShare(const PhotonWorld* world, const Surface* s) {
 #endif
 }
 
-/* A surface that the path has come to; 0 where it ends. `others` as passWindow has it. */
+/* A surface that the path has come to; 0 where it ends. `others` as applyWeightWindow has it. */
 inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const PhotonWorld* world, const PhotonSink* sink,
                        RegionCount* count) {
     const SceneTables* scene = &world->params->scene;
@@ -177,7 +177,7 @@ inline int meetSurface(PhotonPath* path, PhotonPath* others, Hit hit, const Phot
         world->params->usualWorth > 0 || scene->learned.aimCount > 0
             ? scatteringCell(world->tables, &scene->learned.importance, s.position, importanceFace(s.geometricNormal))
             : QL_NONE;
-    if (!delivered && !passWindow(path, others, cell, world, count)) return 0;
+    if (!delivered && !applyWeightWindow(path, others, cell, world, count)) return 0;
     const Aim aim = aimFrom(world->tables, scene, cell);
 #else
     const Aim aim = {0, 0, 0, 0};
