@@ -63,7 +63,7 @@ typedef struct {
  * other (kernels/photon_store.clh). */
 #define PHOTON_BLOCK 16u
 /* Words of a sorted photon, one more where the scene limits the path's depth; of a sorted camera point; and floats of a camera path's sample that
- * waits for its splats (photon_grid.clh, camera_paths.cl). */
+ * waits for its splats (photon_grid.clh, camera_point_paths.cl). */
 #define PHOTON_FIELDS_WITHOUT_DEPTH 6
 #define POINT_FIELDS 5
 #define CAMERA_SAMPLE_FLOATS 6
