@@ -56,8 +56,8 @@ typedef struct {
 typedef struct {
     EmissionRecord emission;
     float flux; /* that it began with, W, mean of R, G, B, times the photons of the round */
-    float
-        squares; /* of what it brings to the image wherever it is stored, summed: in proportion to its part of the noise */
+    /* Of what it brings to the image wherever it is stored, summed: in proportion to its part of the noise */
+    float squares;
     float events; /* of its path: in proportion to the time that it takes */
 } PhotonRecord;
 

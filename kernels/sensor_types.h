@@ -28,9 +28,9 @@ typedef struct {
 
 typedef struct {
     Packed3 origin; /* orthographic: centre of the near plane */
-    Packed3
-        corner; /* direction to the upper left corner of the image, at depth 1; orthographic: offset to it; fisheye: place of it
-                           * about the middle, in half widths, on the axes to the right and up */
+    /* Direction to the upper left corner of the image, at depth 1; orthographic: offset to it; fisheye: place of it about
+     * the middle, in half widths, on the axes to the right and up. */
+    Packed3 corner;
     Packed3 stepX, stepY;    /* direction per pixel, to the right and down; orthographic, fisheye: offset */
     Packed3 forward;         /* unit */
     float nearClip, farClip; /* depths along `forward`; fisheye: distances */
@@ -73,8 +73,8 @@ typedef struct {
     unsigned int firstPixel, columns, rows;
     unsigned int quantity; /* GRID_* */
     unsigned int medium;   /* in which it lies: index or MEDIUM_NONE */
-    float
-        height; /* GRID_CYLINDRICAL: of the cells in which photons are counted, half of it on each side of the plane */
+    /* GRID_CYLINDRICAL: of the cells in which photons are counted, half of it on each side of the plane */
+    float height;
     float inverseExtent; /* 1 / area of a cell; GRID_CYLINDRICAL: 1 / its volume */
 } MeterGrid;
 
@@ -85,8 +85,8 @@ typedef struct {
 
 typedef struct {
     unsigned int kind; /* METER_NONE ... METER_GRID */
-    unsigned int primitives,
-        primitiveCount; /* MeterPrimitive records, of METER_GRID MeterGrid records: word offset into the scene tables, number */
+    /* MeterPrimitive records, of METER_GRID MeterGrid records: word offset into the scene tables, number */
+    unsigned int primitives, primitiveCount;
     unsigned int width, height; /* pixels */
     unsigned int samples;       /* paths of a pixel in each pass, a power of two */
     unsigned int lobe;          /* a white Lambert lobe */

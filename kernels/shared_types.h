@@ -68,8 +68,8 @@ typedef struct {
 /* What a primitive belongs to; indexed by primitive index. */
 typedef struct {
     unsigned int shape; /* index into Shape records */
-    unsigned int
-        patch; /* smooth surface component: primitives joined across edges flatter than the crease angle; of a ShapeGroup counted in it */
+    /* Smooth surface component: primitives joined across edges flatter than the crease angle; of a ShapeGroup counted in it */
+    unsigned int patch;
 } PrimitiveInfo;
 
 typedef struct {

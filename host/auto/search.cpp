@@ -15,8 +15,8 @@ namespace {
 constexpr unsigned fewestPasses = 2; // for an estimate of their noise
 // Numbers next to each other differ by little, and show it only when radii by pixel have been chosen.
 constexpr unsigned fewestOfNumbers = 4 * passesOfEqualRadius;
-constexpr double leastGainOfNumbers =
-    1.2; // of relMSE: the uncertainty of so few passes; photons by pixels and this radius are known to serve most scenes
+// Of relMSE: the uncertainty of so few passes; photons by pixels and this radius are known to serve most scenes
+constexpr double leastGainOfNumbers = 1.2;
 constexpr unsigned mostPasses = 256; // of a contender: those to come are better spent on the image
 constexpr unsigned mostAtFirst = 32; // before any is given up
 // Of the time for pilots, the rest is for numbers: a wrong method costs more than a wrong number.

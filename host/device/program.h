@@ -72,8 +72,8 @@ private:
     cl::Kernel kernel_;
     std::string name_;
     uint64_t privateBytes_ = 0;
-    size_t largestGroup_ =
-        1; ///< work-items that the device can run in a group of this kernel: registers may leave room for few
+    /// Work-items that the device can run in a group of this kernel: registers may leave room for few
+    size_t largestGroup_ = 1;
     LaunchPace pace_;
     cl::Event last_; ///< the last launch
     size_t lastCount_ = 0;

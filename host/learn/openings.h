@@ -12,8 +12,8 @@ namespace quasilux {
 struct UsefulRay {
     glm::dvec3 position{}, direction{}; ///< direction is of unit length
     double weight = 0;
-    bool isScattered =
-        false; ///< begins at `position`, where its light is scattered into all directions; or else comes from outside
+    /// Begins at `position`, where its light is scattered into all directions; or else comes from outside
+    bool isScattered = false;
 };
 
 /// Of a place from the line that the ray lies on.

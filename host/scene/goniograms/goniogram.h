@@ -17,7 +17,8 @@ struct LuminousShape {
         point,
         box,        ///< flat, a rectangle, where height is 0
         uprightRod, ///< a cylinder along the axis; flat, an ellipse or a disc, where height is 0
-        rodAlongC0, ///< a cylinder that lies along C0, with a cross-section sizeC90 × height; a disc that faces C0 where sizeC0 is 0
+        /// a cylinder that lies along C0, with a cross-section sizeC90 × height; a disc that faces C0 where sizeC0 is 0
+        rodAlongC0,
         rodAlongC90, ///< likewise, with a cross-section sizeC0 × height
         ellipsoid
     };
