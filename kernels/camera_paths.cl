@@ -17,8 +17,8 @@ __kernel void traceMeterPaths(__global const BvhNode* nodes, __global const Prim
     for (uint k = 0; k < FILM_COMPONENTS; ++k) vstore3(components[k], k, samples + (size_t)index * SAMPLE_FLOATS);
 }
 
-/* Ends the pass: the sample of a pixel is the mean of its paths and the photons counted in it (meter_photons.clh), times
- * `scale`. */
+/* Ends the pass: the sample of a pixel is the mean of its paths and the photons counted in it (meter_photons.clh),
+ * times `scale`. */
 __kernel void addMeterSamples(__global const float* samples, __global uint* sums, __global float* film,
                               __global CameraCounters* counters, const uint pixels, const uint samplesPerPixel,
                               const float scale, const float quantaPerRadiance, const float batchWeight,
@@ -36,14 +36,15 @@ __kernel void addMeterSamples(__global const float* samples, __global uint* sums
     addFiniteSample(film, layout, counters, pixel, components, batchWeight);
 }
 #else
-/* Camera paths in this pass, of a pixel or of a place in the grid of samples; of such beyond the edge, those of the nearest pixel. */
+/* Camera paths in this pass, of a pixel or of a place in the grid of samples; of such beyond the edge, those of the
+ * nearest pixel. */
 inline uint pathsAt(const World* world, uint index) {
     const CameraParams* params = world->params;
     return world->pathCounts[blockOfPixel(&params->camera, pathPlace(world, index, 0).pixel, params->pathBlock)];
 }
 
-/* The mean of the paths of a pixel, or of a place in the grid of samples, in this pass. They look up the same photons, so photons, which cost
- * more, are traced once for all. */
+/* The mean of the paths of a pixel, or of a place in the grid of samples, in this pass. They look up the same photons,
+ * so photons, which cost more, are traced once for all. */
 inline void tracePixel(const World* world, uint index, __global CameraCounters* counters, float3* mean) {
     const uint paths = pathsAt(world, index);
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] = 0;

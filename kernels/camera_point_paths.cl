@@ -1,6 +1,6 @@
-/* Stage 1 of a pass in the camera map's order: where light would be taken from the photon map, camera points are stored for the photons
- * that come later. At the end of the pass addSamples adds what paths took themselves, and the splats, to the film.
- * From: camera rays. To: camera points, samples. */
+/* Stage 1 of a pass in the camera map's order: where light would be taken from the photon map, camera points are stored
+ * for the photons that come later. At the end of the pass addSamples adds what paths took themselves, and the splats,
+ * to the film. From: camera rays. To: camera points, samples. */
 #include "camera_paths.clh"
 
 /* A sample that waits for its splats is light that needs no photons: direct light and emission. */

@@ -38,7 +38,8 @@ typedef struct {
     unsigned int patchNodes;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
     unsigned int patchCount;  /* of those; what follows are patches of instances */
-    /* Place of the first, steps from one to the next as they are long; child reference of the tree over them, QL_NONE: none */
+    /* Place of the first, steps from one to the next as they are long; child reference of the tree over them, QL_NONE:
+     * none */
     unsigned int instances, instanceCount, instanceRoot;
     Meter meter;
     Learned learned;
@@ -59,11 +60,11 @@ typedef struct {
 #define ENERGY_LOST 4u
 #define ENERGY_GAINED 5u
 
-/* One work-item traces the paths of one region and stores into blocks of PHOTON_BLOCK photons, which it takes one after the
- * other (kernels/photon_store.clh). */
+/* One work-item traces the paths of one region and stores into blocks of PHOTON_BLOCK photons, which it takes one after
+ * the other (kernels/photon_store.clh). */
 #define PHOTON_BLOCK 16u
-/* Words of a sorted photon, one more where the scene limits the path's depth; of a sorted camera point; and floats of a camera path's sample that
- * waits for its splats (photon_grid.clh, camera_point_paths.cl). */
+/* Words of a sorted photon, one more where the scene limits the path's depth; of a sorted camera point; and floats of a
+ * camera path's sample that waits for its splats (photon_grid.clh, camera_point_paths.cl). */
 #define PHOTON_FIELDS_WITHOUT_DEPTH 6
 #define POINT_FIELDS 5
 #define CAMERA_SAMPLE_FLOATS 6
@@ -105,7 +106,8 @@ typedef struct {
 #define ESTIMATE_BIAS 0
 #endif
 
-/* Factor on density radii by distance from the eye (kernels/radius_field.clh): factor[k] at nearest * 2^k, linear between. */
+/* Factor on density radii by distance from the eye (kernels/radius_field.clh): factor[k] at nearest * 2^k, linear
+ * between. */
 typedef struct {
     unsigned int octaves; /* 0: radii are the same everywhere */
     Packed3 eye;
@@ -128,7 +130,8 @@ typedef struct {
     float biasWeight;             /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
 } MapParams;
 
-/* A digit of the cells by which records are sorted, lowest first, and the layout of its counts (kernels/cell_sort.clh). */
+/* A digit of the cells by which records are sorted, lowest first, and the layout of its counts
+ * (kernels/cell_sort.clh). */
 typedef struct {
     unsigned int shift, mask, bins;  /* the bin of a cell: cell >> shift & mask */
     unsigned int chunks;             /* each counts and places a run of the records, in order */
@@ -164,8 +167,8 @@ typedef struct {
     SceneTables scene;
 } CameraParams;
 
-/* Samples that pixels share (shared_samples.clh): pixels to either side whose samples a filter may reach, and samples that their grid has
- * beyond each edge of the image. */
+/* Samples that pixels share (shared_samples.clh): pixels to either side whose samples a filter may reach, and samples
+ * that their grid has beyond each edge of the image. */
 #define FILTER_TAPS(camera) (((camera)->filterReach + FILTER_CELLS / 2 - 1) / FILTER_CELLS)
 #define SAMPLE_BORDER(camera) ((camera)->filterEnds ? 0 : FILTER_TAPS(camera))
 

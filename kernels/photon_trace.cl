@@ -1,5 +1,6 @@
 /* Stage 1 of a pass: trace photons from the emitters and store them by class.
- * From: emitters. To: photons in blocks, chained in an order that is the region's own (so the result does not depend on scheduling). */
+ * From: emitters. To: photons in blocks, chained in an order that is the region's own (so the result does not depend on
+ * scheduling). */
 #include "photon_trace.clh"
 
 __kernel void tracePhotons(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,

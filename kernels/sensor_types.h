@@ -14,7 +14,8 @@ namespace quasilux::shared {
 #define FILTER_TABLE 1u /* any other: FilterStep records */
 #define FILTER_CELLS 64 /* of the table, in a pixel */
 
-/* Sums of a filter f along one axis up to the lower end of a cell, in units of the integral of |f| (kernels/filter_table.clh). */
+/* Sums of a filter f along one axis up to the lower end of a cell, in units of the integral of |f|
+ * (kernels/filter_table.clh). */
 typedef struct {
     float magnitude; /* of |f| */
     float value;     /* of f */
@@ -28,8 +29,8 @@ typedef struct {
 
 typedef struct {
     Packed3 origin; /* orthographic: centre of the near plane */
-    /* Direction to the upper left corner of the image, at depth 1; orthographic: offset to it; fisheye: place of it about
-     * the middle, in half widths, on the axes to the right and up. */
+    /* Direction to the upper left corner of the image, at depth 1; orthographic: offset to it; fisheye: place of it
+     * about the middle, in half widths, on the axes to the right and up. */
     Packed3 corner;
     Packed3 stepX, stepY;    /* direction per pixel, to the right and down; orthographic, fisheye: offset */
     Packed3 forward;         /* unit */
@@ -54,7 +55,8 @@ typedef struct {
 #define METER_TRIANGLE 1u
 #define METER_SPHERE 2u
 
-/* A piece of what a meter measures on. Its front is the side of sign * cross(e1, e2), of a sphere the outside if sign > 0. */
+/* A piece of what a meter measures on. Its front is the side of sign * cross(e1, e2), of a sphere the outside if sign >
+ * 0. */
 typedef struct {
     unsigned int type;  /* METER_* */
     Packed3 p0;         /* corner; sphere: centre */

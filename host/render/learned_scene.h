@@ -7,12 +7,13 @@
 
 namespace quasilux {
 
-/// Follows importance paths from the camera and rounds of photons from the emitters, as far as they serve the image; `flat` and the tables of `geometry` have
-/// what they found. Empty where there is nothing to learn, learns().
+/// Follows importance paths from the camera and rounds of photons from the emitters, as far as they serve the image;
+/// `flat` and the tables of `geometry` have what they found. Empty where there is nothing to learn, learns().
 LearnedScene learnScene(Device& device, const Program& program, const Scene& scene, const RenderSettings& settings,
                         DeviceScene& flat, GeometryBuffers& geometry);
 
-/// Samples of emitters where a camera path gathers: several where each must choose one of many, as they share the choices out.
+/// Samples of emitters where a camera path gathers: several where each must choose one of many, as they share the
+/// choices out.
 unsigned directSamplesOf(const LearnedScene& learned);
 
 } // namespace quasilux

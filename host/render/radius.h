@@ -5,8 +5,8 @@
 
 namespace quasilux {
 
-/// Share of the photons of a pass that the disc keeps from pass to pass: r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1), eq. 20;
-/// i counts from 1, so r_1 is the radius of pass 0.
+/// Share of the photons of a pass that the disc keeps from pass to pass: r_{i+1}^2 = r_i^2 (i + alpha) / (i + 1), eq.
+/// 20; i counts from 1, so r_1 is the radius of pass 0.
 inline constexpr double radiusAlpha = 2.0 / 3.0;
 
 /// Radius of pass 0 in scene units, so that a disc holds `photonsInDisc` of the `photons` emitted, were they spread

@@ -48,8 +48,8 @@ struct StopRule {
     std::optional<double> relativeError; ///< ErrorEstimate::sum()
 };
 
-/// Whether a pass may have several camera paths for a pixel: meters have a number of paths of their own, and the camera map would store the
-/// points of all.
+/// Whether a pass may have several camera paths for a pixel: meters have a number of paths of their own, and the camera
+/// map would store the points of all.
 inline bool mayHaveCameraPaths(bool isMeter, const RenderSettings& settings) {
     return !isMeter && settings.map == MapOrder::photons;
 }

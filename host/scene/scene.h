@@ -1,4 +1,5 @@
-// What a scene file says, in world space (less Scene::origin) and resolved: the input of host/prepare. No device, no Embree, no XML here.
+// What a scene file says, in world space (less Scene::origin) and resolved: the input of host/prepare. No device, no
+// Embree, no XML here.
 #pragma once
 
 #include "bsdf/lobe_list.h"
@@ -146,7 +147,8 @@ struct Sphere {
     glm::mat3 toLocal{1.f}; ///< rotation (and mirroring) from the world to its own axes, for texture coordinates
 };
 
-/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides along which u and v run from 0 to 1, unit normal.
+/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides along which u and v run from 0 to
+/// 1, unit normal.
 struct RectangleFrame {
     glm::vec3 corner{}, edgeU{}, edgeV{}, normal{};
 };
@@ -201,7 +203,8 @@ struct PointEmitter {
         glm::vec3 u{}, v{};
         std::optional<unsigned> texture; ///< index into Scene::textures; multiplies the intensity
     };
-    /// Throws its picture: the intensity is that on the axis over cos^3 of the angle to it, none outside of the unit square.
+    /// Throws its picture: the intensity is that on the axis over cos^3 of the angle to it, none outside of the unit
+    /// square.
     struct Projector {
         glm::vec3 axis{}; ///< unit
         Picture picture;
@@ -322,7 +325,8 @@ struct Scene {
     }
 };
 
-/// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is known.
+/// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is
+/// known.
 enum class Unknown { refused, forgiven };
 
 /// How a file is read.
@@ -338,7 +342,8 @@ struct LoadChoice {
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {},
                 const LoadChoice& choice = {});
 
-/// Makes the grids of the scene its sensor. Throws InputError where the scene has none, or they have too many points together.
+/// Makes the grids of the scene its sensor. Throws InputError where the scene has none, or they have too many points
+/// together.
 void useGridsAsSensor(Scene& scene);
 
 } // namespace quasilux

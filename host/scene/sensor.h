@@ -17,7 +17,8 @@ enum class MeterKind { none, ray, area, grid };
 /// Or else it measures radiance.
 inline bool isIrradiance(MeterKind meter) { return meter == MeterKind::area || meter == MeterKind::grid; }
 
-/// What is measured at the points of a grid: illuminance of its plane, or the mean of that of all planes that hold its normal.
+/// What is measured at the points of a grid: illuminance of its plane, or the mean of that of all planes that hold its
+/// normal.
 enum class IlluminanceKind { planar, cylindrical };
 
 /// <?quasilux illuminance-grid …?>: points at the centres of nx × ny equal cells of a parallelogram, all of one normal.

@@ -46,7 +46,8 @@ public:
     PassSums takeSums();
 
     const std::string& name() const { return name_; }
-    /// Seconds since its last sign: a pass that ended, or the beginning of what it does now; 0 where it has nothing to do.
+    /// Seconds since its last sign: a pass that ended, or the beginning of what it does now; 0 where it has nothing to
+    /// do.
     double silentFor() const;
     double longestPass() const { return longestPass_; }
 

@@ -200,7 +200,8 @@ std::vector<WorkerLoad> SharedRender::loads() const {
     return all;
 }
 
-// The fastest first. Until radii are chosen one renders alone, since later ones are chosen with the photons of its passes.
+// The fastest first. Until radii are chosen one renders alone, since later ones are chosen with the photons of its
+// passes.
 std::vector<size_t> SharedRender::freeWorkers() const {
     std::vector<size_t> free;
     for (size_t k = 0; k < members_.size(); ++k) {

@@ -1,5 +1,5 @@
-// One render whose passes are shared among workers by how fast they are (docs/method/scaling.md). What a worker that fails has not given
-// is rendered by others, so the image is the sum of the same passes.
+// One render whose passes are shared among workers by how fast they are (docs/method/scaling.md). What a worker that
+// fails has not given is rendered by others, so the image is the sum of the same passes.
 #pragma once
 
 #include "render/worker_record.h"
@@ -20,7 +20,8 @@ struct SharedHooks {
     std::function<void(const Progress&)> onProgress;
     /// Whenever all sums are there; `seconds` as the stop rule counts them.
     std::function<void(const SharedPasses& soFar, double seconds, bool isLast)> onSums;
-    /// At the end, where passes before or between these are missing, and are nobody's to render: no state to go on from. May be empty.
+    /// At the end, where passes before or between these are missing, and are nobody's to render: no state to go on
+    /// from. May be empty.
     std::function<void(const std::vector<PassRange>& there)> onGap;
     /// What a worker is called, and why it was dropped.
     std::function<void(const std::string& name, const std::string& why)> onDropped;
@@ -41,8 +42,8 @@ public:
     SharedRender(PassWorkers& workers, SharedStart start, const StopRule& stop, SharedHooks hooks,
                  const std::atomic<bool>& interrupted);
 
-    /// Until the stop rule, or `interrupted`, ends it: passes that were begun are ended, as are those of workers that fail. Where
-    /// all workers fail, what there is until then.
+    /// Until the stop rule, or `interrupted`, ends it: passes that were begun are ended, as are those of workers that
+    /// fail. Where all workers fail, what there is until then.
     RenderOutcome run();
     const std::vector<WorkerRecord>& workers() const { return records_; }
     const PassSums& sums() const { return sums_; }

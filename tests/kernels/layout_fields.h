@@ -1,5 +1,5 @@
-/* Every struct and field that host and device share; tests/layout_test.cpp says which are missing here. Those of kernels/shared_types.h
- * are below, of the other headers in the files that follow. */
+/* Every struct and field that host and device share; tests/layout_test.cpp says which are missing here. Those of
+ * kernels/shared_types.h are below, of the other headers in the files that follow. */
 STRUCT(Packed3)
 FIELD(Packed3, x)
 FIELD(Packed3, y)
