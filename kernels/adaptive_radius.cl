@@ -2,8 +2,8 @@
  * From: that film. To: radii of the passes to come.
  *
  * The bias of a pixel at radius r is c r^2, its variance v / r^2 a pass. Both are known from the estimate of bias
- * (docs/method/accuracy.md): its mean is c r^2, and its variance BIAS_VARIANCE times that of the density estimate. The mean
- * square error of many passes is least where r^6 = v / (2 c^2) * noiseToCurvature (docs/method/radius.md). */
+ * (docs/method/accuracy.md): its mean is c r^2, and its variance BIAS_VARIANCE times that of the density estimate. The
+ * mean square error of many passes is least where r^6 = v / (2 c^2) * noiseToCurvature (docs/method/radius.md). */
 #include "adaptive_radius.clh"
 #include "film.clh"
 
@@ -13,10 +13,12 @@
 #define RADIUS_WINDOW 2
 /* A squared curvature below this share of its noise is taken to be as large. */
 #define CURVATURE_FLOOR 0.1f
-/* Squared bias counts this many times while the coarse camera's disc is the largest: of features narrower than it c r^2 says too little. */
+/* Squared bias counts this many times while the coarse camera's disc is the largest: of features narrower than it c r^2
+ * says too little. */
 #define BIAS_CARE 3.0f
 #define RADIUS_SCALE_MIN 0.1f
-/* The coarse camera's disc is made as small as its measures certainly ask for, but not for less than a quarter of it. */
+/* The coarse camera's disc is made as small as its measures certainly ask for, but not for less than a quarter of
+ * it. */
 #define NARROWING_HYSTERESIS 0.75f
 
 /* Of the coarse film, which has everything. */
@@ -59,8 +61,8 @@ inline float bestRadius(float curvature, float variance, const RadiusParams* par
     return sixth > 0 && isfinite(sixth) ? exp2(log2(sixth) / 6) : 0;
 }
 
-/* Of a squared mean over the square of its standard error, less 1: what one in a hundred exceeds by chance (Student's t), with the noise from so
- * many passes in some four parts of the window whose discs do not overlap. */
+/* Of a squared mean over the square of its standard error, less 1: what one in a hundred exceeds by chance (Student's
+ * t), with the noise from so many passes in some four parts of the window whose discs do not overlap. */
 inline float excessByChance(float passes) { return 5 + 8 / ((passes - 1) * (passes - 1)); }
 
 /* The coarse camera goes on with radius `scale`, and forgets the bias that it has measured. */

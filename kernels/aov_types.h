@@ -1,4 +1,5 @@
-/* Floats of a pixel in the buffer of kernels/aovs.cl (AOV_…_FLOATS of them), shared by host and device like shared_types.h. */
+/* Floats of a pixel in the buffer of kernels/aovs.cl (AOV_…_FLOATS of them), shared by host and device like
+ * shared_types.h. */
 #ifndef QUASILUX_AOV_TYPES_H
 #define QUASILUX_AOV_TYPES_H
 

@@ -1,12 +1,12 @@
-/* What the rays of a pixel meet first, as integrator 'aov' of Mitsuba shows it: distances, places, normals, reflectance. Means over
- * samples, seen through the same filter as the image; where a ray meets nothing, it adds nothing.
- * From: camera rays. To: AOV_FLOATS for each pixel. Option: HAS_UV_LAYERS. */
+/* What the rays of a pixel meet first, as integrator 'aov' of Mitsuba shows it: distances, places, normals,
+ * reflectance. Means over samples, seen through the same filter as the image; where a ray meets nothing, it adds
+ * nothing. From: camera rays. To: AOV_FLOATS for each pixel. Option: HAS_UV_LAYERS. */
 #include "aov_types.h"
 #include "camera.clh"
 #include "tinted_lobe.clh"
 
-/* The share of diffuse light that a surface reflects. As in Mitsuba, lobes that are not diffuse count by pi f for light that leaves along
- * the normal, which may be above 1. */
+/* The share of diffuse light that a surface reflects. As in Mitsuba, lobes that are not diffuse count by pi f for light
+ * that leaves along the normal, which may be above 1. */
 inline float3 diffuseReflectance(const Surface* s, __global const Lobe* lobes, float3 wo) {
     float3 sum = 0;
     for (uint k = 0; k < s->lobeCount; ++k) {
@@ -31,7 +31,8 @@ inline void addTriple(float* sums, float3 value) { vstore3(vload3(0, sums) + val
 #ifdef HAS_UV_LAYERS
 inline void addPair(float* sums, float2 value) { vstore2(vload2(0, sums) + value, 0, sums); }
 
-/* Change of the texture coordinates from where the surface was met to where the ray `beside` meets its tangent plane. */
+/* Change of the texture coordinates from where the surface was met to where the ray `beside` meets its tangent
+ * plane. */
 inline float2 uvStep(const Surface* s, const Ray* beside) {
     const float distance = dot(s->position - beside->origin, s->geometricNormal);
     const float3 step =

@@ -1,6 +1,6 @@
-/* A piece of the film for somebody who looks at it while it renders: each pixel of the cut has the sums of a block of the film's pixels, the
- * mean of some of them. Each pixel that is read costs a cache line, so that large films are looked at in fewer.
- * From: film, of which this is a part. To: the cut, to which every part of the film is added. */
+/* A piece of the film for somebody who looks at it while it renders: each pixel of the cut has the sums of a block of
+ * the film's pixels, the mean of some of them. Each pixel that is read costs a cache line, so that large films are
+ * looked at in fewer. From: film, of which this is a part. To: the cut, to which every part of the film is added. */
 #include "pass_types.h"
 
 /* The film's pixel (x, y) adds `weight` times its floats, if it is in this part. */

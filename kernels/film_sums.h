@@ -1,6 +1,7 @@
-/* Where the sums of a pixel lie in the film, in floats; shared by host and device. Those of the whole image come first: the sum over passes,
- * the sum of the batches' squares, both compensated, and the sum of the batch that is open. By `layout`, the same of the bias of the
- * whole image, plain; of components; and of the bias of each class of light, plain. */
+/* Where the sums of a pixel lie in the film, in floats; shared by host and device. Those of the whole image come first:
+ * the sum over passes, the sum of the batches' squares, both compensated, and the sum of the batch that is open. By
+ * `layout`, the same of the bias of the whole image, plain; of components; and of the bias of each class of light,
+ * plain. */
 #ifndef QUASILUX_FILM_SUMS_H
 #define QUASILUX_FILM_SUMS_H
 

@@ -1,6 +1,6 @@
-/* Marks the photons that the camera paths of a pass gather: what share of the map serves the image (docs/method/learning.md). A program of its
- * own, with MARKS_GATHERED, which a render runs once, after its passes, if it is asked to.
- * From: camera rays, photon map. To: a bit for each photon. */
+/* Marks the photons that the camera paths of a pass gather: what share of the map serves the image
+ * (docs/method/learning.md). A program of its own, with MARKS_GATHERED, which a render runs once, after its passes, if
+ * it is asked to. From: camera rays, photon map. To: a bit for each photon. */
 #include "camera_paths.cl"
 
 __kernel void markGathered(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,

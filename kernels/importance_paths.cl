@@ -1,8 +1,9 @@
 /* Learning, step 1: paths from the camera to the emitters, which show where photons should begin and where they matter.
  * From: the camera. To: one ImportancePath each.
  *
- * An importance path scatters with all lobes and is never cut short by the map. From the vertex on where the camera would gather diffuse
- * photons, it is a photon's path backwards: what it finds at an emitter is emission that serves the image. */
+ * An importance path scatters with all lobes and is never cut short by the map. From the vertex on where the camera
+ * would gather diffuse photons, it is a photon's path backwards: what it finds at an emitter is emission that serves
+ * the image. */
 #include "camera.clh"
 #include "camera_surface.clh"
 #include "importance.clh"
@@ -35,7 +36,8 @@ typedef struct {
 
 inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
 
-/* Keeps one of the records that a path finds, in proportion to their weights, with the sum of all; 0 where it keeps the one before. */
+/* Keeps one of the records that a path finds, in proportion to their weights, with the sum of all; 0 where it keeps the
+ * one before. */
 inline int keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float inverseDensity,
                       float3 position, float3 direction, Rng* rng) {
     if (!(weight > 0) || !isfinite(weight)) return 0;
@@ -53,8 +55,8 @@ inline int keepRecord(EmissionRecord* kept, float weight, uint emitter, uint ele
     return 1;
 }
 
-/* Light from an emitter, chosen with this probability, at the end of a segment along `direction`, where `weight` of it comes to the
- * image; direct light: of this, photons might bring `gatheredShare`. */
+/* Light from an emitter, chosen with this probability, at the end of a segment along `direction`, where `weight` of it
+ * comes to the image; direct light: of this, photons might bring `gatheredShare`. */
 inline void foundEmission(ImportancePath* path, const ImportanceState* state, int isDirect, float weight,
                           float gatheredShare, float probability, uint emitter, uint element, float3 position,
                           float3 direction, Rng* rng) {
@@ -124,7 +126,8 @@ inline ImportanceLight sampleImportanceLight(const World* world, float3 position
     return s;
 }
 
-/* Notes what the sample brings to `position` along the ray `shadow`, where photons might bring `wanted` and cannot bring `other`. */
+/* Notes what the sample brings to `position` along the ray `shadow`, where photons might bring `wanted` and cannot
+ * bring `other`. */
 inline void foundBySample(const World* world, ImportancePath* path, ImportanceState* state, const ImportanceLight* s,
                           float3 position, float positionError, Ray shadow, float3 wanted, float3 other) {
     if (!any(wanted + other > 0)) return;

@@ -1,6 +1,6 @@
 /* Learning, steps 2 and 3: what becomes of what importance paths found.
- * From: importance paths (importance_paths.cl) and the photons of learning. To: the numbers by which sources emit such rays, and the cells of the
- * importance grid where paths were. */
+ * From: importance paths (importance_paths.cl) and the photons of learning. To: the numbers by which sources emit such
+ * rays, and the cells of the importance grid where paths were. */
 #include "guide.clh"
 #include "importance.clh"
 
@@ -46,8 +46,8 @@ __kernel void invertEmission(__global const uint* tables, __global const Emissio
     points[index] = point;
 }
 
-/* The keys of the importance grid's cells that each vertex lies in, fine and coarse, and the fine one's size; and of the
- * cell where each path gathers. */
+/* The keys of the importance grid's cells that each vertex lies in, fine and coarse, and the fine one's size; and of
+ * the cell where each path gathers. */
 __kernel void findImportanceCells(__global const ImportancePath* paths, __global uint* keys, __global float* sizes,
                                   __global uint* seenKeys, const ImportanceGrid grid, const uint count) {
     const uint index = get_global_id(0);

@@ -1,5 +1,5 @@
-/* What is learned about a scene before pass 0 (docs/method/learning.md), shared by host and device like shared_types.h. All tables lie
- * behind the scene's own in one buffer; offsets are in words. */
+/* What is learned about a scene before pass 0 (docs/method/learning.md), shared by host and device like shared_types.h.
+ * All tables lie behind the scene's own in one buffer; offsets are in words. */
 #ifndef QUASILUX_LEARNED_TYPES_H
 #define QUASILUX_LEARNED_TYPES_H
 
@@ -14,10 +14,10 @@ namespace quasilux::shared {
 /* Numbers that make a photon: which part of the emitter, two for the place, two for the direction. */
 #define EMISSION_DIMENSIONS 5
 
-/* Coordinates of an emitter's rays. Those which come through an opening (a rectangle) may have coordinates of their own: place =
- * centre + a axisU + b axisV, |a| < halfU, |b| < halfV, instead of the place on an emitter that shines from outside, or instead of
- * the direction of one in the scene. halfU = 0: the emitter's own coordinates. A ray belongs to the first of its emitter's sources
- * that holds it. */
+/* Coordinates of an emitter's rays. Those which come through an opening (a rectangle) may have coordinates of their
+ * own: place = centre + a axisU + b axisV, |a| < halfU, |b| < halfV, instead of the place on an emitter that shines
+ * from outside, or instead of the direction of one in the scene. halfU = 0: the emitter's own coordinates. A ray
+ * belongs to the first of its emitter's sources that holds it. */
 typedef struct {
     unsigned int emitter;
     unsigned int first;           /* source of the emitter */
@@ -26,15 +26,16 @@ typedef struct {
     unsigned int faces; /* 1: a square that faces each place its rays begin at; axes are left out */
 } GuideSource;
 
-/* Openings at which scattered photons are aimed together, all of them or those of one set (kernels/aim.clh). Those of a set follow
- * each other. */
+/* Openings at which scattered photons are aimed together, all of them or those of one set (kernels/aim.clh). Those of a
+ * set follow each other. */
 typedef struct {
     GuideSource opening;
     float share;        /* of the set's photons; those of a set sum to 1 */
     unsigned int count; /* of the set, where it is its first */
 } AimSource;
 
-/* A box of emission numbers in which photons are uniform. The leaves of all sources together hold each ray exactly once. */
+/* A box of emission numbers in which photons are uniform. The leaves of all sources together hold each ray exactly
+ * once. */
 typedef struct {
     float cdf; /* probability of the leaves up to and including this one; last = 1 */
     unsigned int source;
@@ -56,8 +57,8 @@ typedef struct {
 typedef struct {
     EmissionRecord emission;
     float flux; /* that it began with, W, mean of R, G, B, times the photons of the round */
-    float
-        squares; /* of what it brings to the image wherever it is stored, summed: in proportion to its part of the noise */
+    /* Of what it brings to the image wherever it is stored, summed: in proportion to its part of the noise */
+    float squares;
     float events; /* of its path: in proportion to the time that it takes */
 } PhotonRecord;
 
@@ -69,14 +70,15 @@ typedef struct {
 
 /* ---- where photons matter (kernels/importance.clh) ---- */
 
-/* Of a cell: its key (0: empty); what a unit of flux that arrives there brings to the image by being gathered there, and what it
- * brings in all; and where light that is scattered there matters, as (1 + number of a set's first opening) << 16 | probability *
- * 65535 of aiming at it. */
+/* Of a cell: its key (0: empty); what a unit of flux that arrives there brings to the image by being gathered there,
+ * and what it brings in all; and where light that is scattered there matters, as (1 + number of a set's first opening)
+ * << 16 | probability * 65535 of aiming at it. */
 #define IMPORTANCE_WORDS 4
 /* Instead of an aim: too few importance paths came to know where scattered light matters; the coarse cell does. */
 #define IMPORTANCE_UNKNOWN 0xffffffffu
 #define IMPORTANCE_COARSE 8.0f /* size of a coarse cell to that of a fine one */
-/* The same of the cells that hold where importance paths gathered at all: wide enough for discs that reach in from beside. */
+/* The same of the cells that hold where importance paths gathered at all: wide enough for discs that reach in from
+ * beside. */
 #define SEEN_COARSE 4.0f
 
 /* Distances from the eye, by powers of two: nearer ones belong to the first, farther ones to the last. */
@@ -113,8 +115,8 @@ typedef struct {
 
 /* ---- which emitters direct light is sampled from (kernels/light_choice.clh) ---- */
 
-/* Of a block of pixels, LIGHT_CHOICES of them. The first one stands for all emitters, as if nothing were learned; its `first` is the
- * number of those that follow. No emitter is in two of these. */
+/* Of a block of pixels, LIGHT_CHOICES of them. The first one stands for all emitters, as if nothing were learned; its
+ * `first` is the number of those that follow. No emitter is in two of these. */
 #define LIGHT_CHOICES 64
 typedef struct {
     unsigned int first, count; /* emitters */

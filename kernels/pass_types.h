@@ -34,12 +34,13 @@ typedef struct {
     unsigned int directSharing;   /* DIRECT_SHARING_* */
     unsigned int emittersSampled; /* by genuine diffuse lobes, for direct light: all but those with directByPhotons */
     unsigned int borderLeaves, borderNodes, borderNodeCount;
-    unsigned int
-        patchNodes; /* by patch: the node that holds the segments whose patchA it is; QL_NONE: there are none */
+    /* By patch: the node that holds the segments whose patchA it is; QL_NONE: there are none */
+    unsigned int patchNodes;
     unsigned int patchRadius; /* float per patch: largest density radius that its curvature allows */
     unsigned int patchCount;  /* of those; what follows are patches of instances */
-    unsigned int instances, instanceCount, instanceRoot; /* place of the first, steps from one to the next as they are
-                                                            long; child reference of the tree over them, QL_NONE: none */
+    /* Place of the first, steps from one to the next as they are long; child reference of the tree over them, QL_NONE:
+     * none */
+    unsigned int instances, instanceCount, instanceRoot;
     Meter meter;
     Learned learned;
 } SceneTables;
@@ -59,11 +60,11 @@ typedef struct {
 #define ENERGY_LOST 4u
 #define ENERGY_GAINED 5u
 
-/* One work-item traces the paths of one region and stores into blocks of PHOTON_BLOCK photons, which it takes one after the
- * other (kernels/photon_store.clh). */
+/* One work-item traces the paths of one region and stores into blocks of PHOTON_BLOCK photons, which it takes one after
+ * the other (kernels/photon_store.clh). */
 #define PHOTON_BLOCK 16u
-/* Words of a sorted photon, one more where the scene limits the path's depth; of a sorted camera point; and floats of a camera path's sample that
- * waits for its splats (photon_grid.clh, camera_paths.cl). */
+/* Words of a sorted photon, one more where the scene limits the path's depth; of a sorted camera point; and floats of a
+ * camera path's sample that waits for its splats (photon_grid.clh, camera_point_paths.cl). */
 #define PHOTON_FIELDS_WITHOUT_DEPTH 6
 #define POINT_FIELDS 5
 #define CAMERA_SAMPLE_FLOATS 6
@@ -105,7 +106,8 @@ typedef struct {
 #define ESTIMATE_BIAS 0
 #endif
 
-/* Factor on density radii by distance from the eye (kernels/radius_field.clh): factor[k] at nearest * 2^k, linear between. */
+/* Factor on density radii by distance from the eye (kernels/radius_field.clh): factor[k] at nearest * 2^k, linear
+ * between. */
 typedef struct {
     unsigned int octaves; /* 0: radii are the same everywhere */
     Packed3 eye;
@@ -128,7 +130,8 @@ typedef struct {
     float biasWeight;             /* of this pass in the estimate of bias; 0: it is not estimated in this pass */
 } MapParams;
 
-/* A digit of the cells by which records are sorted, lowest first, and the layout of its counts (kernels/cell_sort.clh). */
+/* A digit of the cells by which records are sorted, lowest first, and the layout of its counts
+ * (kernels/cell_sort.clh). */
 typedef struct {
     unsigned int shift, mask, bins;  /* the bin of a cell: cell >> shift & mask */
     unsigned int chunks;             /* each counts and places a run of the records, in order */
@@ -144,13 +147,13 @@ typedef struct {
     unsigned int bdd;
     unsigned int maxDepth;
     unsigned int pathBlock; /* pixels of a row and column that have equally many camera paths in a pass */
-    unsigned int
-        gatheringPaths; /* so many of these gather photons, each for all; 0 where only the time of the others is asked for */
+    /* So many of these gather photons, each for all; 0 where only the time of the others is asked for */
+    unsigned int gatheringPaths;
     unsigned int directSamples;   /* of emitters, where a path takes direct light first */
     unsigned int causticsByPaths; /* paths find caustic light, not photons (takeRadiance) */
     unsigned int radiusBlock;     /* pixels of a row and column that share a density radius */
-    unsigned int
-        coarseness; /* pixels of a row and column of the image that one of this camera stands for: 1, but of coarse cameras */
+    /* Pixels of a row and column of the image that one of this camera stands for: 1, but of coarse cameras */
+    unsigned int coarseness;
     float spread; /* of places in a pixel about its centre: 1; 1 / coarseness: within a single pixel of the image */
     unsigned int
         countsEvents;  /* 1: what a path brings is not light but how many rays it follows, in the first component */
@@ -164,8 +167,8 @@ typedef struct {
     SceneTables scene;
 } CameraParams;
 
-/* Samples that pixels share (shared_samples.clh): pixels to either side whose samples a filter may reach, and samples that their grid has
- * beyond each edge of the image. */
+/* Samples that pixels share (shared_samples.clh): pixels to either side whose samples a filter may reach, and samples
+ * that their grid has beyond each edge of the image. */
 #define FILTER_TAPS(camera) (((camera)->filterReach + FILTER_CELLS / 2 - 1) / FILTER_CELLS)
 #define SAMPLE_BORDER(camera) ((camera)->filterEnds ? 0 : FILTER_TAPS(camera))
 
@@ -173,8 +176,8 @@ typedef struct {
 
 /* What coarse passes measure of one class of light in a pixel, relative to the radiance there. */
 typedef struct {
-    float
-        curvature; /* squared: the bias at radius r, in units of MapParams::radius of the first pass, is r^2 times its root */
+    /* Squared: the bias at radius r, in units of MapParams::radius of the first pass, is r^2 times its root */
+    float curvature;
     float curvatureNoise; /* of its estimate */
     float variance;       /* of a pass of radius 1, from photons */
     float passes;         /* of the coarse camera with the radius that it has now */
@@ -186,8 +189,8 @@ typedef struct {
     unsigned int width, height; /* of the coarse camera */
     unsigned int passes;        /* of it */
     unsigned int newPasses;     /* since radii were last chosen */
-    float
-        squaredShrinks; /* sum over these of the squared radius for scale 1, in units of MapParams::radius of the first pass */
+    /* Sum over these of the squared radius for scale 1, in units of MapParams::radius of the first pass */
+    float squaredShrinks;
     float inverseShrinks;   /* of its inverse */
     float noiseToCurvature; /* variance / (2 curvature) of a pass times this is the best radius to the sixth power */
     float largest;          /* radius, in units of MapParams::radius */
@@ -206,10 +209,10 @@ typedef struct {
     unsigned int pixel;
     unsigned int scatterer; /* surface: POINT_LAMBERT, or lobe index << 1 | 1 where it transmits; medium: SCATTER_* */
     unsigned int wo;        /* towards the camera path, octahedral */
-    unsigned int
-        normal; /* octahedral: of a surface the shading normal, in a medium where weights of the kernel rise, in kernel space */
-    unsigned int
-        border; /* of a surface the index of its PointBorder, or QL_NONE; in a medium that slope, a float's bits */
+    /* Octahedral: of a surface the shading normal, in a medium where weights of the kernel rise, in kernel space */
+    unsigned int normal;
+    /* Of a surface the index of its PointBorder, or QL_NONE; in a medium that slope, a float's bits */
+    unsigned int border;
 } CameraPoint;
 #define POINT_LAMBERT QL_NONE
 

@@ -1,4 +1,5 @@
-/* Stage 2 of a pass: index the photons by class and cell, in the arrays that they were traced into (photon_store.clh). */
+/* Stage 2 of a pass: index the photons by class and cell, in the arrays that they were traced into
+ * (photon_store.clh). */
 #include "cell_sort.clh"
 #include "photon_store.clh"
 

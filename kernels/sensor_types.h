@@ -14,7 +14,8 @@ namespace quasilux::shared {
 #define FILTER_TABLE 1u /* any other: FilterStep records */
 #define FILTER_CELLS 64 /* of the table, in a pixel */
 
-/* Sums of a filter f along one axis up to the lower end of a cell, in units of the integral of |f| (kernels/filter_table.clh). */
+/* Sums of a filter f along one axis up to the lower end of a cell, in units of the integral of |f|
+ * (kernels/filter_table.clh). */
 typedef struct {
     float magnitude; /* of |f| */
     float value;     /* of f */
@@ -28,9 +29,9 @@ typedef struct {
 
 typedef struct {
     Packed3 origin; /* orthographic: centre of the near plane */
-    Packed3
-        corner; /* direction to the upper left corner of the image, at depth 1; orthographic: offset to it; fisheye: place of it
-                           * about the middle, in half widths, on the axes to the right and up */
+    /* Direction to the upper left corner of the image, at depth 1; orthographic: offset to it; fisheye: place of it
+     * about the middle, in half widths, on the axes to the right and up. */
+    Packed3 corner;
     Packed3 stepX, stepY;    /* direction per pixel, to the right and down; orthographic, fisheye: offset */
     Packed3 forward;         /* unit */
     float nearClip, farClip; /* depths along `forward`; fisheye: distances */
@@ -54,7 +55,8 @@ typedef struct {
 #define METER_TRIANGLE 1u
 #define METER_SPHERE 2u
 
-/* A piece of what a meter measures on. Its front is the side of sign * cross(e1, e2), of a sphere the outside if sign > 0. */
+/* A piece of what a meter measures on. Its front is the side of sign * cross(e1, e2), of a sphere the outside if sign >
+ * 0. */
 typedef struct {
     unsigned int type;  /* METER_* */
     Packed3 p0;         /* corner; sphere: centre */
@@ -73,8 +75,8 @@ typedef struct {
     unsigned int firstPixel, columns, rows;
     unsigned int quantity; /* GRID_* */
     unsigned int medium;   /* in which it lies: index or MEDIUM_NONE */
-    float
-        height; /* GRID_CYLINDRICAL: of the cells in which photons are counted, half of it on each side of the plane */
+    /* GRID_CYLINDRICAL: of the cells in which photons are counted, half of it on each side of the plane */
+    float height;
     float inverseExtent; /* 1 / area of a cell; GRID_CYLINDRICAL: 1 / its volume */
 } MeterGrid;
 
@@ -85,8 +87,8 @@ typedef struct {
 
 typedef struct {
     unsigned int kind; /* METER_NONE ... METER_GRID */
-    unsigned int primitives,
-        primitiveCount; /* MeterPrimitive records, of METER_GRID MeterGrid records: word offset into the scene tables, number */
+    /* MeterPrimitive records, of METER_GRID MeterGrid records: word offset into the scene tables, number */
+    unsigned int primitives, primitiveCount;
     unsigned int width, height; /* pixels */
     unsigned int samples;       /* paths of a pixel in each pass, a power of two */
     unsigned int lobe;          /* a white Lambert lobe */

@@ -48,8 +48,8 @@ typedef struct {
     unsigned int primitive[8]; /* index | PRIMITIVE_*_BIT */
 } PrimitiveBlock;
 
-/* Shapes that lie in the scene many times, and one of those times. Both follow the blocks; their places count in words from the first block on,
- * in steps of INSTANCE_STEP. */
+/* Shapes that lie in the scene many times, and one of those times. Both follow the blocks; their places count in words
+ * from the first block on, in steps of INSTANCE_STEP. */
 #define INSTANCE_STEP 8
 typedef struct {
     unsigned int root;                                       /* node of the group's own tree, in its own space */
@@ -68,8 +68,9 @@ typedef struct {
 /* What a primitive belongs to; indexed by primitive index. */
 typedef struct {
     unsigned int shape; /* index into Shape records */
-    unsigned int
-        patch; /* smooth surface component: primitives joined across edges flatter than the crease angle; of a ShapeGroup counted in it */
+    /* Smooth surface component: primitives joined across edges flatter than the crease angle; of a ShapeGroup counted
+     * in it */
+    unsigned int patch;
 } PrimitiveInfo;
 
 typedef struct {
@@ -87,8 +88,8 @@ typedef struct {
 /* Segments that kernels take together. */
 #define BORDER_LANES 8
 
-/* Border segments (host/prepare/borders.h) of a leaf of the tree over them: ends, and patches that they bound. Places that are left over
- * have no length. */
+/* Border segments (host/prepare/borders.h) of a leaf of the tree over them: ends, and patches that they bound. Places
+ * that are left over have no length. */
 typedef struct {
     float ax[BORDER_LANES], ay[BORDER_LANES], az[BORDER_LANES];
     float bx[BORDER_LANES], by[BORDER_LANES], bz[BORDER_LANES];
@@ -113,7 +114,8 @@ typedef struct {
 #define SCATTER_QUASI_SPECULAR 2u
 #define SCATTER_SPECULAR 4u /* delta */
 
-/* One lobe of a BSDF. Which fields mean what is said in kernels/bsdf/lobes/<lobe>.clh; `type` is LOBE_* of kernels/bsdf/lobe_list.h. */
+/* One lobe of a BSDF. Which fields mean what is said in kernels/bsdf/lobes/<lobe>.clh; `type` is LOBE_* of
+ * kernels/bsdf/lobe_list.h. */
 typedef struct {
     unsigned int type;
     unsigned int scattering; /* SCATTER_* */
@@ -128,7 +130,8 @@ typedef struct {
     unsigned int firstWeight, weightCount;                 /* LobeWeight records, which multiply all of it */
 } Lobe;
 
-/* A factor on a lobe by texture, such as its share in a blend or under a mask: a function of x = offset + factor times the texture. */
+/* A factor on a lobe by texture, such as its share in a blend or under a mask: a function of x = offset + factor times
+ * the texture. */
 #define WEIGHT_VALUE 0u      /* x */
 #define WEIGHT_RECIPROCAL 1u /* 1 / x */
 #define WEIGHT_ROOT 2u       /* its root */
@@ -153,9 +156,9 @@ typedef struct {
     unsigned int frontRoughness, backRoughness; /* 1 + index of the RoughnessLevels of the side's lobes; 0: none */
 } Material;
 
-/* Microfacet roughness, and other numbers that lobes are not linear in, by up to three textures. The lobes of the side are there once for each
- * combination of levels (those of the last texture follow each other); of levels that lie evenly in the fourth root of x = offset +
- * factor times the texture, the nearest one is taken. */
+/* Microfacet roughness, and other numbers that lobes are not linear in, by up to three textures. The lobes of the side
+ * are there once for each combination of levels (those of the last texture follow each other); of levels that lie
+ * evenly in the fourth root of x = offset + factor times the texture, the nearest one is taken. */
 #define ROUGHNESS_TEXTURES 3
 typedef struct {
     unsigned int texture[3]; /* 1 + index of a Texture whose channels are equal; 0: none, one level */
@@ -189,8 +192,9 @@ typedef struct {
 #define MEDIUM_NONE QL_NONE          /* vacuum */
 #define MEDIUM_UNCHANGED 0xfffffffeu /* of a surface that bounds no medium: a path that passes it stays where it is */
 
-/* A medium, homogeneous unless it has a grid of extinction. The phase function p is split by a level (sr^-1): genuine diffuse = min(p, level), quasi-specular
- * = the peak above it. Level 0: all of it is quasi-specular; infinity: all of it genuine diffuse (standard method). */
+/* A medium, homogeneous unless it has a grid of extinction. The phase function p is split by a level (sr^-1): genuine
+ * diffuse = min(p, level), quasi-specular = the peak above it. Level 0: all of it is quasi-specular; infinity: all of
+ * it genuine diffuse (standard method). */
 typedef struct {
     unsigned int phase;                /* PHASE_* */
     float g;                           /* mean cosine of the scattering angle; > 0 forwards */
@@ -239,8 +243,8 @@ typedef struct {
 } VolumeGrid;
 
 /* Known mistakes, switched on by tests as negative controls: 1 flux at collisions is not divided by the extinction, 2
- * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken, 4 flux in a
- * heterogeneous medium is divided by the mean of its extinction. */
+ * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken, 4
+ * flux in a heterogeneous medium is divided by the mean of its extinction. */
 #ifndef MEDIUM_RULE
 #define MEDIUM_RULE 0
 #endif
@@ -266,8 +270,9 @@ typedef struct {
     unsigned int texture0, texture1;
     unsigned int filter, wrap;  /* bitmap */
     unsigned int width, height; /* bitmap, pixels */
-    /* Bitmap: rows from v = 0 on, each from u = 0 on. Attribute: word in the table of attributes, where by shape it is said
-     * in which word of that table its colours begin, one a face or one a corner. Volume: word of its VolumeGrid there. */
+    /* Bitmap: rows from v = 0 on, each from u = 0 on. Attribute: word in the table of attributes, where by shape it is
+     * said in which word of that table its colours begin, one a face or one a corner. Volume: word of its VolumeGrid
+     * there. */
     unsigned int firstTexel;
 } Texture;
 
@@ -278,24 +283,24 @@ typedef struct {
 #define EMITTER_SPHERE 2u      /* origin, radius; emits outwards (inwards if normalSign < 0); sampled by solid angle */
 #define EMITTER_POINT 3u       /* origin; radiance field holds the intensity in W sr^-1 */
 #define EMITTER_DIRECTIONAL 4u /* parallel light; radiance field holds its irradiance; the rest as EMITTER_CONSTANT */
-/* The same radiance from everywhere outside; origin, radius: sphere about the scene; area: of its great disc. At most one,
- * the last of the table. */
+/* The same radiance from everywhere outside; origin, radius: sphere about the scene; area: of its great disc. At most
+ * one, the last of the table. */
 #define EMITTER_CONSTANT 5u
-/* As EMITTER_CONSTANT, but for the radiance, which is that of an EnvironmentMap; radiance: its mean over the sphere; edgeU, edgeV,
- * normal: the map's own x, y, z in the world, unit. At most one of both. */
+/* As EMITTER_CONSTANT, but for the radiance, which is that of an EnvironmentMap; radiance: its mean over the sphere;
+ * edgeU, edgeV, normal: the map's own x, y, z in the world, unit. At most one of both. */
 #define EMITTER_ENVMAP 6u
-/* As EMITTER_POINT, but for the intensity, which falls off with the angle to `normal`. Its texture is looked up at 1/2 +
- * (d . edgeU, d . edgeV) / (d . normal) in the direction d. */
+/* As EMITTER_POINT, but for the intensity, which falls off with the angle to `normal`. Its texture is looked up at 1/2
+ * + (d . edgeU, d . edgeV) / (d . normal) in the direction d. */
 #define EMITTER_SPOT 7u
-/* As EMITTER_POINT, but for the intensity: radiance over cos^3 of the angle to `normal`, times the texture, which is looked up as
- * that of EMITTER_SPOT; none outside of its unit square. `area`: of the square, at depth 1. */
+/* As EMITTER_POINT, but for the intensity: radiance over cos^3 of the angle to `normal`, times the texture, which is
+ * looked up as that of EMITTER_SPOT; none outside of its unit square. `area`: of the square, at depth 1. */
 #define EMITTER_PROJECTOR 8u
-/* As EMITTER_TRIANGLES, but along the normals of the triangles only; radiance field holds the irradiance across the beam; normal: that of all
- * triangles, unit, or 0 where they differ. */
+/* As EMITTER_TRIANGLES, but along the normals of the triangles only; radiance field holds the irradiance across the
+ * beam; normal: that of all triangles, unit, or 0 where they differ. */
 #define EMITTER_DIRECTIONALAREA 9u
-/* Intensity of a GoniogramTable times radiance, from its luminous shape about origin; edgeU, edgeV, normal: x, y, z of the table in the world,
- * unit; radius: of a sphere about the shape. At an angle a from `normal` its intensity is at most that of a surface which looks
- * cutoffAngle nearer to it: cos(a - cutoffAngle) of the largest one. */
+/* Intensity of a GoniogramTable times radiance, from its luminous shape about origin; edgeU, edgeV, normal: x, y, z of
+ * the table in the world, unit; radius: of a sphere about the shape. At an angle a from `normal` its intensity is at
+ * most that of a surface which looks cutoffAngle nearer to it: cos(a - cutoffAngle) of the largest one. */
 #define EMITTER_GONIOGRAM 10u
 
 typedef struct {
@@ -328,8 +333,8 @@ typedef struct {
 typedef struct {
     unsigned int width, height; /* pixels, at least 1 x 2 */
     unsigned int texels;        /* Rgb, row by row from its own +y on */
-    /* Floats, sums of probabilities: of the height - 1 rows of cells; in each of them of its width cells; of those every
-     * ENVMAP_BLOCK-th and the last one. */
+    /* Floats, sums of probabilities: of the height - 1 rows of cells; in each of them of its width cells; of those
+     * every ENVMAP_BLOCK-th and the last one. */
     unsigned int rows, columns, blocks;
 } EnvironmentMap;
 
@@ -341,7 +346,8 @@ typedef struct {
 #define LUMINOUS_ROD_Z 4u
 #define LUMINOUS_ELLIPSOID 5u /* its surface */
 
-/* Intensities by direction (kernels/emitters/goniogram.clh). The words of its tables follow, and are counted from here on. */
+/* Intensities by direction (kernels/emitters/goniogram.clh). The words of its tables follow, and are counted from here
+ * on. */
 typedef struct {
     unsigned int rows, columns;    /* angles from the pole and about it, at least 2 each */
     unsigned int polars, azimuths; /* floats: these angles, radians, from 0 to pi and to 2 pi; equal ones are a jump */
@@ -353,8 +359,8 @@ typedef struct {
     Packed3 halfSize;   /* of the shape, scene units */
 } GoniogramTable;
 
-/* Of a tree over emitters (kernels/light_tree.clh), which lie in its order: of a node of n of them the first child has the first n / 2
- * and follows it, the second one comes 2 (n / 2) nodes after it. */
+/* Of a tree over emitters (kernels/light_tree.clh), which lie in its order: of a node of n of them the first child has
+ * the first n / 2 and follows it, the second one comes 2 (n / 2) nodes after it. */
 typedef struct {
     Packed3 lower, upper;       /* box about the emitters */
     Packed3 axis;               /* of a cone that holds the normals of their emitting sides */

@@ -1,5 +1,5 @@
-/* Blocks of cells of a grid, whose largest values follow the grid's own, x fastest; shared by host and device. A row of n voxels
- * has cells -1 to n - 1, the outermost half beyond. */
+/* Blocks of cells of a grid, whose largest values follow the grid's own, x fastest; shared by host and device. A row of
+ * n voxels has cells -1 to n - 1, the outermost half beyond. */
 #ifndef QUASILUX_VOLUME_BLOCKS_H
 #define QUASILUX_VOLUME_BLOCKS_H
 

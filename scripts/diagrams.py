@@ -80,9 +80,9 @@ def draw_pass(folder):
         ("4 Film", ["sums, squares, bias", "by component"], "film.clh", INK),
     ])
     row(230, "--map camera", [
-        ("1 Camera paths", ["trace, store points", "where light is taken"], "camera_paths.cl", DIFFUSE),
+        ("1 Camera paths", ["trace, store points", "where light is taken"], "camera_point_paths.cl", DIFFUSE),
         ("2 Index", ["count, prefix sum,", "place"], "camera_point_map.cl", GREY),
-        ("3 Photons", ["trace, splat to points", "about every hit"], "photon_trace.cl", LIGHT),
+        ("3 Photons", ["trace, splat to points", "about every hit"], "photon_splat.cl", LIGHT),
         ("4 Film", ["own light + splats", "of each pixel"], "film.clh", INK),
     ])
     d.text(20, 366, "Every pass is numbered and seeded by its number. The image is the mean of all passes; their scatter is its noise.", 13, GREY)

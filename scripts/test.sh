@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Everything that must hold before a change is taken: warnings are errors, layout of the sources, static analysis, tests
-# under sanitizers, all tests. `test.sh quick`, for a change in progress, takes minutes: build (preset release), layout of the sources, all tests
-# but the slow ones, three renders whose mean is known. Ends with a line "N passed, N failed"; the exit code is 0 if none failed.
+# under sanitizers, all tests. `test.sh quick`, for a change in progress, takes minutes: build (preset release; on a fresh
+# checkout it installs what is missing and configures first), layout of the sources, all tests but the slow ones, three renders whose mean is known. Ends with a line "N passed, N failed"; the exit code is 0 if none failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -101,8 +101,12 @@ quickTests() {
 quick() {
     local targets
     mapfile -t targets < <(quickTests)
+    if [[ ! -f build/release/tests/CTestTestfile.cmake ]]; then # not configured, or without the tests' packages (demo.sh)
+        phase "setup"
+        bash scripts/setup.sh
+        cmake --preset release
+    fi
     phase "build"
-    [[ -f build/release/build.ninja ]] || cmake --preset release
     cmake --build --preset release --target quasilux "${targets[@]}"
     check "layout of the sources (clang-format)" formatIsRight
     phase "quick tests"

@@ -68,7 +68,8 @@ std::vector<float> chooseRadii(const std::vector<float>& film, double largest = 
     return choose(film, largest).scales;
 }
 
-// docs/method/radius.md: r^6 = N v / (2 * 3 c^2), with c^2 net of the noise of its estimate, and not below a tenth of it.
+// docs/method/radius.md: r^6 = N v / (2 * 3 c^2), with c^2 net of the noise of its estimate, and not below a tenth of
+// it.
 double bestRadius(const Light& light) {
     const double noise =
         3 * 1.6 * light.variance * inverseSquares / passes / passes * std::pow(passes / squaredRadii, 2);
@@ -103,8 +104,9 @@ TEST(AdaptiveRadius, IsBoundedAndNeedsLight) {
     EXPECT_FLOAT_EQ(scales[28], 1); // black: as it was
 }
 
-// The pilot's disc follows the radius that is chosen where it is sure of the bias, and what it measured with wider discs is forgotten.
-TEST(AdaptiveRadius, PilotNarrowsWhereBiasIsCertain) {
+// The coarse camera's disc follows the radius that is chosen where it is sure of the bias, and what it measured with
+// wider discs is forgotten.
+TEST(AdaptiveRadius, DiscsNarrowWhereBiasIsCertain) {
     const Light certain{0.5, 0.001}, uncertain{0.1, 0.2};
     std::vector<float> film(size_t{width} * height * layout.floatsPerPixel());
     for (unsigned pixel = 0; pixel < width * height; ++pixel)

@@ -1,5 +1,5 @@
-// Roughness and the parameters of `principled` by texture: the levels that lobes are made for, what weighs them, and images whose halves
-// are those of constants. Differences of
+// Roughness and the parameters of `principled` by texture: the levels that lobes are made for, what weighs them, and
+// images whose halves are those of constants. Differences of
 // means are held to 4 standard errors of 10 batches (Student t: 0.3 % each) plus 0.5 %. Seeds are fixed.
 #include "prepare/device_scene.h"
 #include "support/render_statistics.h"

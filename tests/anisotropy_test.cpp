@@ -1,6 +1,7 @@
-// Anisotropic roughness lies along u: a turned sheet against the formula of its lobe, by samples of the light and by photons, and light that
-// it throws on another sheet, by photons and by camera paths.
-// A right case passes within 3 standard errors of 10 batches (Student t, 1.5 % a case; seeds are fixed) plus 0.5 % for the density radius.
+// Anisotropic roughness lies along u: a turned sheet against the formula of its lobe, by samples of the light and by
+// photons, and light that it throws on another sheet, by photons and by camera paths.
+// A right case passes within 3 standard errors of 10 batches (Student t, 1.5 % a case; seeds are fixed) plus 0.5 % for
+// the density radius.
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
@@ -25,7 +26,8 @@ const std::string brushed = fmt::format(
 <float name="alpha_u" value="{}"/><float name="alpha_v" value="{}"/></bsdf>)",
     alphaU, alphaV);
 
-/// Radiance towards the viewer where u lies at this angle to x; Walter et al. 2007, eq. 20, with the distribution of Heitz 2014, eq. 85.
+/// Radiance towards the viewer where u lies at this angle to x; Walter et al. 2007, eq. 20, with the distribution of
+/// Heitz 2014, eq. 85.
 double expected(double degrees) {
     const double turn = degrees * std::numbers::pi / 180;
     const auto local = [&](dvec3 v) {

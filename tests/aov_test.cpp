@@ -102,7 +102,8 @@ std::map<std::string, std::vector<float>> uvChannelsOf(const std::string& shape,
 }
 
 TEST(Aovs, GoByTextureCoordinatesAsInMitsuba) {
-    // Row 5, column 3: means of mitsuba 3.9.1 over 1024 samples, scalar_rgb; its duv_… times 32, the root of the samples.
+    // Row 5, column 3: means of mitsuba 3.9.1 over 1024 samples, scalar_rgb; its duv_… times 32, the root of the
+    // samples.
     const char *perspective = R"(<sensor type="perspective"><float name="fov" value="40"/>)",
                *orthographic = R"(<sensor type="orthographic">)";
     const struct {

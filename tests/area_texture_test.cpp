@@ -1,5 +1,6 @@
-// Emitting shapes whose radiance is a texture: floors that they light against integrals over the shape, by emitter sampling, hits and
-// photons; what the camera sees of them; their power. Renders are held to 4 standard errors of 10 batches (Student t: 0.3 % each) plus
+// Emitting shapes whose radiance is a texture: floors that they light against integrals over the shape, by emitter
+// sampling, hits and photons; what the camera sees of them; their power. Renders are held to 4 standard errors of 10
+// batches (Student t: 0.3 % each) plus
 // 0.5 %. Seeds are fixed.
 #include "prepare/device_scene.h"
 #include "support/scene_files.h"

@@ -1,4 +1,5 @@
-// The choice of settings by pilot passes (docs/method/auto.md): prediction, and the image of the choice. The search: search_test.cpp.
+// The choice of settings by pilot passes (docs/method/auto.md): prediction, and the image of the choice. The search:
+// search_test.cpp.
 #include "auto/auto_render.h"
 #include "support/even_pilot.h"
 #include "support/render_statistics.h"
@@ -33,7 +34,8 @@ TEST(Prediction, NoiseFallsWithPassesAndBiasWithTheMeanSquaredRadius) {
     EXPECT_NEAR(predictAfter(pilot, 1).passes, 14, 1e-9);
 }
 
-// A bias that cannot be distinguished from none may be there: the candidate that knows less about it is not the better one for that.
+// A bias that cannot be distinguished from none may be there: the candidate that knows less about it is not the better
+// one for that.
 TEST(Prediction, BiasIsAtLeastWhatItsNoiseMayHide) {
     PilotMeasure pilot = evenPilot(4, 8, 0.01, 0.1);
     EXPECT_NEAR(predictAfterPasses(pilot, 4).bias, 0.01, 1e-9); // control: known well
@@ -92,7 +94,8 @@ TEST(Prediction, BiasesThatAreNotToldApartAreOne) {
     EXPECT_NEAR(apart[1], 0.25 + more * ofA, 1e-3);
 }
 
-// Of a difference of two standard errors three quarters count. Controls: all of what is known exactly; nothing below one.
+// Of a difference of two standard errors three quarters count. Controls: all of what is known exactly; nothing below
+// one.
 TEST(Prediction, BiasesCountApartAsFarAsNoiseDoesNotExplainIt) {
     const auto apart = [](double standardErrors, bool isSure) {
         const double difference = standardErrors * std::sqrt(2.0) * scatterOfSum;
@@ -108,8 +111,9 @@ TEST(Prediction, BiasesCountApartAsFarAsNoiseDoesNotExplainIt) {
     EXPECT_NEAR(apart(0.9, false), 0, 1e-9);
 }
 
-// From 8 passes of a render what 64 estimate: within 30 % of the square, 15 % of the error, since 8 passes know no better;
-// the seed is fixed. One radius for all: radii by pixel, chosen in these passes, lower the noise later (docs/method/auto.md). Negative control: were noise not divided by passes, it would be 8 times too much.
+// From 8 passes of a render what 64 estimate: within 30 % of the square, 15 % of the error, since 8 passes know no
+// better; the seed is fixed. One radius for all: radii by pixel, chosen in these passes, lower the noise later
+// (docs/method/auto.md). Negative control: were noise not divided by passes, it would be 8 times too much.
 TEST(Prediction, HoldsInARender) {
     Device device(0);
     RenderSettings settings;
@@ -128,8 +132,8 @@ TEST(Prediction, HoldsInARender) {
 
 // --- the image is that of the choice ---
 
-// Whatever pilots showed: the same bits as the chosen settings give by themselves, from pass 0 on, with the user's seed.
-// Control: another seed gives others.
+// Whatever pilots showed: the same bits as the chosen settings give by themselves, from pass 0 on, with the user's
+// seed. Control: another seed gives others.
 TEST(AutoImage, IsThatOfTheSettingsChosen) {
     Device device(0);
     const Scene scene = projectScene("furnace_split.xml", {{"resolution", "12"}});

@@ -1,5 +1,6 @@
-// Bad input to the whole program: exit code 2, a message at the file and line that says what was expected, nothing written.
-// What each message says in full is tested in scene_errors_test and mesh_errors_test; here the way from there to the user.
+// Bad input to the whole program: exit code 2, a message at the file and line that says what was expected, nothing
+// written. What each message says in full is tested in scene_errors_test and mesh_errors_test; here the way from there
+// to the user.
 #include "support/program_runner.h"
 
 #include <fstream>

@@ -1,8 +1,8 @@
-// Parallel light: irradiance by the cosine law, through clear panes with all their internal reflections, and focused by a
-// ball of glass. What comes through glass is a caustic, so meters count photons here, whatever samples direct light.
+// Parallel light: irradiance by the cosine law, through clear panes with all their internal reflections, and focused by
+// a ball of glass. What comes through glass is a caustic, so meters count photons here, whatever samples direct light.
 //
-// A reading passes within 3 of its standard errors (two-sided, 0.27 % of right readings would fail; the seed is fixed, so
-// what passes goes on passing); it must be known to 0.35 %, and light 2 % stronger must be found wrong.
+// A reading passes within 3 of its standard errors (two-sided, 0.27 % of right readings would fail; the seed is fixed,
+// so what passes goes on passing); it must be known to 0.35 %, and light 2 % stronger must be found wrong.
 #include "support/meter_readings.h"
 
 #include <numbers>
@@ -61,8 +61,8 @@ TEST(Beam, PassesAClearPaneWithAllItsReflections) {
     }
 }
 
-/// A ball of radius 1 and index 1.5, 1.2 above the floor, all orders of internal reflection: by quadrature over the impact
-/// parameter (scripts/oracles.py, `ball_lens`), mean over a square of side 1 under it.
+/// A ball of radius 1 and index 1.5, 1.2 above the floor, all orders of internal reflection: by quadrature over the
+/// impact parameter (scripts/oracles.py, `ball_lens`), mean over a square of side 1 under it.
 TEST(Beam, IsFocusedByABallOfGlass) {
     const auto scene = test::meterScene(test::beam("0,0,-1") +
                                         "<shape type=\"sphere\"><point name=\"center\" x=\"0\" "

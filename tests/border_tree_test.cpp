@@ -32,7 +32,8 @@ Segments allSegments(const BorderTree& tree) {
     return segments;
 }
 
-/// Walks down from `index`; returns the first node that is not below it. `wrong` counts what breaks the tree's promises.
+/// Walks down from `index`; returns the first node that is not below it. `wrong` counts what breaks the tree's
+/// promises.
 unsigned checkBelow(const BorderTree& tree, unsigned index, std::vector<unsigned>& held, unsigned& wrong) {
     const shared::BorderNode& node = tree.nodes[index];
     unsigned next = index + 1;

@@ -119,8 +119,8 @@ TEST(ConductorBsdf, IsADeltaLobe) {
     expectRgb(mirror.device.reflectance, 0.9f, 0.9f, 0.9f);
 }
 
-// What a white base sends back and what the coat reflects is all light, from any direction: reflectance and the share that the coat lets
-// in cancel.
+// What a white base sends back and what the coat reflects is all light, from any direction: reflectance and the share
+// that the coat lets in cancel.
 TEST(PlasticBsdf, AWhiteBaseLosesNothing) {
     const auto lobes = [](const std::string& parameters) {
         return loadBsdf("<bsdf type=\"plastic\"><float name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" "

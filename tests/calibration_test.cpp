@@ -1,15 +1,18 @@
-// Is the error that renders estimate right? scenes/cornell_phong.xml at 64 x 64 pixels and 24,576 photons a pass, rendered from
-// ten seeds. The truth about noise is the scatter between the seeds, the truth about bias the difference of their mean from
-// the reference of cornell_test, net of the noise of both. Figures are averaged over the seeds as root mean squares.
+// Is the error that renders estimate right? scenes/cornell_phong.xml at 64 x 64 pixels and 24,576 photons a pass,
+// rendered from ten seeds. The truth about noise is the scatter between the seeds, the truth about bias the difference
+// of their mean from the reference of cornell_test, net of the noise of both. Figures are averaged over the seeds as
+// root mean squares.
 //
-// Where an edge crosses a pixel, the even spread of its samples over the passes gives the image less variance than the passes show
-// (docs/method/accuracy.md). In the whole image the ratio of predicted to true noise is up to 1.17 for that, its 95th percentile up to
-// 1.25, which leaves no room for scatter: percentiles and the diffuse component are held against the truth in the pixels
-// that lie within one surface. Direct light, noisy next to nowhere but at edges, is only held never to be underestimated.
+// Where an edge crosses a pixel, the even spread of its samples over the passes gives the image less variance than the
+// passes show (docs/method/accuracy.md). In the whole image the ratio of predicted to true noise is up to 1.17 for
+// that, its 95th percentile up to
+// 1.25, which leaves no room for scatter: percentiles and the diffuse component are held against the truth in the
+// pixels that lie within one surface. Direct light, noisy next to nowhere but at edges, is only held never to be
+// underestimated.
 //
-// False alarms: seeds are fixed. For others the ratios would scatter by an estimated 3 %, as the scatter between ten seeds
-// is itself known to no more (ten values in some hundred patches of independent noise): the bounds 0.8 and 1.25 are 2.5
-// of these or more away, so about one set of seeds in 100 would fail a right rule somewhere.
+// False alarms: seeds are fixed. For others the ratios would scatter by an estimated 3 %, as the scatter between ten
+// seeds is itself known to no more (ten values in some hundred patches of independent noise): the bounds 0.8 and 1.25
+// are 2.5 of these or more away, so about one set of seeds in 100 would fail a right rule somewhere.
 #include "render/error_estimate.h"
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
@@ -191,7 +194,8 @@ TEST(Calibration, NoiseOfEachComponentIsThatBetweenSeeds) {
     }
 }
 
-/// Sums over pixels and channels, weighted as relMSE, of products of the true bias and the estimated one, free of noise.
+/// Sums over pixels and channels, weighted as relMSE, of products of the true bias and the estimated one, free of
+/// noise.
 struct BiasProducts {
     double trueSquared = 0, estimatedSquared = 0, both = 0;
 };

@@ -1,5 +1,5 @@
-// Several camera paths of a pixel in a pass (RenderSettings::cameraPaths): the same paths as with one in as many passes, of which one gathers
-// photons for all, and how many are best.
+// Several camera paths of a pixel in a pass (RenderSettings::cameraPaths): the same paths as with one in as many
+// passes, of which one gathers photons for all, and how many are best.
 #include "auto/prediction.h"
 #include "support/even_pilot.h"
 #include "support/render_statistics.h"
@@ -31,8 +31,8 @@ double largestDifference(const std::vector<float>& a, const std::vector<float>& 
     return largest;
 }
 
-// Light that needs no photons depends on nothing but the paths, so it is that of the same paths in other passes, but for rounding. (From four
-// paths a pass on, nets have more points: kernels/lattice.clh.)
+// Light that needs no photons depends on nothing but the paths, so it is that of the same paths in other passes, but
+// for rounding. (From four paths a pass on, nets have more points: kernels/lattice.clh.)
 TEST(CameraPaths, AreThoseOfAsManyPasses) {
     const FilmImage two = render(2, 8), one = render(1, 16), fewer = render(1, 12);
     for (const unsigned component : {LIGHT_DIRECT, FILM_EMISSION})
@@ -40,9 +40,10 @@ TEST(CameraPaths, AreThoseOfAsManyPasses) {
     EXPECT_GT(largestDifference(two.components[LIGHT_DIRECT], fewer.components[LIGHT_DIRECT]), 0.01) << "control";
 }
 
-// One path gathers for four, with four times the weight: the same light of each class on surfaces, and in a medium, but for noise. Photons of both
-// renders are the same, so what differs is which paths look at them. Standard errors of the ratios, by eight pairs of seeds: 0.6 % and 1.3 %,
-// so a false alarm comes less than once in 10^5 runs. Were the weight left out, a quarter of the light would be seen.
+// One path gathers for four, with four times the weight: the same light of each class on surfaces, and in a medium, but
+// for noise. Photons of both renders are the same, so what differs is which paths look at them. Standard errors of the
+// ratios, by eight pairs of seeds: 0.6 % and 1.3 %, so a false alarm comes less than once in 10^5 runs. Were the weight
+// left out, a quarter of the light would be seen.
 TEST(CameraPaths, OneGathersForAll) {
     const FilmImage four = render(4, 12), one = render(1, 12);
     for (const unsigned component : {LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}) {
@@ -59,8 +60,8 @@ TEST(CameraPaths, OneGathersForAllInMedia) {
                 1, 0.06);
 }
 
-// A pass costs photons + K camera seconds and leaves a variance of photons + camera / K, which is best at K^2 = (camera variance / photon
-// variance) (photon seconds / camera seconds); Kahn 1955 on splitting.
+// A pass costs photons + K camera seconds and leaves a variance of photons + camera / K, which is best at K^2 = (camera
+// variance / photon variance) (photon seconds / camera seconds); Kahn 1955 on splitting.
 PilotMeasure pilotOf(double photonSeconds, double cameraSeconds, double photonNoise, double cameraNoise) {
     PilotMeasure pilot = evenPilot(16, photonNoise + cameraNoise, 0, photonSeconds + cameraSeconds);
     pilot.secondsOfPhotons = photonSeconds;

@@ -1,8 +1,8 @@
-// Caustic light that camera paths find by meeting emitters (CausticLight::paths): closed forms, where glass, mirrors and a medium behind glass must
-// not be seen; where it is refused; and what is known of its noise before it is tried.
+// Caustic light that camera paths find by meeting emitters (CausticLight::paths): closed forms, where glass, mirrors
+// and a medium behind glass must not be seen; where it is refused; and what is known of its noise before it is tried.
 //
-// A right rule passes within 4 standard errors (from 8 seeds: two-sided Student t, 0.5 % a case); the seeds are fixed, so a case that
-// passes goes on passing.
+// A right rule passes within 4 standard errors (from 8 seeds: two-sided Student t, 0.5 % a case); the seeds are fixed,
+// so a case that passes goes on passing.
 #include "auto/prediction.h"
 #include "support/even_pilot.h"
 #include "support/render_statistics.h"
@@ -121,7 +121,8 @@ TEST(CausticsByPaths, AreRefusedWherePhotonsAreNeeded) {
     EXPECT_EQ(refusal(glass, pathTracing()), "accepted");
 }
 
-// What one path brings is at most the emitter's radiance: the noise that is predicted from photons' caustics is never less than what paths have.
+// What one path brings is at most the emitter's radiance: the noise that is predicted from photons' caustics is never
+// less than what paths have.
 TEST(CausticsByPaths, HaveNoMoreNoiseThanPhotonsPredict) {
     const Scene scene = projectScene("furnace_glass.xml", {{"resolution", "24"}});
     const auto imageOf = [&](CausticLight caustics) {

@@ -1,5 +1,5 @@
-// Checkpoints by the program from outside: killed at any moment, ended by a scheduler, on a disk that is full; farms whose passes are
-// merged (docs/reference/reliability.md).
+// Checkpoints by the program from outside: killed at any moment, ended by a scheduler, on a disk that is full; farms
+// whose passes are merged (docs/reference/reliability.md).
 #include "support/image_difference.h"
 #include "support/lit_plate.h"
 #include "support/program_runner.h"
@@ -55,7 +55,8 @@ protected:
     }
     bool isThere(const std::string& name) const { return fs::exists(folder / name); }
 
-    /// Ends the program after so many milliseconds as no program can know, of its start or of its first checkpoint; false where it ended before.
+    /// Ends the program after so many milliseconds as no program can know, of its start or of its first checkpoint;
+    /// false where it ended before.
     bool runAndKill(const Arguments& arguments, unsigned milliseconds, bool sinceCheckpoint) const {
         const pid_t child = start(arguments);
         const Stopwatch watch;
@@ -82,7 +83,8 @@ TEST_F(CheckpointCommand, ResumesToTheSameBits) {
     EXPECT_NE(radianceOf("a.exr"), radianceOf("whole.exr")); // control
 }
 
-// kill -9 at random moments, ten times, of a render that writes a checkpoint after each pass; the first time there is one.
+// kill -9 at random moments, ten times, of a render that writes a checkpoint after each pass; the first time there is
+// one.
 TEST_F(CheckpointCommand, SurvivesBeingKilled) {
     std::mt19937 random(24);
     unsigned killed = 0;
@@ -188,8 +190,8 @@ TEST_F(CheckpointCommand, FullDiskLosesNoImage) {
     for (const auto& entry : fs::directory_iterator(folder)) EXPECT_NE(entry.path().extension(), ".tmp");
 }
 
-// A file system without hard links cannot keep both: the older one gives up its name only when the new one is on the disk, and where
-// the program ends just then, the render goes on from what there is.
+// A file system without hard links cannot keep both: the older one gives up its name only when the new one is on the
+// disk, and where the program ends just then, the render goes on from what there is.
 TEST_F(CheckpointCommand, WithoutLinksNoneIsLost) {
     renderWell({"-o", "a.exr", "--passes", "4", "--checkpoint", "a.ckpt"});
     const std::string good = readText(folder / "a.ckpt");
@@ -237,7 +239,8 @@ TEST_F(CheckpointCommand, OtherKindsResumeToTheSameBits) {
     EXPECT_NE(table("a.csv"), table("whole.csv")); // control
 }
 
-// A render that searches its settings for minutes is ended early, in the search or before it: nothing half written is left.
+// A render that searches its settings for minutes is ended early, in the search or before it: nothing half written is
+// left.
 TEST_F(CheckpointCommand, SearchThatIsKilledLeavesNoHalfCheckpoint) {
     const Arguments searched{"render", "scene.xml", "-o", "a.exr", "--time", "1000", "--checkpoint", "a.ckpt"};
     const Outcome outcome = run(searched, 5, SIGTERM);

@@ -1,5 +1,5 @@
-// A render that goes on from its checkpoint is the render that was never interrupted, to the bit; a checkpoint that is not what was
-// written is refused; passes of several are the passes of one (docs/reference/reliability.md).
+// A render that goes on from its checkpoint is the render that was never interrupted, to the bit; a checkpoint that is
+// not what was written is refused; passes of several are the passes of one (docs/reference/reliability.md).
 #include "support/folder_files.h"
 #include "support/lit_plate.h"
 #include "support/meter_scenes.h"
@@ -227,8 +227,9 @@ TEST_F(SmallCheckpoint, OtherVersionsAreRefused) {
     }
 }
 
-// As far as a limit on files is like a disk that is full: at 50 lengths, all below that of the next checkpoint. (Seconds are
-// written in as many digits as they have, so two checkpoints differ in length by some bytes; the next one is held fixed.)
+// As far as a limit on files is like a disk that is full: at 50 lengths, all below that of the next checkpoint.
+// (Seconds are written in as many digits as they have, so two checkpoints differ in length by some bytes; the next one
+// is held fixed.)
 TEST_F(SmallCheckpoint, FullDiskKeepsTheLastGoodOne) {
     const std::string good = readText(path("a.ckpt"));
     const Scene scene = litPlate(2);
@@ -310,7 +311,8 @@ TEST_F(Merge, PartsAreTheWhole) {
     expectSameMeans(image.radiance, whole.radiance, unit);
     for (size_t k = 0; k < whole.components.size(); ++k)
         expectSameMeans(image.components[k], whole.components[k], unit);
-    // Batches are cut where those of one render are, so errors are the same but for rounding: of differences, and of sums in 24 bits.
+    // Batches are cut where those of one render are, so errors are the same but for rounding: of differences, and of
+    // sums in 24 bits.
     expectSameMeans(image.standardError, whole.standardError, 1e-5);
     expectSameMeans(image.biasError, whole.biasError, 1e-4);
     for (size_t k = 0; k < whole.bias.size(); ++k) // it may be near 0

@@ -1,9 +1,10 @@
-// Analytic cases of CIE 171:2006 that this set of features covers, by their numbers. Expected values are computed from the
-// closed forms named; they agree with the tables of the publication to their last printed digit or 0.3 % (5.3), but for
+// Analytic cases of CIE 171:2006 that this set of features covers, by their numbers. Expected values are computed from
+// the closed forms named; they agree with the tables of the publication to their last printed digit or 0.3 % (5.3), but
+// for
 // 5.7, whose printed table is known to be wrong. Coordinates are the publication's: a room from 0 to 4 m along x and y.
 //
-// Points pass within 3 standard errors (0.27 % of right readings would fail; some 80 are made with fixed seeds); where a
-// density estimate takes part, 0.3 % more. Each must be known to 0.35 %, and each must find 2 % more light wrong.
+// Points pass within 3 standard errors (0.27 % of right readings would fail; some 80 are made with fixed seeds); where
+// a density estimate takes part, 0.3 % more. Each must be known to 0.35 %, and each must find 2 % more light wrong.
 #include "support/meter_readings.h"
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
@@ -89,7 +90,8 @@ TEST(Cie171, DirectionalTransmittanceOfGlass_5_5) {
         {0, 0.9183180280328661}, {40, 0.9075766876197925}, {60, 0.8306925961360115}, {80, 0.43786634777194355}};
     for (const auto& row : rows) {
         const double t = row.angle * pi / 180;
-        // A picture of parallel rays: a pass has as many paths as a radiancemeter in 1024. Batches of one pass: 0.3 % of right readings would fail.
+        // A picture of parallel rays: a pass has as many paths as a radiancemeter in 1024. Batches of one pass: 0.3 %
+        // of right readings would fail.
         const std::string sensor =
             orthographicSensor("0,0,0", fmt::format("{:.9f},0,{:.9f}", std::sin(t), std::cos(t)), 0.01, side);
         // What is mirrored towards the meter comes from a black sheet under it.

@@ -1,5 +1,5 @@
-// <emitter type="quasilux_cie_sky">: luminances of CIE S 011 against closed forms and hand computation, lux on grids, and reading.
-// Renders are held to 4 standard errors (0.3 %, Student t) with a known noise. Seeds are fixed.
+// <emitter type="quasilux_cie_sky">: luminances of CIE S 011 against closed forms and hand computation, lux on grids,
+// and reading. Renders are held to 4 standard errors (0.3 %, Student t) with a known noise. Seeds are fixed.
 #include "output/meter_reading.h"
 #include "scene/emitters/cie_sky.h"
 #include "support/meter_readings.h"
@@ -25,8 +25,9 @@ TEST(CieSky, LuminancesAreThoseOfTheStandard) {
         EXPECT_NEAR(cieSkyLuminance(type, {0, 0, 1}, sun), 1, 1e-12) << type;
         EXPECT_EQ(cieSkyLuminance(type, {0, 1, -1e-9}, sun), 0) << type;
     }
-    // By hand from the standard's formulae: the horizon under an overcast sky, 1 / (1 + 4 exp(-0.7)); a clear sky (type 12) beside
-    // the sun at 45 degrees and on the other side, by f = 1 + 10 (exp(-3 x) - exp(-1.5 pi)) + 0.45 cos^2 x and 1 - exp(-0.32 / cos Z).
+    // By hand from the standard's formulae: the horizon under an overcast sky, 1 / (1 + 4 exp(-0.7)); a clear sky (type
+    // 12) beside the sun at 45 degrees and on the other side, by f = 1 + 10 (exp(-3 x) - exp(-1.5 pi)) + 0.45 cos^2 x
+    // and 1 - exp(-0.32 / cos Z).
     EXPECT_NEAR(cieSkyLuminance(1, towards(90, 10), sun), 0.334858, 1e-6);
     EXPECT_NEAR(cieSkyLuminance(12, sun, sun), 7.249075, 1e-6);
     EXPECT_NEAR(cieSkyLuminance(12, towards(45, 180), sun), 0.638113, 1e-6);
@@ -97,7 +98,8 @@ TEST(CieSkyRender, GroundHasTheIlluminanceThatIsStated) {
 }
 
 TEST(CieSkyRender, WallsSeeHalfOfItAndTheGround) {
-    // Of the traditional overcast sky a free wall has 39.6 % of the ground's by integration: (pi / 2 + 4 / 3) / (7 pi / 3).
+    // Of the traditional overcast sky a free wall has 39.6 % of the ground's by integration: (pi / 2 + 4 / 3) / (7 pi /
+    // 3).
     const double share = (pi / 2 + 4.0 / 3) / (7 * pi / 3);
     EXPECT_NEAR(share, 0.396, 5e-4) << "BRE's vertical sky component";
     expectLux(luxOn(sky(16), southwards), share * 12000, "overcast");

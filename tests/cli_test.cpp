@@ -264,7 +264,8 @@ TEST(Names, OfComponentsAndSettings) {
     }
 }
 
-// Some fifth of the photons contribute to this box's light: 200 are too few for a render to know its noise, 5000 are not.
+// Some fifth of the photons contribute to this box's light: 200 are too few for a render to know its noise, 5000 are
+// not.
 TEST_F(CommandLineTest, RareLightIsWarnedOf) {
     const auto errors = [&](const char* photons, const char* passes) {
         const Outcome outcome = run({"render", QUASILUX_SOURCE_DIR "/scenes/cornell_phong.xml", "--fixed", "--photons",

@@ -1,5 +1,5 @@
-// Media that vary in space, rendered. A lossless cloud under a sky of radiance 1 is not seen, whatever its extinction does
-// and by whatever method; an absorbing one over a floor has the same mean by every method.
+// Media that vary in space, rendered. A lossless cloud under a sky of radiance 1 is not seen, whatever its extinction
+// does and by whatever method; an absorbing one over a floor has the same mean by every method.
 //
 // A right render passes within 0.5 % (between methods: 1 %) or 3 standard errors (from 20 batches: two-sided
 // Student t, 0.7 % a case); the seeds are fixed. A render with a standard error above 1.5 % tells nothing and fails.

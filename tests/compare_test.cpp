@@ -93,8 +93,8 @@ TEST(Compare, NoiseIsSubtractedWhereItIsKnown) {
     EXPECT_NEAR(both.netRelMse, (0.25 - 0.015625 - 0.0625) / 4.04, 1e-12);
 }
 
-// A right image against a noisy reference: net relMSE should be 0. Values of noise 0.1: sqrt(2) 0.01 / sqrt(49152) is one
-// standard error; the fixed seed would fail at 4 of them once in 16000.
+// A right image against a noisy reference: net relMSE should be 0. Values of noise 0.1: sqrt(2) 0.01 / sqrt(49152) is
+// one standard error; the fixed seed would fail at 4 of them once in 16000.
 TEST(Compare, NoiseInTheDenominatorsIsToldAndAvoided) {
     constexpr float noise = 0.1f;
     const auto truth = uniform(128, 128, {1, 1, 1});

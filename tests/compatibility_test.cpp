@@ -1,5 +1,6 @@
-// docs/reference/compatibility.md is what the loader says to each plugin and parameter of Mitsuba 3.9 (tests/data/mitsuba_plugins.txt).
-// With QUASILUX_WRITE_COMPATIBILITY set, the page is written instead: bash scripts/compatibility.sh.
+// docs/reference/compatibility.md is what the loader says to each plugin and parameter of Mitsuba 3.9
+// (tests/data/mitsuba_plugins.txt). With QUASILUX_WRITE_COMPATIBILITY set, the page is written instead: bash
+// scripts/compatibility.sh.
 #include "scene/scene.h"
 #include "support/scene_files.h"
 
@@ -45,8 +46,8 @@ std::vector<Plugin> pluginsOf(const std::string& text) {
 
 const std::string film = R"(<film type="hdrfilm"><rfilter type="box"/></film>)";
 
-/// The objects of a scene that has `element`, a plugin of this kind, in a place where it belongs. Lines of its own: `element` is
-/// line 3.
+/// The objects of a scene that has `element`, a plugin of this kind, in a place where it belongs. Lines of its own:
+/// `element` is line 3.
 std::string sceneAround(const Plugin& plugin, const std::string& element) {
     const std::string camera = "<sensor type=\"perspective\">" + film + "</sensor>",
                       light = "<emitter type=\"point\"/>";

@@ -2,8 +2,8 @@
 // (tests/data/cornell_phong_64.exr: R, G, B, region) is an unbiased bidirectional path tracer's image of the same
 // scene, averaged over 4 x 4 pixels; its region means are known to 0.1 %. A region passes within 3 standard errors of
 // both plus 0.5 % for the density radius; with 8 batches (Student t, 7 degrees of freedom) 2 % of right regions would
-// fail for unlucky seeds, so the seeds are fixed. With the one before these the tall box by StandardBdd1 read +3.9 +- 1.0 %; five
-// others gave +0.4 +- 0.7 %.
+// fail for unlucky seeds, so the seeds are fixed. With the one before these the tall box by StandardBdd1 read +3.9 +-
+// 1.0 %; five others gave +0.4 +- 0.7 %.
 #include "support/render_statistics.h"
 
 #include <OpenImageIO/imageio.h>

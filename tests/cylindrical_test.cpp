@@ -1,7 +1,9 @@
-// Several grids in one render, and cylindrical illuminance: E = 1/pi times the integral of L sin(theta) over all directions (EN 12665).
+// Several grids in one render, and cylindrical illuminance: E = 1/pi times the integral of L sin(theta) over all
+// directions (EN 12665).
 //
-// Readings of 8 passes with their standard errors. A test holds chi^2 of its points below mean + 4 standard deviations of 8 points with as much freedom
-// (Student's t of 7 has a variance of 1.4; false alarms below 1e-3, and seeds are fixed), and each has a wrong rule that it must find.
+// Readings of 8 passes with their standard errors. A test holds chi^2 of its points below mean + 4 standard deviations
+// of 8 points with as much freedom (Student's t of 7 has a variance of 1.4; false alarms below 1e-3, and seeds are
+// fixed), and each has a wrong rule that it must find.
 #include "output/meter_reading.h"
 #include "render/renderer.h"
 #include "support/meter_scenes.h"

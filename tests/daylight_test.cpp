@@ -1,9 +1,12 @@
-// Daylight through openings: cases 5.9 to 5.14 of CIE 171:2006 by their kind (openings in roof and facade, bare and glazed, skies of CIE S 011,
-// external masks), and --daylight-factor. The publication's own geometries are not followed in every detail: rooms, openings and
-// points are stated here, and expected values are integrals over the opening, done in the test.
+// Daylight through openings: cases 5.9 to 5.14 of CIE 171:2006 by their kind (openings in roof and facade, bare and
+// glazed, skies of CIE S 011, external masks), and --daylight-factor. The publication's own geometries are not followed
+// in every detail: rooms, openings and points are stated here, and expected values are integrals over the opening, done
+// in the test.
 //
-// Points pass within 3 standard errors (0.27 % of right readings would fail; some 20 are made with fixed seeds), each must be known to
-// 0.35 %, and each must find 2 % more light wrong (0.9 % and 8 %, a pane left out, of light through panes, which is counted).
+// Points pass within 3 standard errors (0.27 % of right readings would fail; some 20 are made with fixed seeds), each
+// must be known to
+// 0.35 %, and each must find 2 % more light wrong (0.9 % and 8 %, a pane left out, of light through panes, which is
+// counted).
 #include "scene/emitters/cie_sky.h"
 #include "scene/photometric_units.h"
 #include "support/meter_readings.h"
@@ -94,7 +97,8 @@ struct Sky {
 using Outside = std::function<double(const dvec3& from, const dvec3& direction)>;
 double allOfIt(const dvec3&, const dvec3&) { return 1; }
 
-/// Transmittance of a clear pane of index 1.52 by the cosine of incidence: all reflections between its sides, unpolarised.
+/// Transmittance of a clear pane of index 1.52 by the cosine of incidence: all reflections between its sides,
+/// unpolarised.
 double paneTransmittance(double cosine) {
     const double n = 1.52, inside = std::sqrt(1 - (1 - cosine * cosine) / (n * n));
     const double s = (cosine - n * inside) / (cosine + n * inside), p = (n * cosine - inside) / (n * cosine + inside);
@@ -102,7 +106,8 @@ double paneTransmittance(double cosine) {
     return (1 - r) / (1 + r);
 }
 
-/// Daylight factor in per cent: the integral over the opening of luminance times both cosines over the square of the distance.
+/// Daylight factor in per cent: the integral over the opening of luminance times both cosines over the square of the
+/// distance.
 double daylightFactor(const dvec3& point, const dvec3& normal, const Rectangle& hole, const Sky& sky,
                       const Outside& outside = allOfIt, int upwards = 3000) { // masks leave slits
     constexpr int steps = 150;

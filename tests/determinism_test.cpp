@@ -1,4 +1,5 @@
-// Same device, same seed: the same bits, whatever the scheduling. That parts of a render merge to the whole: checkpoint_test.
+// Same device, same seed: the same bits, whatever the scheduling. That parts of a render merge to the whole:
+// checkpoint_test.
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
 
@@ -69,7 +70,8 @@ TEST(Determinism, WorkGroupSizeDoesNotMatter) {
     for (const unsigned size : {1u, 7u, 32u, 256u}) expectSameBits(expected, renderPasses(0, 3, smallSettings(), size));
 }
 
-// Shorter regions, more blocks of cells, functions with a definition of their own to link: the same passes, in another order of sums.
+// Shorter regions, more blocks of cells, functions with a definition of their own to link: the same passes, in another
+// order of sums.
 TEST(Determinism, WorkDividedAsForAGpuGivesTheSameImage) {
     if (!Device(0).info().isCpu) GTEST_SKIP() << "the device is a GPU: its work is divided so already";
     const auto render = [](MapOrder map, bool asForGpu) {
@@ -94,7 +96,8 @@ TEST(Determinism, WorkDividedAsForAGpuGivesTheSameImage) {
     }
 }
 
-// Beside the image, not in it: the estimate of bias changes no bit of what was there without it. Radii by pixel are chosen from it, so one for all.
+// Beside the image, not in it: the estimate of bias changes no bit of what was there without it. Radii by pixel are
+// chosen from it, so one for all.
 TEST(Determinism, EstimatingTheBiasDoesNotChangeTheImage) {
     auto with = smallSettings();
     with.radius = RadiusChoice::fixed;
@@ -122,8 +125,8 @@ void expectSameMeans(const FilmImage& a, const FilmImage& b) {
     }
 }
 
-// A pass is a function of its number and the seed: radii by pixel, which earlier passes decide, are found whether or not these have been
-// rendered.
+// A pass is a function of its number and the seed: radii by pixel, which earlier passes decide, are found whether or
+// not these have been rendered.
 TEST(Determinism, PassesInAnyOrderGiveTheSameMean) {
     std::vector<unsigned> forwards(18); // radii are chosen after 2, 4, 8, 16
     std::iota(forwards.begin(), forwards.end(), 0u);

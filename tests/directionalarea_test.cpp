@@ -1,5 +1,6 @@
-// Emitter 'directionalarea': light along the normals of flat faces. Floors in its beam have radiances known in closed form, by emitter sampling
-// and by photons. Renders are held to 4 standard errors of 10 batches (Student t: 0.3 % each) plus 0.5 %. Seeds are fixed.
+// Emitter 'directionalarea': light along the normals of flat faces. Floors in its beam have radiances known in closed
+// form, by emitter sampling and by photons. Renders are held to 4 standard errors of 10 batches (Student t: 0.3 % each)
+// plus 0.5 %. Seeds are fixed.
 #include "prepare/device_scene.h"
 #include "support/scene_files.h"
 #include "support/textured_emitters.h"

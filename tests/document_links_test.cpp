@@ -1,5 +1,6 @@
-// Links of the documents lead where they say: to headings that exist, to symbols that the linked source file has, and from
-// docs/README.md to every page. Pages of the guide and of the method can be read in ten minutes. Diagrams are those of their script.
+// Links of the documents lead where they say: to headings that exist, to symbols that the linked source file has, and
+// from docs/README.md to every page. Pages of the guide and of the method can be read in ten minutes. Diagrams are
+// those of their script.
 #include "support/documents.h"
 #include "util/temporary_folder.h"
 

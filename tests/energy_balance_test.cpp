@@ -1,9 +1,9 @@
 // What becomes of the photons' flux: emitted = absorbed + escaped + beyond max_depth + cut + (lost - gained by chance).
 //
-// The balance is bookkeeping and holds in every pass to rounding (1e-4 asked). Three things make it a statement about the
-// render: what the kernel emits is what the host computed from areas and radiances; what is absorbed is computed from
-// albedos, not as the rest; and chance takes as much as it gives, within 4 standard errors of 12 passes (Student t with
-// 11 degrees of freedom: 0.2 % a case; seeds are fixed).
+// The balance is bookkeeping and holds in every pass to rounding (1e-4 asked). Three things make it a statement about
+// the render: what the kernel emits is what the host computed from areas and radiances; what is absorbed is computed
+// from albedos, not as the rest; and chance takes as much as it gives, within 4 standard errors of 12 passes (Student t
+// with 11 degrees of freedom: 0.2 % a case; seeds are fixed).
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"

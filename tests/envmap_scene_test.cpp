@@ -1,5 +1,6 @@
-// Environment maps of scenes: renders against a quadrature, photons through openings, reading, and the irradiance of the ground. False-alarm rate
-// of the renders 0.3 % each (Student t of 10 batches beyond 4 standard errors). Seeds are fixed.
+// Environment maps of scenes: renders against a quadrature, photons through openings, reading, and the irradiance of
+// the ground. False-alarm rate of the renders 0.3 % each (Student t of 10 batches beyond 4 standard errors). Seeds are
+// fixed.
 #include "learn/guide.h"
 #include "scene/skies/sky_image.h"
 #include "support/environment_images.h"
@@ -66,7 +67,8 @@ TEST(EnvmapRender, AFaceShowsTheIntegralByEmittersAndByPhotonsWhateverWasLearned
         }
 }
 
-/// Flux of direct photons on the cube over that by `learn`ed sources, in standard errors of the difference from plain emission.
+/// Flux of direct photons on the cube over that by `learn`ed sources, in standard errors of the difference from plain
+/// emission.
 TEST(EnvmapPhotons, GoThroughOpeningsOnce) {
     const Scene scene = cubeUnder(images()[1].image);
     const auto fluxBy = [&](int apart) {
@@ -148,7 +150,8 @@ TEST(EnvmapReader, SaysWhatIsWrong) {
     test::expectErrors(files, cases);
 }
 
-// A uniform image gives pi, whatever its rows; of one that is bright in its first row alone it is the cone of a hat about the zenith.
+// A uniform image gives pi, whatever its rows; of one that is bright in its first row alone it is the cone of a hat
+// about the zenith.
 TEST(IrradianceOfGround, IsTheIntegralOfTheUpperHalf) {
     for (const unsigned height : {2u, 3u, 4u, 9u, 361u}) {
         const EnvironmentImage even{4, height, std::vector<Rgb>(4 * height, {1, 2, 3})};

@@ -1,5 +1,5 @@
-// Environment maps: how they are looked up (values of Mitsuba 3.9.1), how directions are sampled, and what photons carry.
-// False-alarm rate 1e-4 together; seeds are fixed. In scenes: envmap_scene_test.
+// Environment maps: how they are looked up (values of Mitsuba 3.9.1), how directions are sampled, and what photons
+// carry. False-alarm rate 1e-4 together; seeds are fixed. In scenes: envmap_scene_test.
 #include "learn/guide.h"
 #include "scene/color.h"
 #include "scene/skies/sky_image.h"

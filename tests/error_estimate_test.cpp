@@ -1,7 +1,8 @@
 // From standard errors and bias by pixel to the figures of a render: definitions, and that few passes do not skew them.
 //
 // Noise is drawn with fixed seeds. Over 20,000 independent pixels the figures compared scatter by 1 % or less, and by
-// a tenth of biasNoiseRms, so the tolerances are 3 standard deviations or more: a right rule fails with probability below 1 %.
+// a tenth of biasNoiseRms, so the tolerances are 3 standard deviations or more: a right rule fails with probability
+// below 1 %.
 #include "render/error_estimate.h"
 
 #include "support/film_images.h"
@@ -46,8 +47,8 @@ TEST(ErrorEstimate, KnowsWhatItDoesNotKnow) {
     EXPECT_FALSE(estimateError(image).hasBias);
 }
 
-// Pixels of relative noise `deviation[pixel]` per pass, rendered in so many passes; bias `bias` everywhere, of which each pass
-// estimates with three times the noise of the image.
+// Pixels of relative noise `deviation[pixel]` per pass, rendered in so many passes; bias `bias` everywhere, of which
+// each pass estimates with three times the noise of the image.
 FilmImage simulate(const std::vector<double>& deviation, unsigned passes, double bias, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;

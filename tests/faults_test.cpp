@@ -1,6 +1,7 @@
-// Each call of OpenCL, of a file and of operator new fails once (shims/failing_calls.cpp) in a small render with every kind of output: what
-// failed is named, the exit code is the documented one, no file is half written, and an image that is there is right. Here the middle
-// call of each function, or the one that QUASILUX_FAULTS says: `all`, or a number of calls spread evenly (scripts/faults.sh).
+// Each call of OpenCL, of a file and of operator new fails once (shims/failing_calls.cpp) in a small render with every
+// kind of output: what failed is named, the exit code is the documented one, no file is half written, and an image that
+// is there is right. Here the middle call of each function, or the one that QUASILUX_FAULTS says: `all`, or a number of
+// calls spread evenly (scripts/faults.sh).
 #include "support/program_runner.h"
 
 #include "compare/image_file.h"
@@ -116,7 +117,8 @@ protected:
             }
     }
 
-    /// Whether the message says what failed: of OpenCL the function and the error's number, of files the name, of memory that.
+    /// Whether the message says what failed: of OpenCL the function and the error's number, of files the name, of
+    /// memory that.
     static bool names(const std::string& call, const std::string& errors) {
         const auto has = [&](const char* pattern) { return std::regex_search(errors, std::regex(pattern)); };
         if (call.rfind("cl", 0) == 0)

@@ -1,7 +1,7 @@
 // The standard error of the bias where its noise grows from pass to pass, as it does while discs shrink.
 //
-// False alarms: the mean of 12288 independent estimates of a variance scatters by 0.5 % (each from as few as 20 batches), so
-// bounds of 2 % raise one in 15,000 runs.
+// False alarms: the mean of 12288 independent estimates of a variance scatters by 0.5 % (each from as few as 20
+// batches), so bounds of 2 % raise one in 15,000 runs.
 #include "render/film.h"
 #include "support/test_kernels.h"
 

@@ -1,5 +1,6 @@
-// Reconstruction filters as tables: places follow the filter's magnitude, weighted means are those of the filter itself, also where it
-// ends at the edge of the image; an image seen through each is what the filter makes of it, whether pixels share samples or not.
+// Reconstruction filters as tables: places follow the filter's magnitude, weighted means are those of the filter
+// itself, also where it ends at the edge of the image; an image seen through each is what the filter makes of it,
+// whether pixels share samples or not.
 //
 // False alarms: all chi-squared and z tests together raise one with probability 1e-4 (support/chi_squared.h).
 #include "prepare/device_scene.h"

@@ -1,4 +1,5 @@
-// The fisheye: its rays by the projections' definitions, illuminances by its image in closed form, and that `quasilux dgp` knows its images.
+// The fisheye: its rays by the projections' definitions, illuminances by its image in closed form, and that `quasilux
+// dgp` knows its images.
 #include "photometry/daylight_glare.h"
 #include "prepare/device_scene.h"
 #include "render/renderer.h"
@@ -111,7 +112,8 @@ TEST(Fisheye, UniformSkyLightsTheEyeByPiL) {
     }
 }
 
-// A disc of radius 1 at distance 1, radiance 2, that faces the eye: E = pi L sin² 45° times the cosine from the line of sight.
+// A disc of radius 1 at distance 1, radiance 2, that faces the eye: E = pi L sin² 45° times the cosine from the line of
+// sight.
 TEST(Fisheye, DiscLightsTheEyeAsInClosedForm) {
     const auto disc = [](double degrees) {
         return fmt::format("<shape type=\"disk\"><transform name=\"to_world\"><rotate x=\"1\" angle=\"180\"/>"

@@ -1,4 +1,5 @@
-// Fresnel and Snell at one interface and at two: clear slabs, the critical angle, and what a path carries through glass.
+// Fresnel and Snell at one interface and at two: clear slabs, the critical angle, and what a path carries through
+// glass.
 #include "bsdf/lobe_list.h"
 #include "support/float_rounding.h"
 #include "support/lobe_cases.h"

@@ -92,7 +92,8 @@ TEST_P(RightRule, SeesNothingOfGlassAndMirrors) {
     EXPECT_NEAR(result.mean, truth, allowed(result)) << "standard error " << result.standardError;
 }
 
-// Nor masks and blends with nothing, by number and by texture: what passes is no event, of paths, photons and shadow rays.
+// Nor masks and blends with nothing, by number and by texture: what passes is no event, of paths, photons and shadow
+// rays.
 TEST_P(RightRule, SeesNothingOfMasks) {
     const auto result = renderFurnace(GetParam(), "furnace_mask.xml");
     EXPECT_NEAR(result.mean, truth, allowed(result)) << "standard error " << result.standardError;

@@ -1,5 +1,5 @@
-// Every reader takes its seeds, and each cut off and with altered bytes, with an InputError or none: what libFuzzer found (scripts/fuzz.sh)
-// stays mended. Under the sanitizers too.
+// Every reader takes its seeds, and each cut off and with altered bytes, with an InputError or none: what libFuzzer
+// found (scripts/fuzz.sh) stays mended. Under the sanitizers too.
 #include "fuzz/targets.h"
 #include "support/read_text.h"
 

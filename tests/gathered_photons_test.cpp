@@ -1,4 +1,5 @@
-// Which photons of a pass are gathered, where it is known: two plates that face each other, and a camera that sees one of them whole.
+// Which photons of a pass are gathered, where it is known: two plates that face each other, and a camera that sees one
+// of them whole.
 //
 // Nothing is left to chance but which few photons lie between the discs of 32 x 32 pixels; seeds are fixed.
 #include "render/renderer.h"

@@ -1,6 +1,6 @@
 // Kernels compiled for a scene and kernels with every feature give the same mean image: leaving out is not changing.
-// Each mean has a standard error from 10 batches; they may differ by 3.5 combined standard errors (two-sided, Student t with
-// about 18 degrees of freedom: 0.3 % a case; seeds are fixed). A feature lost or counted twice shows by percents.
+// Each mean has a standard error from 10 batches; they may differ by 3.5 combined standard errors (two-sided, Student t
+// with about 18 degrees of freedom: 0.3 % a case; seeds are fixed). A feature lost or counted twice shows by percents.
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
 
@@ -60,8 +60,8 @@ double distanceOf(const std::string& file, uint64_t firstSeed, uint64_t secondSe
     return std::sqrt(squares / double(a.size())) / (sum / double(a.size()));
 }
 
-// Without media behind glass, where generic kernels look for emitters in vain, they make the same estimate, not just one
-// of the same mean: else comparing their speed would compare estimators. What
+// Without media behind glass, where generic kernels look for emitters in vain, they make the same estimate, not just
+// one of the same mean: else comparing their speed would compare estimators. What
 // is compiled differently rounds differently, and some paths then part. Control: other random numbers.
 TEST(GenericKernelsEstimate, IsThatOfTheSceneKernels) {
     for (const char* file : {"cornell_ggx.xml", "furnace_split.xml", "furnace_glass.xml", "furnace_sky.xml"}) {

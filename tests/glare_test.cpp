@@ -1,4 +1,5 @@
-// UGR against rooms computed by hand, and Guth's position index against his table. docs/method/glare.md has the same room.
+// UGR against rooms computed by hand, and Guth's position index against his table. docs/method/glare.md has the same
+// room.
 #include "photometry/glare.h"
 #include "scene/observer.h"
 #include "support/eye_readings.h"
@@ -90,9 +91,10 @@ Scene sceneOf(const test::SceneFiles& files, const std::string& body) {
 
 GlareSources sourcesOf(const Scene& scene) { return test::sourcesSeenBy(scene, scene.observers.at(0)); }
 
-// In a white ball with reflectance 1/2 all walls have the same luminance where the luminaire shines alike in all directions from
-// the centre: E = I / r² = 4 lx by direct light, 8 lx with all reflections, so L = 4 / pi cd/m², and at every place and in every direction
-// Ei = 4 lx and Lb = 4 / pi. The eye at (0, -2, -1) looks along +y: the source is at 5 m² and straight above, with tan sigma = 1/2.
+// In a white ball with reflectance 1/2 all walls have the same luminance where the luminaire shines alike in all
+// directions from the centre: E = I / r² = 4 lx by direct light, 8 lx with all reflections, so L = 4 / pi cd/m², and at
+// every place and in every direction Ei = 4 lx and Lb = 4 / pi. The eye at (0, -2, -1) looks along +y: the source is at
+// 5 m² and straight above, with tan sigma = 1/2.
 TEST(Glare, OfARoomComputedByHand) {
     const test::SceneFiles files;
     const Scene scene = sceneOf(files, ball(files, "0,0,0") +

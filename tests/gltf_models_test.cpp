@@ -1,4 +1,5 @@
-// Files of others: the models of Debian's package assimp-testmodels are loaded, or refused by name. Skipped where it is not installed.
+// Files of others: the models of Debian's package assimp-testmodels are loaded, or refused by name. Skipped where it is
+// not installed.
 #include "support/scene_files.h"
 
 #include <algorithm>

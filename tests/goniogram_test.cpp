@@ -1,4 +1,5 @@
-// Luminaire files: IES LM-63 of every edition, type and symmetry, EULUMDAT of every symmetry. What is refused: goniogram_errors_test.
+// Luminaire files: IES LM-63 of every edition, type and symmetry, EULUMDAT of every symmetry. What is refused:
+// goniogram_errors_test.
 #include "support/luminaire_files.h"
 #include "support/scene_files.h"
 
@@ -51,8 +52,8 @@ TEST(Goniogram, FilesOfAClosedFormHaveItsIntensitiesAndLumens) {
         EXPECT_EQ(goniogram.format, "IES LM-63-2002");
         EXPECT_TRUE(goniogram.absolute);
         EXPECT_NEAR(goniogram.lumens() / integral(goniogram), 1, 1e-4) << expected.name;
-        // What chords add to a curve: h^2 / 12 of the integral of its second derivative over the sphere. Of cos^n it is n times that
-        // of the curve, and -1 times for n = 1, which ends with a slope.
+        // What chords add to a curve: h^2 / 12 of the integral of its second derivative over the sphere. Of cos^n it is
+        // n times that of the curve, and -1 times for n = 1, which ends with a slope.
         const double chords = 1 + expected.bend * std::pow(expected.step * degree, 2) / 12;
         EXPECT_NEAR(goniogram.lumens() / (chords * expected.lumens), 1, 1e-5) << expected.name;
         for (const double c : {0.0, 45.0, 90.0, 135.0, 180.0, 270.0, 315.0})
@@ -82,7 +83,8 @@ TEST(Goniogram, IsLinearInBothAnglesBetweenTheValuesOfTheFile) {
 }
 
 TEST(Goniogram, CRunsAsLm63HasIt) {
-    // Seen from above, C0 to the right: counter-clockwise. Seen along the light (+z away from the eye, +x to the right) +y is down.
+    // Seen from above, C0 to the right: counter-clockwise. Seen along the light (+z away from the eye, +x to the right)
+    // +y is down.
     EXPECT_LT(glm::length(directionAt(0, 90) - glm::dvec3(1, 0, 0)), 1e-15);
     EXPECT_LT(glm::length(directionAt(90, 90) - glm::dvec3(0, -1, 0)), 1e-15);
     EXPECT_LT(glm::length(directionAt(33, 0) - glm::dvec3(0, 0, 1)), 1e-15);

@@ -134,8 +134,9 @@ TEST_F(GridTest, StatesWhatNormsAskFor) {
         EXPECT_THAT(table, HasSubstr(line));
 }
 
-// EN 12464-1: of 4.8 m x 7.2 m the longer side counts, 0.2 * 5^lg 7.2 = 0.794 m; of 2 m x 7.2 m the shorter one, 0.325 m; 10 m at most.
-// The other side goes by the spacing that results: of 6.2 m x 3.8 m 9 points along 6.2 m are 0.689 m apart, and 3.8 m has 5.5 such spacings.
+// EN 12464-1: of 4.8 m x 7.2 m the longer side counts, 0.2 * 5^lg 7.2 = 0.794 m; of 2 m x 7.2 m the shorter one, 0.325
+// m; 10 m at most. The other side goes by the spacing that results: of 6.2 m x 3.8 m 9 points along 6.2 m are 0.689 m
+// apart, and 3.8 m has 5.5 such spacings.
 TEST_F(GridTest, SpacingIsThatOfTheNorm) {
     const auto sizeOf = [&](const std::string& u, const std::string& v) {
         const Scene scene = test::meterScene("<?quasilux illuminance-grid origin=\"0,0,0\" edge-u=\"" + u +

@@ -1,6 +1,8 @@
-// Guided emission (docs/method/learning.md): the tree of numbers, openings found from rays, and that means do not depend on any of it.
+// Guided emission (docs/method/learning.md): the tree of numbers, openings found from rays, and that means do not
+// depend on any of it.
 //
-// False alarms: flux and radiance are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case); the seeds are fixed.
+// False alarms: flux and radiance are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case); the
+// seeds are fixed.
 #include "learn/aims.h"
 #include "learn/guide.h"
 #include "learn/guide_tree.h"
@@ -175,7 +177,8 @@ AimSet squaresAboutAPlace() {
 }
 
 // Half of the scattered photons are aimed just above the floor of a cube with even light. Share of the light that was
-// scattered before which arrives on the floor there, over the square's share of the area; 10 or more standard errors separate 1 from 2.
+// scattered before which arrives on the floor there, over the square's share of the area; 10 or more standard errors
+// separate 1 from 2.
 MeanAndError lightBelowAims(PhotonRule rule, const std::vector<AimSet>& aims) {
     DeviceScene flat = flattenScene(projectScene("furnace_split.xml"));
     LearnedTables learned;
@@ -210,7 +213,8 @@ TEST(GuidedMean, AimedPhotonsBringNoMoreLightThere) {
     }
 }
 
-// Rays from all over a wall to a place whose surroundings matter ever less: aimed photons are as dense, ring by ring, as they are.
+// Rays from all over a wall to a place whose surroundings matter ever less: aimed photons are as dense, ring by ring,
+// as they are.
 TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number;
@@ -239,8 +243,8 @@ TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
     }
 }
 
-// A patch of ground in the sun lights a room through a window. Light from outside comes to all of the patch, which nothing is to be aimed
-// at; and most of what is scattered brings nothing.
+// A patch of ground in the sun lights a room through a window. Light from outside comes to all of the patch, which
+// nothing is to be aimed at; and most of what is scattered brings nothing.
 TEST(Aims, FindTheWindowBeforeAPatchOfGroundInTheSun) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> number(-1, 1);
@@ -266,7 +270,8 @@ TEST(Aims, FindTheWindowBeforeAPatchOfGroundInTheSun) {
     EXPECT_GT(sets[0].density(ray), 10);
 }
 
-// A room with a window on a site, where everything emits what it absorbs and the sky has radiance 1: radiance is 1 everywhere.
+// A room with a window on a site, where everything emits what it absorbs and the sky has radiance 1: radiance is 1
+// everywhere.
 std::string wall(const std::string& scale, const std::string& translate, double emitted, double reflectance) {
     return "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"" + scale + "\"/><translate value=\"" +
            translate + "\"/></transform><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" +

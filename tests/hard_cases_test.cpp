@@ -135,8 +135,8 @@ std::string closeLamp(double width) {
                                                                                   width / 2);
 }
 
-// The irradiance is pi L, and no photon starts behind the floor or misses it. Out of the axes single precision knows places
-// on a floor 2000 wide to 1e-3 only.
+// The irradiance is pi L, and no photon starts behind the floor or misses it. Out of the axes single precision knows
+// places on a floor 2000 wide to 1e-3 only.
 TEST_P(Placed, ALampCloseToAFloor) {
     const auto result =
         renderGroups(placedScene(closeLamp(200), GetParam()), countingSettings(1000), std::vector<int>(256, 0), 10, 40)
@@ -280,8 +280,8 @@ TEST(BadGeometry, DuplicatedTrianglesDoNotShow) {
     EXPECT_LE(difference(floorImage(plainFloor + "f 3 1 2\nf 4 1 3\n"), floorImage(plainFloor)), bound);
 }
 
-// Two sheets of the same kind in one place, corner on corner, look like one. (Sheets that overlap in part do not, and are
-// warned of: docs/method/density.md, borders_test.)
+// Two sheets of the same kind in one place, corner on corner, look like one. (Sheets that overlap in part do not, and
+// are warned of: docs/method/density.md, borders_test.)
 TEST(BadGeometry, DuplicatedSheetsDoNotShow) {
     const char* twin = R"(<shape type="rectangle"><transform name="to_world"></transform><ref id="paper"/></shape>)";
     EXPECT_LE(difference(floorImage(plainFloor, twin), floorImage(plainFloor)), bound);

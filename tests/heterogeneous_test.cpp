@@ -1,5 +1,5 @@
-// Media that vary in space on the device (kernels/volume_grid.clh) against the same in double: values at points for every
-// filter and wrap, turned boxes too; optical depth of rays against a fine midpoint rule; free flights against the
+// Media that vary in space on the device (kernels/volume_grid.clh) against the same in double: values at points for
+// every filter and wrap, turned boxes too; optical depth of rays against a fine midpoint rule; free flights against the
 // distribution that the depth gives. 4 chi-squared tests; false-alarm rate of the program 1e-4 (support/chi_squared.h).
 #include "prepare/scene_tables.h"
 #include "prepare/volume_tables.h"

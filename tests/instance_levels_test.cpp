@@ -39,7 +39,8 @@ std::string instance(const std::string& group, const std::string& operations) {
            "</transform></shape>";
 }
 
-/// What the scenes of this test have in common: a floor, a group of a mesh with relief, a mask and a one-sided cube, and one of a sphere.
+/// What the scenes of this test have in common: a floor, a group of a mesh with relief, a mask and a one-sided cube,
+/// and one of a sphere.
 class TwoLevels {
 public:
     explicit TwoLevels(bool hasRelief = true, const std::string& further = {}) {
@@ -334,8 +335,8 @@ TEST(InstanceLevels, DensityRegionsEndAtTheSameBorders) {
     EXPECT_GT(regionsThatDiffer(expected, levelScene.regions(beside)), expected.size() / 2); // negative control
 }
 
-// Means of both, by quarters of the image, of independent seeds. A right case passes within 4 standard errors of 8 batches: one of 8 comparisons
-// fails with a probability of 1 % (Student t, 14 degrees of freedom); seeds are fixed.
+// Means of both, by quarters of the image, of independent seeds. A right case passes within 4 standard errors of 8
+// batches: one of 8 comparisons fails with a probability of 1 % (Student t, 14 degrees of freedom); seeds are fixed.
 TEST(InstanceLevels, ImagesAreTheSame) {
     std::vector<int> quarters(32 * 32);
     for (int k = 0; k < 32 * 32; ++k) quarters[size_t(k)] = (k % 32 >= 16) + 2 * (k >= 512);

@@ -133,7 +133,8 @@ TEST(InstanceLevels, AreOneOfTwoWays) {
                 HasSubstr("to_world of a sphere scales directions differently"));
 }
 
-// Those without an id are kept as places while the file is read (plain_instances.h), and are the same shapes in the same order.
+// Those without an id are kept as places while the file is read (plain_instances.h), and are the same shapes in the
+// same order.
 TEST(Instances, WithAndWithoutAnIdAreTheSame) {
     SceneFiles files;
     const std::string at = "<ref id=\"g\"/><transform name=\"to_world\"><rotate z=\"1\" angle=\"30\"/><translate "

@@ -1,10 +1,11 @@
 // Irradiance meters against closed forms, by every method. Sources: inverse square and cosine law; sphere, tilted plane
 // under a sky: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; rectangle: Lambert 1760, Photometria
-// (contour integral, Baum, Rushmeier & Winget 1989); rectangles to each other: Howell C-11, C-14; integrating sphere: Goebel
-// 1967; cube: matrix radiosity of 21 x 21 patches a face, extrapolated (uncertain by 5e-5).
+// (contour integral, Baum, Rushmeier & Winget 1989); rectangles to each other: Howell C-11, C-14; integrating sphere:
+// Goebel 1967; cube: matrix radiosity of 21 x 21 patches a face, extrapolated (uncertain by 5e-5).
 //
-// Where nothing is biased a reading passes within 3 of its own standard errors (two-sided, Student's t: 2 % of right readings would
-// fail after 8 passes, 0.6 % after 24, 0.4 % after 60; about 100 readings are made, and the seed is fixed, so what passes goes on passing). After a density estimate,
+// Where nothing is biased a reading passes within 3 of its own standard errors (two-sided, Student's t: 2 % of right
+// readings would fail after 8 passes, 0.6 % after 24, 0.4 % after 60; about 100 readings are made, and the seed is
+// fixed, so what passes goes on passing). After a density estimate,
 // 0.3 % more are allowed for its radius. Each case must know its reading to 0.35 %, and each must find a light that is
 // 2 % stronger wrong.
 #include "support/meter_readings.h"
@@ -206,7 +207,8 @@ TEST(CubeRadiosity, IsThatOfTheMatrix) {
     expectReading(room(0), {"", 0, "auto", photons}, ofFloor, true, 48);
 }
 
-// ---- films of more than a pixel, grids, radiance ----------------------------------------------------------------------
+// ---- films of more than a pixel, grids, radiance
+//   ----------------------------------------------------------------------
 
 /// The film's columns run along local x, its rows along local y, as the numbers do that Mitsuba draws points from.
 TEST(Film, CoversTheRectangle) {

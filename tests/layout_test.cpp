@@ -48,7 +48,9 @@ std::string readTestKernel(const std::string& file) {
 
 /// Reads the device's layout; `replaced` changes kernel files first.
 std::vector<unsigned> deviceLayout(size_t count, std::map<std::string, std::string> replaced = {}) {
-    for (const char* file : {"layout.cl", "layout_fields.h"}) replaced[file] = readTestKernel(file);
+    for (const char* file :
+         {"layout.cl", "layout_fields.h", "layout_sensor_fields.h", "layout_learned_fields.h", "layout_pass_fields.h"})
+        replaced[file] = readTestKernel(file);
     Program program(testDevice(), "layout.cl", "", replaced);
     Buffer<char> memory(testDevice(), 1 << 16, "memory");
     Buffer<unsigned> sizes(testDevice(), count, "sizes");
@@ -92,7 +94,7 @@ TEST(Layout, EveryDeclaredFieldIsCompared) {
     names.merge(declared("sensor_types.h"));
     names.merge(declared("pass_types.h"));
     EXPECT_GT(names.size(), 100u);
-    EXPECT_EQ(compared, names) << "tests/kernels/layout_fields.h and the headers of kernels/ differ";
+    EXPECT_EQ(compared, names) << "tests/kernels/layout_*fields.h and the headers of kernels/ differ";
 }
 
 TEST(Layout, NodesAndBlocksAreAsDocumented) {

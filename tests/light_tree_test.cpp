@@ -1,7 +1,8 @@
-// Many emitters (docs/method/learning.md, "Direct light"): the tree holds them, its choices have the probabilities that it says, and images
-// keep their means.
+// Many emitters (docs/method/learning.md, "Direct light"): the tree holds them, its choices have the probabilities that
+// it says, and images keep their means.
 //
-// False alarms: 1e-4 for the chi-squared tests together; the furnace is held to 4 standard errors of 10 batches (Student t: 0.3 %).
+// False alarms: 1e-4 for the chi-squared tests together; the furnace is held to 4 standard errors of 10 batches
+// (Student t: 0.3 %).
 #include "learn/direct_choice.h"
 #include "learn/learning.h"
 #include "prepare/light_tree.h"
@@ -23,7 +24,8 @@ using glm::dvec3;
 
 // --- the tree ---
 
-/// Rectangles that shine down from a ceiling of 20 x 20, some spheres, points and meshes between them; powers differ by up to 100.
+/// Rectangles that shine down from a ceiling of 20 x 20, some spheres, points and meshes between them; powers differ by
+/// up to 100.
 EmitterTables manyEmitters() {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> number;
@@ -243,8 +245,9 @@ TEST(ManyEmitters, ListsOfDistantEmittersEnd) {
     EXPECT_EQ(choice.lights[1].first, 99u) << "the strongest first";
 }
 
-// A spot in front of a sky whose power is that of the whole, wide floor: where it shines, importance paths must have met it, with genuine diffuse
-// lobes and with others. By power alone it would be chosen 300 times less often than the sky.
+// A spot in front of a sky whose power is that of the whole, wide floor: where it shines, importance paths must have
+// met it, with genuine diffuse lobes and with others. By power alone it would be chosen 300 times less often than the
+// sky.
 TEST(ManyEmitters, AWeakSpotIsLearnedWhereItShines) {
     for (const char* bsdf : {"diffuse", "roughconductor"}) {
         test::SceneFiles files;

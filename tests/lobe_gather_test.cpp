@@ -1,6 +1,6 @@
-// Photons seen by coats, rough conductors and the lobes of `principled`, eight at a time (kernels/directional_lobes.clh), against photon by
-// photon: the same photons, so the same image but for rounding. Nothing is statistical. The control: an index, or a colour, that is wrong
-// by 2 % is told apart.
+// Photons seen by coats, rough conductors and the lobes of `principled`, eight at a time
+// (kernels/directional_lobes.clh), against photon by photon: the same photons, so the same image but for rounding.
+// Nothing is statistical. The control: an index, or a colour, that is wrong by 2 % is told apart.
 #include "render/renderer.h"
 #include "support/image_difference.h"
 #include "support/placed_scenes.h"

@@ -1,6 +1,7 @@
-// Luminaires in scenes: lux against the inverse-square law, the same by photons, and the same lumens give the same lux whatever carries
-// them.
-// Renders with a noise are held to 4 standard errors of 10 batches (Student t: 0.3 % each) or 3 of a meter. Seeds are fixed.
+// Luminaires in scenes: lux against the inverse-square law, the same by photons, and the same lumens give the same lux
+// whatever carries them.
+// Renders with a noise are held to 4 standard errors of 10 batches (Student t: 0.3 % each) or 3 of a meter. Seeds are
+// fixed.
 #include "output/meter_reading.h"
 #include "support/luminaire_files.h"
 #include "support/meter_readings.h"
@@ -19,7 +20,8 @@ using glm::dvec3;
 using std::numbers::pi;
 constexpr double degree = pi / 180;
 
-/// Looks down from a height, turned about the vertical. `place` is "x,y,z"; `scale` is of to_world and is to change nothing.
+/// Looks down from a height, turned about the vertical. `place` is "x,y,z"; `scale` is of to_world and is to change
+/// nothing.
 std::string hanging(const std::string& file, const std::string& place, double turn, const std::string& more = "",
                     double scale = 1) {
     return fmt::format(R"(<emitter type="quasilux_ies"><string name="filename" value="{}"/>{}<transform name="to_world">
@@ -140,7 +142,8 @@ Scene floorUnder(const std::string& file, const std::string& more = "") {
         R"(<shape type="rectangle"><transform name="to_world"><scale value="4"/></transform><bsdf type="diffuse"/></shape>)");
 }
 
-/// Mean radiance there: albedo / pi times I cos / distance^2 / 683, where light leaves from places within `half` of the centre along x.
+/// Mean radiance there: albedo / pi times I cos / distance^2 / 683, where light leaves from places within `half` of the
+/// centre along x.
 double floorRadiance(const Goniogram& goniogram, double half = 0) {
     constexpr int n = 200, places = 16;
     double sum = 0;
@@ -181,7 +184,8 @@ TEST(LuminaireRender, ALongLuminaireShinesFromAllOfIt) {
 /// A luminaire in a box that is open below: photons learn the opening.
 TEST(LuminaireRender, LightComesThroughAnOpeningAsTheLawHasIt) {
     const std::string file = test::luminaireFolder + "asym_cosphi.ies";
-    // The hole of 0.8 by 0.8 in a black lid at height 1 lets what goes to [-1.3, 1.9]^2 on the floor pass: all of the image.
+    // The hole of 0.8 by 0.8 in a black lid at height 1 lets what goes to [-1.3, 1.9]^2 on the floor pass: all of the
+    // image.
     std::string lid;
     for (const char* part :
          {"<scale x=\"2\" y=\"4\"/><translate x=\"-2.5\"/>", "<scale x=\"2\" y=\"4\"/><translate x=\"3.1\"/>",

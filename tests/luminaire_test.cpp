@@ -1,5 +1,5 @@
-// <emitter type="quasilux_ies">: intensities and photons of the kernels against the goniogram, and places on the luminous shape. Reading:
-// luminaire_loader_test.
+// <emitter type="quasilux_ies">: intensities and photons of the kernels against the goniogram, and places on the
+// luminous shape. Reading: luminaire_loader_test.
 // False-alarm rate of the tests of samplers 1e-4 together. Seeds are fixed.
 #include "prepare/device_scene.h"
 #include "support/chi_squared.h"
@@ -186,7 +186,8 @@ TEST(Luminaire, PhotonsFollowTheGoniogram) {
         double sum = 0, squares = 0;
         size_t uneven = 0;
         for (const Sent& photon : sent) {
-            // Within 5 degrees the sine is nearly a line. The probability of a cell is a whole number of 2^-24: of rare cells coarse.
+            // Within 5 degrees the sine is nearly a line. The probability of a cell is a whole number of 2^-24: of rare
+            // cells coarse.
             ASSERT_LT(photon.flux.x / lamp.power, 2.5) << name;
             uneven += std::abs(photon.flux.x / lamp.power - 1) > 2e-3 ? 1 : 0;
             ASSERT_NEAR(glm::length(photon.direction), 1, 1e-5);

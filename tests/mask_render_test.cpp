@@ -1,7 +1,7 @@
-// Light through a partly transparent sheet, against its closed form: a lamp shines on a black sheet above a floor, and the
-// camera looks at the floor from below the sheet, so that all light has passed it once.
-// A right case passes within 3 standard errors of 10 batches (Student t, 1.5 % a case; seeds are fixed) plus 0.5 % for the
-// density radius.
+// Light through a partly transparent sheet, against its closed form: a lamp shines on a black sheet above a floor, and
+// the camera looks at the floor from below the sheet, so that all light has passed it once.
+// A right case passes within 3 standard errors of 10 batches (Student t, 1.5 % a case; seeds are fixed) plus 0.5 % for
+// the density radius.
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 

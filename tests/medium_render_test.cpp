@@ -1,8 +1,8 @@
-// Media in balance with a uniform sky (scenes/furnace_medium.xml): radiance 1 outside and n^2 within, whatever scatters;
-// Beer's law; and paths of very many collisions.
+// Media in balance with a uniform sky (scenes/furnace_medium.xml): radiance 1 outside and n^2 within, whatever
+// scatters; Beer's law; and paths of very many collisions.
 //
-// A right render passes within 0.5 % or 3 standard errors (from 20 batches: two-sided Student t, 0.7 % a case); the seeds
-// are fixed. A render with a standard error above 1.5 % decides nothing and fails.
+// A right render passes within 0.5 % or 3 standard errors (from 20 batches: two-sided Student t, 0.7 % a case); the
+// seeds are fixed. A render with a standard error above 1.5 % decides nothing and fails.
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"

@@ -78,7 +78,8 @@ TEST(MediumSplit, TheShareStatedIsTheIntegralOfThePartBelow) {
             EXPECT_NEAR(decision.genuineDiffuseShare, henyeyGreensteinShare(g, autoPhaseLevel), 2e-5) << g;
         }
     }
-    // Rayleigh exceeds 0.1 where cos^2 > c^2 = 1.6 pi / 3 - 1, by two caps of 2 pi (3 / (16 pi) (1 + cos^2) - 0.1) each.
+    // Rayleigh exceeds 0.1 where cos^2 > c^2 = 1.6 pi / 3 - 1, by two caps of 2 pi (3 / (16 pi) (1 + cos^2) - 0.1)
+    // each.
     const double c = std::sqrt(1.6 * pi / 3 - 1);
     const double above = 2 * 2 * pi * ((3 / (16 * pi) - 0.1) * (1 - c) + 3 / (16 * pi) * (1 - c * c * c) / 3);
     EXPECT_NEAR(shareIn(decideMediumSplit(threeMedia(), "level:0.1", false).at(1).why) / 100, 1 - above, 6e-4);

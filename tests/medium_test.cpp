@@ -1,5 +1,6 @@
-// Homogeneous media: free flight against its mixture density, unbiased by channel, finite at the extremes; transmittance;
-// the medium beyond a surface. 110 chi-squared and z tests; false-alarm rate of the program 1e-4 (support/chi_squared.h).
+// Homogeneous media: free flight against its mixture density, unbiased by channel, finite at the extremes;
+// transmittance; the medium beyond a surface. 110 chi-squared and z tests; false-alarm rate of the program 1e-4
+// (support/chi_squared.h).
 #include "shared_types.h"
 #include "support/chi_squared.h"
 #include "support/test_kernels.h"

@@ -1,4 +1,5 @@
-// Memory is forecast before it is taken, of the device and of the process, and a render that does not fit does not start.
+// Memory is forecast before it is taken, of the device and of the process, and a render that does not fit does not
+// start.
 #include "support/program_runner.h"
 
 #include <algorithm>
@@ -93,8 +94,8 @@ TEST_F(MemoryTest, OfAnotherRenderDiffers) {
     EXPECT_FALSE(isClose(fewer.device, photons.device));
 }
 
-// Photons that weight windows split are forecast from a pilot of fewer paths, each of which carries more. A forecast that took these
-// for bright photons made room for 19 times as many here.
+// Photons that weight windows split are forecast from fewer paths, each of which carries more. A forecast that took
+// these for bright photons made room for 19 times as many here.
 TEST_F(MemoryTest, RoomForSplitPhotonsIsNearTheirNumber) {
     const Outcome outcome = CommandLineTest::run({"render", scene("real/daylight.xml"), "--quiet", "--passes", "2",
                                                   "--photons", "400000", "--stats", "stats.json"}); // learned

@@ -1,5 +1,5 @@
-// Tabulated phase functions and blends on the device, as the loader and host/prepare make them, against their formulas in
-// double: values, sampling against the density, eight at once, and the share that a level leaves genuine diffuse.
+// Tabulated phase functions and blends on the device, as the loader and host/prepare make them, against their formulas
+// in double: values, sampling against the density, eight at once, and the share that a level leaves genuine diffuse.
 // 3 chi-squared tests; false-alarm rate of the program 1e-4 (support/chi_squared.h).
 #include "prepare/device_scene.h"
 #include "prepare/scene_tables.h"

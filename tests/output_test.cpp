@@ -173,8 +173,8 @@ TEST_F(OutputTest, FailedWritesLeaveNothingBehind) {
     EXPECT_THAT(files(), testing::ElementsAre("b.exr"));
 }
 
-// A disk that is full, as far as a limit on files is like one: the reason is that of this failure, not of any before, and what was
-// there stays.
+// A disk that is full, as far as a limit on files is like one: the reason is that of this failure, not of any before,
+// and what was there stays.
 TEST_F(OutputTest, FullDiskIsNamedAndLeavesTheOldFile) {
     writeText(path("a.txt"), "old");
     rlimit before{};
@@ -227,8 +227,8 @@ TEST_F(OutputTest, AtomicFileLeavesNoThirdName) {
     EXPECT_THAT(files(), testing::UnorderedElementsAre("a", "a.previous"));
 }
 
-// Two that write one file by one temporary name, as two renders of one checkpoint do: until the first has renamed it the second can
-// neither write nor remove it.
+// Two that write one file by one temporary name, as two renders of one checkpoint do: until the first has renamed it
+// the second can neither write nor remove it.
 TEST_F(OutputTest, AtomicFileIsOnesUntilItHasItsName) {
     AtomicFile first(path("a"), path("a.tmp"));
     OutputStream stream(first, path("a"));

@@ -1,5 +1,5 @@
-// Flux in one word: the mean over all random bits is the flux, whatever its size; the codes are what native loops take them
-// for; and what is too large is reported.
+// Flux in one word: the mean over all random bits is the flux, whatever its size; the codes are what native loops take
+// them for; and what is too large is reported.
 //
 // Exact but for the random bits of photons, which are tested by chi squared, false alarm 1e-4 (support/chi_squared.h).
 #include "bench/micro/native_flux.h"

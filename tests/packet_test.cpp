@@ -16,8 +16,8 @@ std::vector<BvhPrimitive> everyKind() {
     return primitives;
 }
 
-/// Packets of rays alike but for small differences, packets of unlike rays, and packets of rays along the axes, of which the
-/// first five have one axis and the next five another, up and down.
+/// Packets of rays alike but for small differences, packets of unlike rays, and packets of rays along the axes, of
+/// which the first five have one axis and the next five another, up and down.
 Rays raysForPackets() {
     Rays rays = randomRays(60000, 33, 1.2f);
     const Rays noise = randomRays(rays.size(), 34, 0.1f);

@@ -1,4 +1,5 @@
-// Camera paths by pixel (CameraSampling::adaptive): how many each block has, whether the image is the same, and when the search chooses them.
+// Camera paths by pixel (CameraSampling::adaptive): how many each block has, whether the image is the same, and when
+// the search chooses them.
 #include "render/path_allocation.h"
 
 #include "support/fake_search.h"
@@ -75,8 +76,8 @@ TEST(PathAllocation, KeepsPathsEverywhere) {
     EXPECT_EQ(allocatePaths(few, 16).front(), 16u * 64);
 }
 
-// (16 + 1) / 2 of even sampling against ((4 + 1) / 2)^2 at the best, 1.36 times less; rounding and the paths that all have take a part of it.
-// Negative control: of noise that lies elsewhere the same paths leave more than even ones.
+// (16 + 1) / 2 of even sampling against ((4 + 1) / 2)^2 at the best, 1.36 times less; rounding and the paths that all
+// have take a part of it. Negative control: of noise that lies elsewhere the same paths leave more than even ones.
 TEST(PathAllocation, SavesVariance) {
     const auto counts = allocatePaths(halves(16, 1), 64);
     const double cost = costOf(halves(16, 1), counts) / (64.0 * side * side);
@@ -84,7 +85,8 @@ TEST(PathAllocation, SavesVariance) {
     EXPECT_LT(varianceSaved(halves(1, 16), counts, 64) / cost, 0.8) << "negative control";
 }
 
-// A pilot's two halves, a rare path met in one of them: what the other one says is saved is nothing. Negative control: judged by itself it saves much.
+// A noise probe's two halves, a rare path met in one of them: what the other one says is saved is nothing. Negative
+// control: judged by itself it saves much.
 TEST(PathAllocation, IsJudgedByWhatDidNotChooseIt) {
     PathNoise chose = halves(1, 1), other = halves(1, 1);
     chose.variance[3 * side + 3] = 1e4;
@@ -118,8 +120,9 @@ MeanAndError ratioOf(unsigned component, SamplingRule rule) {
     return meanAndError(ratios);
 }
 
-// The same light whatever the paths of a pixel, of each class. Within 5 standard errors of eight seeds (Student's t, two-sided: 0.16 % a class, 0.3 % in
-// all; the seeds are fixed, so a test that passes goes on passing). Negative control: the weight of an even number where the number differs.
+// The same light whatever the paths of a pixel, of each class. Within 5 standard errors of eight seeds (Student's t,
+// two-sided: 0.16 % a class, 0.3 % in all; the seeds are fixed, so a test that passes goes on passing). Negative
+// control: the weight of an even number where the number differs.
 TEST(PathAllocation, LeavesTheMean) {
     for (const unsigned component : {LIGHT_DIRECT, LIGHT_DIFFUSE}) {
         const MeanAndError right = ratioOf(component, SamplingRule::right);
@@ -144,7 +147,8 @@ FilmImage renderLarge(CameraSampling sampling, uint64_t seed, unsigned paths) {
     return renderer.develop();
 }
 
-// Blocks of several pixels, cut off at the edges of an image of 145 x 145: direct light of its right and lower quarter, as above (0.16 %).
+// Blocks of several pixels, cut off at the edges of an image of 145 x 145: direct light of its right and lower quarter,
+// as above (0.16 %).
 TEST(PathAllocation, LeavesTheMeanInLargerImages) {
     std::vector<double> ratios;
     const auto cornerOf = [](const FilmImage& image) {
@@ -188,7 +192,8 @@ CameraSampling chosen(const Truth& truth, Freedom freedom = ofSampling) {
     return found.settings.cameraSampling;
 }
 
-// 1.2 times less error at least, time counted; photons' noise is not lowered, and the pilot is to take little of the time.
+// 1.2 times less error at least, time counted; photons' noise is not lowered, and the probe is to take little of the
+// time.
 TEST(PathAllocation, IsChosenWhereItGains) {
     EXPECT_EQ(chosen(gaining(2, 1)), CameraSampling::adaptive);
     EXPECT_EQ(chosen(gaining(1.1, 1)), CameraSampling::even);

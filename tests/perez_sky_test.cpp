@@ -1,5 +1,6 @@
-// The all-weather sky of Perez et al. and weather files. Luminances of the model are held against the formulae of the papers written out in a
-// script of its own, for five skies from overcast to clear; integrals of images by their own sum.
+// The all-weather sky of Perez et al. and weather files. Luminances of the model are held against the formulae of the
+// papers written out in a script of its own, for five skies from overcast to clear; integrals of images by their own
+// sum.
 #include "scene/photometric_units.h"
 #include "scene/skies/perez_sky.h"
 #include "scene/skies/sky_image.h"
@@ -42,7 +43,8 @@ TEST(PerezSky, LuminancesAreThoseOfThePaper) {
     }
 }
 
-// What the papers say of skies: an overcast one falls towards the horizon, a clear one rises, and is brightest around the sun.
+// What the papers say of skies: an overcast one falls towards the horizon, a clear one rises, and is brightest around
+// the sun.
 TEST(PerezSky, LooksOvercastAndClear) {
     const PerezSky overcast = skyOf(cases[0]), clear = skyOf(cases[4]);
     EXPECT_LT(overcast.luminance(towards(-85)), overcast.luminance(towards(0)));
@@ -50,7 +52,8 @@ TEST(PerezSky, LooksOvercastAndClear) {
     EXPECT_GT(clear.luminance(towards(35)), 5 * clear.luminance(towards(-35)));
 }
 
-// 1990, figures: some 105 to 125 lm/W of an overcast sky, 130 to 145 of a blue one, and 95 to 105 of the sun's own light.
+// 1990, figures: some 105 to 125 lm/W of an overcast sky, 130 to 145 of a blue one, and 95 to 105 of the sun's own
+// light.
 TEST(PerezSky, EfficaciesAreThoseOfSkyAndSun) {
     EXPECT_NEAR(skyOf(cases[0]).diffuseEfficacy(), 97.24 - 0.46 * 2.0036 + 12 * 0.5 - 8.91 * std::log(0.14578), 0.01);
     EXPECT_NEAR(skyOf(cases[4]).diffuseEfficacy(), 137, 3);
@@ -99,7 +102,8 @@ TEST(WeatherFile, GivesTheHourAskedFor) {
     EXPECT_EQ(hour.radiation.dewPoint, 12.5);
 }
 
-// Cut off anywhere, and with bytes changed at random: read, or an error that names the file, and no number that is not finite.
+// Cut off anywhere, and with bytes changed at random: read, or an error that names the file, and no number that is not
+// finite.
 TEST(WeatherFile, AnyContentIsReadOrRefused) {
     uint32_t state = 1;
     const auto random = [&](size_t below) { return (state = state * 1664525 + 1013904223) / 65536 % below; };

@@ -78,7 +78,8 @@ TEST(Photometry, UpwardsIsWhatLeavesAboveTheHorizon) {
         ies.type = static_cast<int>(type);
         ies.vertical = type == 1 ? everyDegree(0, 180) : everyDegree(-90, 90);
         ies.horizontal = type == 1 ? std::vector<double>{0} : everyDegree(-90, 90);
-        // Type C: uplight of half the intensity, though 90 degrees is no angle of the file; the others look along the axis only.
+        // Type C: uplight of half the intensity, though 90 degrees is no angle of the file; the others look along the
+        // axis only.
         if (type == 1) ies.vertical.erase(ies.vertical.begin() + 90);
         ies.candela = [&](double v, double) { return type == 1 && v > 90 ? 50 : 100; };
         const Photometry figures = photometryOf(luminaireOf(ies));

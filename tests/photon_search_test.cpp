@@ -1,5 +1,5 @@
-// Searches of the photon index find what a search of all photons finds, each photon once, also where rows of cells share
-// the table or wrap around its end.
+// Searches of the photon index find what a search of all photons finds, each photon once, also where rows of cells
+// share the table or wrap around its end.
 //
 // No test here is statistical: photons are random but seeded, and what they are compared with is exact or in double.
 #include "bench/micro/native_flux.h"
@@ -212,7 +212,8 @@ std::vector<Photon> photonsAboutEye(const shared::RadiusField& field, float radi
     return photons;
 }
 
-/// Searches with the largest radii that are allowed; returns how many answers are wrong, `lit` how many photons were met.
+/// Searches with the largest radii that are allowed; returns how many answers are wrong, `lit` how many photons were
+/// met.
 unsigned faultsAboutEye(bool bothOctaves, size_t& lit) {
     PhotonIndexSettings settings = settingsOfFlux();
     settings.field = fieldAboutEye();

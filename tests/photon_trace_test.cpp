@@ -1,5 +1,5 @@
-// Photons carry the emitted flux: in the closed furnace (scenes/furnace_split.xml, reflectance 0.3 genuine diffuse + 0.3
-// quasi-specular) the flux deposited by class is known in closed form, in units of the emitted flux P:
+// Photons carry the emitted flux: in the closed furnace (scenes/furnace_split.xml, reflectance 0.3 genuine diffuse +
+// 0.3 quasi-specular) the flux deposited by class is known in closed form, in units of the emitted flux P:
 //     direct P,   quasi-caustic P (0.3 + 0.3^2 + …) = P 0.3 / 0.7,   all together P / (1 - 0.6).
 // All within 4 standard errors of 12 passes (Student t with 11 degrees
 // of freedom: 0.2 % a case); seeds are fixed.

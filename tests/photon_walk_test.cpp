@@ -1,12 +1,12 @@
 // Photons that walk through a medium by eight (kernels/photon_walk.clh) do what they do on their own: the same numbers
 // are drawn, so paths differ by rounding only, which grows from collision to collision. And thinning keeps the mean.
 //
-// Walks are compiled on every device here (-DWALK_ANYWHERE); photons on their own by the option that the kernels have for
-// devices without AVX.
+// Walks are compiled on every device here (-DWALK_ANYWHERE); photons on their own by the option that the kernels have
+// for devices without AVX.
 //
 // Deterministic: photons of the first collisions, of which 99 % must agree to 0.002 mm; with another seed (the negative
-// control) next to none does. Statistical: flux by class, the mean of 12 passes of the ratio of two runs that share their
-// paths, within 4 standard errors of 1 (Student t with 11 degrees of freedom: 0.2 % a case); seeds are fixed.
+// control) next to none does. Statistical: flux by class, the mean of 12 passes of the ratio of two runs that share
+// their paths, within 4 standard errors of 1 (Student t with 11 degrees of freedom: 0.2 % a case); seeds are fixed.
 #include "support/render_statistics.h"
 #include "support/stored_photons.h"
 #include "support/traversal_device.h"
@@ -80,7 +80,8 @@ TEST(PhotonWalk, AbreastPhotonsDoWhatTheyDoOnTheirOwn) {
     EXPECT_LT(sharePaired(abreast()[0][first], otherSeed[0][first]), 0.01) << "any photon would have a partner";
 }
 
-// Negative controls: flights that end beyond the border taken for collisions; the phase function's value the wrong way round.
+// Negative controls: flights that end beyond the border taken for collisions; the phase function's value the wrong way
+// round.
 TEST(PhotonWalk, WrongWalksAreFound) {
     const StoredPasses alone = trace({onTheirOwn});
     const unsigned slot = VOLUME_SLOT(LIGHT_DIFFUSE);

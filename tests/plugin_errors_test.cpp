@@ -1,4 +1,5 @@
-// Parameters of bsdfs, emitters, sensors, films and integrators that are wrong are refused at their place, with what was expected.
+// Parameters of bsdfs, emitters, sensors, films and integrators that are wrong are refused at their place, with what
+// was expected.
 #include "support/bad_scenes.h"
 
 namespace quasilux {

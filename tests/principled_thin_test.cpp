@@ -1,6 +1,6 @@
-// <bsdf type="principledthin">: its transmitting lobes against their formulas in double, their samplers against their densities, and sheets by
-// photons as by emitter sampling. False-alarm rate of the tests of samplers 1e-4 together; renders are held to 4 standard errors of 10 batches
-// (Student t: 0.3 % each) plus 0.5 %. Seeds are fixed.
+// <bsdf type="principledthin">: its transmitting lobes against their formulas in double, their samplers against their
+// densities, and sheets by photons as by emitter sampling. False-alarm rate of the tests of samplers 1e-4 together;
+// renders are held to 4 standard errors of 10 batches (Student t: 0.3 % each) plus 0.5 %. Seeds are fixed.
 #include "scene/bsdfs/bsdf_plugin.h"
 #include "support/chi_squared.h"
 #include "support/lobe_cases.h"

@@ -1,6 +1,6 @@
 // Projectors: their picture (values of Mitsuba 3.9.1), photons, light on a floor, and reading.
-// False-alarm rate of the tests of samplers 1e-4 together; renders are held to 4 standard errors of 10 batches (Student t: 0.3 % each).
-// Seeds are fixed.
+// False-alarm rate of the tests of samplers 1e-4 together; renders are held to 4 standard errors of 10 batches (Student
+// t: 0.3 % each). Seeds are fixed.
 #include "support/chi_squared.h"
 #include "support/scene_files.h"
 #include "support/textured_emitters.h"
@@ -96,7 +96,8 @@ TEST(Projector, PhotonsAreEvenOnThePictureAndCarryTheIntensity) {
     }
 }
 
-/// A floor of albedo 0.5, on which a projector at height 2 throws two halves; the image lies within the bright one, away from its edges.
+/// A floor of albedo 0.5, on which a projector at height 2 throws two halves; the image lies within the bright one,
+/// away from its edges.
 Scene floorUnderProjector() {
     test::SceneFiles files;
     writeFloats(files.path("halves.exr"), 2, 2, {2, 2, 2, 0.25f, 0.25f, 0.25f, 2, 2, 2, 0.25f, 0.25f, 0.25f});

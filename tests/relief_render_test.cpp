@@ -1,7 +1,7 @@
-// Normal and bump maps against closed forms: one point light, a diffuse sheet whose normal is bent alike everywhere, seen by
-// samples of the light and by photons.
-// A right case passes within 3 standard errors of 10 batches (Student t, 1.5 % a case; seeds are fixed) plus 0.5 % for the
-// density radius.
+// Normal and bump maps against closed forms: one point light, a diffuse sheet whose normal is bent alike everywhere,
+// seen by samples of the light and by photons.
+// A right case passes within 3 standard errors of 10 batches (Student t, 1.5 % a case; seeds are fixed) plus 0.5 % for
+// the density radius.
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"

@@ -81,8 +81,8 @@ TEST_F(ReportTest, IsOnePageWithAllParts) {
         EXPECT_FALSE(holds(page, wrong)) << wrong;
 }
 
-// Over the floor alone nothing comes back from above: illuminance is the panel's direct light, at the middle of the grid as of a point to 2 %, and
-// the eye's indirect light is that of the floor.
+// Over the floor alone nothing comes back from above: illuminance is the panel's direct light, at the middle of the
+// grid as of a point to 2 %, and the eye's indirect light is that of the floor.
 TEST_F(ReportTest, ItsFiguresHold) {
     const auto figures = figuresOf({"--time", "2"});
     const auto& measured = figures["grids"][0];

@@ -124,7 +124,8 @@ TEST(Rng, pathHasItsNumbersWhateverTheLaunch) {
     EXPECT_EQ(all, draw(9, 2, 1, 0, 4096, 8));
 }
 
-// Largest difference, over intervals that begin at 0, between how often numbers from any pass on are in it and how often they should.
+// Largest difference, over intervals that begin at 0, between how often numbers from any pass on are in it and how
+// often they should.
 double largestExcess(const std::vector<float>& numbers, unsigned passes) {
     double largest = 0;
     for (size_t first = 0; first + passes <= numbers.size(); first += 37)
@@ -136,7 +137,8 @@ double largestExcess(const std::vector<float>& numbers, unsigned passes) {
     return largest;
 }
 
-// An emitter that is chosen with probability 0.05 has its share of the passes, not a binomial number of them. Nothing is left to chance.
+// An emitter that is chosen with probability 0.05 has its share of the passes, not a binomial number of them. Nothing
+// is left to chance.
 TEST(Rng, ChoicesOfEmittersAreEvenOverThePasses) {
     Buffer<float> result(testDevice(), 1000, "numbers");
     for (const unsigned shift : {0u, 123456789u, 4000000000u}) {
@@ -156,7 +158,8 @@ std::vector<float> drawNets(uint64_t seed, unsigned paths, unsigned place, unsig
     return result.read();
 }
 
-// Is one of the `size` points from `first` on in each of the boxes 1 / columns wide and columns / size high of two of their six numbers?
+// Is one of the `size` points from `first` on in each of the boxes 1 / columns wide and columns / size high of two of
+// their six numbers?
 bool isEven(const std::vector<float>& numbers, unsigned first, unsigned size, unsigned columns, size_t x, size_t y) {
     const unsigned rows = size / columns;
     std::vector<unsigned> counts(size);
@@ -216,7 +219,8 @@ TEST(Rng, PointsOfNetsAreUniformAndIndependent) {
     expectEven(0, 4);
 }
 
-// Largest |mean of exp(2 pi i (h a + k b))| over small h, k: 1 where the pairs (a, b) keep to lines, however many they are.
+// Largest |mean of exp(2 pi i (h a + k b))| over small h, k: 1 where the pairs (a, b) keep to lines, however many they
+// are.
 double largestWave(const std::vector<float>& numbers, size_t a, size_t b, size_t stride = sequences) {
     const size_t count = numbers.size() / stride;
     double largest = 0;
@@ -231,8 +235,8 @@ double largestWave(const std::vector<float>& numbers, size_t a, size_t b, size_t
     return largest;
 }
 
-// Two sequences by the same step once let a pixel's first flight decide which emitter it sampled: each seed converged to another image, 20 %
-// off behind a cloud. Nothing is left to chance.
+// Two sequences by the same step once let a pixel's first flight decide which emitter it sampled: each seed converged
+// to another image, 20 % off behind a cloud. Nothing is left to chance.
 TEST(Rng, SequencesOfAPixelDoNotFollowEachOther) {
     const unsigned passes = 1 << 14;
     Buffer<float> result(testDevice(), sequences * passes, "sequences");

@@ -1,9 +1,9 @@
-// Rough glass in the renderer, against closed forms: a sky of radiance 1 seen in one rough interface, which is the sum of the lobe's
-// shares, and in a ball, which solves a linear equation (support/rough_interface.h). Photons, emitter sampling and sampled
-// paths must all give it, and every split between quasi-specular and genuine diffuse.
+// Rough glass in the renderer, against closed forms: a sky of radiance 1 seen in one rough interface, which is the sum
+// of the lobe's shares, and in a ball, which solves a linear equation (support/rough_interface.h). Photons, emitter
+// sampling and sampled paths must all give it, and every split between quasi-specular and genuine diffuse.
 //
-// False alarms: within 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case) plus 0.5 % for the density
-// radius; the seeds are fixed, so a case that passes goes on passing.
+// False alarms: within 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case) plus 0.5 % for the
+// density radius; the seeds are fixed, so a case that passes goes on passing.
 #include "bsdf/lobe_list.h"
 #include "support/render_statistics.h"
 #include "support/rough_interface.h"
@@ -152,7 +152,8 @@ TEST_P(RoughGlass, BesideItALambertLobeStaysOneSided) {
 
 constexpr auto emitters = DirectLight::emitters;
 constexpr auto photons = DirectLight::photons;
-// Both distributions under emitter sampling, photons and a split: what else they differ in, rough_dielectric_test knows.
+// Both distributions under emitter sampling, photons and a split: what else they differ in, rough_dielectric_test
+// knows.
 INSTANTIATE_TEST_SUITE_P(Methods, RoughGlass,
                          testing::Values(Method{"StandardBdd0", 0, Variant::main, "none", emitters},
                                          Method{"StandardBdd0Photons", 0, Variant::main, "none", photons, true},
@@ -182,8 +183,9 @@ MeanAndError renderFloor(const Method& method, float transmittance = 1) {
     return render(scene, method, 0.5, 30);
 }
 
-// Forward, backward and split transport agree where photons that the glass has sent on land on another surface. Within 3.5 combined
-// standard errors (two-sided, Student t with about 18 degrees of freedom: 0.3 % a case) plus 0.5 % for the density radius.
+// Forward, backward and split transport agree where photons that the glass has sent on land on another surface. Within
+// 3.5 combined standard errors (two-sided, Student t with about 18 degrees of freedom: 0.3 % a case) plus 0.5 % for the
+// density radius.
 TEST(RoughGlassOverAFloor, IsTheSameForwardBackwardAndSplit) {
     const auto backward = renderFloor({"", 20, Variant::main, "none", emitters});
     const auto bound = [&](const MeanAndError& other) {

@@ -1,6 +1,6 @@
-// Rough dielectrics as lobes: their formula in double, reciprocity between the two sides, samples against the density over the
-// whole sphere, energy of both parts, flux against radiance, and the limit of a smooth surface. False-alarm rate of the
-// program 1e-4 (support/chi_squared.h).
+// Rough dielectrics as lobes: their formula in double, reciprocity between the two sides, samples against the density
+// over the whole sphere, energy of both parts, flux against radiance, and the limit of a smooth surface. False-alarm
+// rate of the program 1e-4 (support/chi_squared.h).
 #include "bsdf/lobe_list.h"
 #include "support/float_rounding.h"
 #include "support/rough_interface.h"

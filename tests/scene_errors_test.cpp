@@ -1,5 +1,5 @@
-// Every kind of bad input is refused at its place, with what is wrong and what was expected: names, values, references, files, settings. Of
-// plugins: plugin_errors_test.
+// Every kind of bad input is refused at its place, with what is wrong and what was expected: names, values, references,
+// files, settings. Of plugins: plugin_errors_test.
 #include "support/bad_scenes.h"
 
 namespace quasilux {

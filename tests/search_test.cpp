@@ -1,5 +1,5 @@
-// The search among settings (docs/method/auto.md) on pilots made up here, whose errors and costs are known, by a clock that only their
-// passes move. Nothing is left to chance.
+// The search among settings (docs/method/auto.md) on pilots made up here, whose errors and costs are known, by a clock
+// that only their passes move. Nothing is left to chance.
 #include "auto/search.h"
 #include "render/method.h"
 #include "render/pass_params.h"
@@ -40,7 +40,8 @@ TEST(Search, FindsWhatIsBetter) {
     EXPECT_THAT(found.report.line(), HasSubstr("auto: BDD 1, main, split none"));
 }
 
-// What was interrupted before anything was compared says so, and not that there was no time; once settings are chosen they are that.
+// What was interrupted before anything was compared says so, and not that there was no time; once settings are chosen
+// they are that.
 TEST(Search, SaysThatItWasInterrupted) {
     const World world = [](const RenderSettings&) { return Truth{}; };
     const Freedom all{true, true, true, true, true};
@@ -64,8 +65,8 @@ TEST(Search, FindsWhatIsBetterOnlyTogether) {
     EXPECT_EQ(found.settings.quasiSpecular, "all");
 }
 
-// Methods that come to the same are one: with the main variant following everything is the standard method, and that knows
-// no variants. By the other variant it has nothing that BDD would count.
+// Methods that come to the same are one: with the main variant following everything is the standard method, and that
+// knows no variants. By the other variant it has nothing that BDD would count.
 TEST(Search, MethodsAreDistinct) {
     const Scene scene = projectScene("cornell_phong.xml");
     std::vector<std::string> names;
@@ -83,8 +84,8 @@ std::string optionsOf(const Scene& scene, const RenderSettings& method) {
     return kernelOptions(flat, method);
 }
 
-// Kernels are made for the classes of photons that any method stores; the sky's direct light, which only genuine diffuse lobes take from
-// photons, is in those of splits without such lobes too.
+// Kernels are made for the classes of photons that any method stores; the sky's direct light, which only genuine
+// diffuse lobes take from photons, is in those of splits without such lobes too.
 TEST(Search, MethodsShareKernels) {
     for (const char* name : {"cornell_phong.xml", "../tests/scenes/compare/roughplastic.xml"}) {
         SCOPED_TRACE(name);
@@ -136,7 +137,8 @@ TEST(Search, ComparesWithTheCameraPathsThatServeEachBest) {
     EXPECT_EQ(withOne.settings.cameraPaths, 1u);
 }
 
-// There is time for the first method alone, but the noise of its own passes says that more paths serve the image: three quarters of it are theirs.
+// There is time for the first method alone, but the noise of its own passes says that more paths serve the image: three
+// quarters of it are theirs.
 TEST(Search, ChoosesCameraPathsWithoutTimeForOthers) {
     const auto worldOf = [](double shareOfPhotonSeconds, double noiseOfPhotons, double secondsToPrepare = 0) -> World {
         return [=](const RenderSettings&) {
@@ -153,7 +155,8 @@ TEST(Search, ChoosesCameraPathsWithoutTimeForOthers) {
     EXPECT_EQ(found.report.rows.size(), 1u);
     EXPECT_GT(found.settings.cameraPaths, 1u);
     EXPECT_EQ(found.report.rows[0].settings.cameraPaths, found.settings.cameraPaths);
-    // Controls: photons have the noise; camera paths, opening another pilot or passes are so dear that none is to be lost.
+    // Controls: photons have the noise; camera paths, opening another pilot or passes are so dear that none is to be
+    // lost.
     EXPECT_EQ(search(worldOf(0.8, 1), 20, methodsAndPaths).settings.cameraPaths, 1u);
     EXPECT_EQ(search(worldOf(0.2, 0.25), 20, methodsAndPaths).settings.cameraPaths, 1u);
     EXPECT_EQ(search(worldOf(0.8, 0.25, 2), 20, methodsAndPaths).settings.cameraPaths, 1u);
@@ -186,7 +189,8 @@ TEST(Search, IsNotTakenInByFewLuckyPasses) {
     EXPECT_EQ(search(world, 200).settings.bdd, 1u);
 }
 
-// The better half goes on with more passes; what has over four times the least error does not, whatever the others have.
+// The better half goes on with more passes; what has over four times the least error does not, whatever the others
+// have.
 TEST(Search, TheBetterHalfGoesOn) {
     const auto passesOfOthers = [](double noiseOfOthers) {
         const World world = [=](const RenderSettings& s) {
@@ -238,8 +242,8 @@ TEST(Search, GoesOnWithoutOneThatFails) {
         }
 }
 
-// All fail but for the first passes, which tell what passes cost: the render is that of the start. One that cannot be opened at all
-// is as good as one that fails.
+// All fail but for the first passes, which tell what passes cost: the render is that of the start. One that cannot be
+// opened at all is as good as one that fails.
 TEST(Search, KeepsTheStartWhereAllFail) {
     for (const unsigned pass : {3u, 4u}) {
         const Found found = search([=](const RenderSettings&) { return Truth{0.1, 1, 0, 0, 0, pass}; }, 400);

@@ -1,8 +1,8 @@
 // Shading normals that disagree with the geometry: light traced forwards must be the adjoint of importance traced
 // backwards (Veach 1997, sec. 5.3). A reflector is flat, its shading normal leans 40 degrees to a screen beside it.
 //
-// The screen's light comes by way of the reflector: with BDD 0 as photons that the reflector has scattered, with BDD 1 as
-// camera paths that scatter at it. The reflector's own light: from samples of the emitter, or from direct photons.
+// The screen's light comes by way of the reflector: with BDD 0 as photons that the reflector has scattered, with BDD 1
+// as camera paths that scatter at it. The reflector's own light: from samples of the emitter, or from direct photons.
 // Two right renders agree within 3 standard errors (10 batches each: 0.7 % of pairs would fail for unlucky seeds, which
 // are fixed) plus 0.5 % for the density radius.
 #include "support/placed_scenes.h"
@@ -19,7 +19,8 @@ namespace {
 
 using test::PhotonRule;
 
-/// What makes the normal lean: normals of the mesh, or a normal map; `away` from the screen, to which it is turned over then.
+/// What makes the normal lean: normals of the mesh, or a normal map; `away` from the screen, to which it is turned over
+/// then.
 enum class Lean { vertices, map, mapAway };
 
 std::string reflector(const test::SceneFiles& files, Lean lean) {

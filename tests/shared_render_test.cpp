@@ -1,5 +1,5 @@
-// One render on several devices: the sum of the same passes, whichever fail (docs/reference/reliability.md). The halves of one device are
-// two; a library between the program and OpenCL makes one of them bad (shims/bad_device.cpp).
+// One render on several devices: the sum of the same passes, whichever fail (docs/reference/reliability.md). The halves
+// of one device are two; a library between the program and OpenCL makes one of them bad (shims/bad_device.cpp).
 #include "support/image_difference.h"
 #include "support/lit_plate.h"
 #include "support/program_runner.h"
@@ -86,7 +86,8 @@ TEST_F(SharedRenderTest, IsTheSumOfTheSamePasses) {
     EXPECT_GT(largestDifference(imageOf("a.exr").radiance, whole("1:801").radiance), 1e-6);
 }
 
-// As long as radii are being chosen, one device renders alone; passes need not begin with the first, nor end with a batch.
+// As long as radii are being chosen, one device renders alone; passes need not begin with the first, nor end with a
+// batch.
 TEST_F(SharedRenderTest, FewPassesAndRangesAreTheSame) {
     for (const char* passes : {"3", "18", "6:47"}) {
         summaryOf(shared({"-o", "a.exr", "--passes", passes}));

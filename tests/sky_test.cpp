@@ -1,7 +1,7 @@
 // Scenes whose only light is the sky, against closed forms: the white furnace, and convex objects under direct light.
 //
-// False alarms: within 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case) plus 0.5 % for the density
-// radius; the seeds are fixed, so a case that passes goes on passing.
+// False alarms: within 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case) plus 0.5 % for the
+// density radius; the seeds are fixed, so a case that passes goes on passing.
 #include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
 #include "support/render_statistics.h"

@@ -1,11 +1,12 @@
 // Turbid plates against adding-doubling and published values (support/slab_cases.cpp), for each way to split the phase
 // function, both variants of the law, and BDD 0 and 1.
 //
-// A right render passes within 0.5 % or 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case); the seeds
-// are fixed, so a case that passes goes on passing. A render with a standard error above 2 % decides nothing and fails.
+// A right render passes within 0.5 % or 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case); the
+// seeds are fixed, so a case that passes goes on passing. A render with a standard error above 2 % decides nothing and
+// fails.
 //
-// QUASILUX_SLAB_TABLE=N in the environment runs every slab with every method instead, N passes a batch, and prints a row
-// of figures for each.
+// QUASILUX_SLAB_TABLE=N in the environment runs every slab with every method instead, N passes a batch, and prints a
+// row of figures for each.
 #include "support/slab_cases.h"
 #include "support/wrong_rules.h"
 

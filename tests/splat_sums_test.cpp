@@ -1,4 +1,5 @@
-// Sums of splats are exact integer sums, whatever the order, with and without 64-bit atomics; leaving the range is noticed.
+// Sums of splats are exact integer sums, whatever the order, with and without 64-bit atomics; leaving the range is
+// noticed.
 #include "support/test_kernels.h"
 
 #include <cmath>

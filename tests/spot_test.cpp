@@ -1,6 +1,6 @@
-// Spots: falloff and texture (values of Mitsuba 3.9.1), photons, light through openings, and reading; and emitters that the camera does not see.
-// False-alarm rate of the tests of samplers 1e-4 together; renders are held to 4 standard errors of 10 batches (Student t: 0.3 % each).
-// Seeds are fixed.
+// Spots: falloff and texture (values of Mitsuba 3.9.1), photons, light through openings, and reading; and emitters that
+// the camera does not see. False-alarm rate of the tests of samplers 1e-4 together; renders are held to 4 standard
+// errors of 10 batches (Student t: 0.3 % each). Seeds are fixed.
 #include "prepare/device_scene.h"
 #include "support/chi_squared.h"
 #include "support/emitter_cases.h"
@@ -40,7 +40,8 @@ double shareAt(const Cone& cone, double angle) {
 }
 
 TEST(SpotEmitter, FallsOffAsInMitsuba) {
-    // sample_direction of mitsuba 3.9.1, scalar_rgb, times distance squared: cutoff_angle 20 (beam_width 15), then 100 and 10.
+    // sample_direction of mitsuba 3.9.1, scalar_rgb, times distance squared: cutoff_angle 20 (beam_width 15), then 100
+    // and 10.
     const std::pair<Cone, std::vector<std::pair<double, double>>> expected[] = {
         {cones[0], {{0, 1}, {10, 1}, {14.9, 1}, {15.1, 0.98}, {16, 0.8}, {18, 0.4}, {19.9, 0.02}, {20.1, 0}}},
         {cones[2], {{0, 1}, {9, 1}, {50, 0.5555556}, {95, 0.05555554}, {101, 0}}}};
@@ -213,7 +214,8 @@ TEST(SpotRender, FloorUnderAPictureHasTheMeanOfItsHalves) {
 }
 
 TEST(HiddenEmitters, CameraLooksThroughThemAndSeesNoSky) {
-    // A lamp above the spot, which shines upwards and shades nothing, and a sky of which the floor's light is known too.
+    // A lamp above the spot, which shines upwards and shades nothing, and a sky of which the floor's light is known
+    // too.
     const std::string lamp =
         R"(<shape type="rectangle"><transform name="to_world"><scale value="2"/><translate z="3"/></transform>
         <emitter type="area"><rgb name="radiance" value="100"/></emitter></shape>)";

@@ -1,5 +1,6 @@
-// Where the sun stands, against the published example of NREL's solar position algorithm (Reda & Andreas, NREL/TP-560-34302, 2004) and against
-// values of the algorithm itself as the Python package pvlib 0.16.1 has it (spa.solar_position_numpy, without refraction).
+// Where the sun stands, against the published example of NREL's solar position algorithm (Reda & Andreas,
+// NREL/TP-560-34302, 2004) and against values of the algorithm itself as the Python package pvlib 0.16.1 has it
+// (spa.solar_position_numpy, without refraction).
 #include "scene/skies/sun_position.h"
 
 #include <cmath>

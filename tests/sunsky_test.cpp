@@ -1,6 +1,6 @@
-// <emitter type="sunsky">: radiances against Mitsuba 3.9.1's own (variant scalar_rgb, method eval of the emitter), irradiances of the image and
-// of a grid, where the sun stands, and reading. The render is held to 4 standard errors (0.3 %, Student t) with a known noise; its seed is
-// fixed.
+// <emitter type="sunsky">: radiances against Mitsuba 3.9.1's own (variant scalar_rgb, method eval of the emitter),
+// irradiances of the image and of a grid, where the sun stands, and reading. The render is held to 4 standard errors
+// (0.3 %, Student t) with a known noise; its seed is fixed.
 #include "output/meter_reading.h"
 #include "prepare/environment.h"
 #include "scene/skies/hosek_wilkie.h"
@@ -89,8 +89,8 @@ const SunCase sunCases[] = {
     {true, 1, 89, 0.2, {23033.94, 19558.72, 15426.59}},
 };
 
-// Its data here are those at the ends of the published pieces, with a cubic between: that costs up to 0.3 % of a low, hazy sun. Mitsuba's mean
-// over the disc is by its own quadrature.
+// Its data here are those at the ends of the published pieces, with a cubic between: that costs up to 0.3 % of a low,
+// hazy sun. Mitsuba's mean over the disc is by its own quadrature.
 TEST(HosekWilkie, SunIsMitsubas) {
     for (const SunCase& c : sunCases) {
         const HosekWilkieSun sun(c.turbidity);
@@ -168,7 +168,8 @@ dvec3 brightestDirection(const Surroundings& surroundings) {
     return glm::normalize(image.axes * dvec3(sum.x, sum.z, -sum.y));
 }
 
-// Mitsuba 3.9.1, mean of sampled directions of its sun. Its days are in single precision, which moves its sun by up to 0.05 degrees.
+// Mitsuba 3.9.1, mean of sampled directions of its sun. Its days are in single precision, which moves its sun by up to
+// 0.05 degrees.
 TEST(SunSky, SunStandsWhereMitsubaPutsIt) {
     const auto degreesFrom = [](const dvec3& a, const dvec3& b) {
         return std::asin(glm::length(glm::cross(a, glm::normalize(b)))) / degree;

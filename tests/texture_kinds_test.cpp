@@ -68,8 +68,8 @@ TEST(MeshAttribute, IsInterpolatedAsInMitsuba) {
     }
 }
 
-/// A grid over [-1, 1]^3 whose colours are linear between the centres of its 2 x 2 x 2 voxels: (x, y, z) in [0.1, 0.9]^3 of places in
-/// [-1/2, 1/2]^3, and the value of the nearest of those beyond.
+/// A grid over [-1, 1]^3 whose colours are linear between the centres of its 2 x 2 x 2 voxels: (x, y, z) in [0.1,
+/// 0.9]^3 of places in [-1/2, 1/2]^3, and the value of the nearest of those beyond.
 std::string colorCube(const SceneFiles& files, const std::string& parameters = "") {
     std::vector<float> values;
     for (int k = 0; k < 8; ++k)

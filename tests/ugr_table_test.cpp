@@ -1,4 +1,5 @@
-// UGR of a rendered room against the tabular method of CIE 117 and CIE 190: a room of 4 H x 8 H with reflectances of 70, 50 and 20 %, luminaires
+// UGR of a rendered room against the tabular method of CIE 117 and CIE 190: a room of 4 H x 8 H with reflectances of
+// 70, 50 and 20 %, luminaires
 // 0.25 H apart, eyes in the middle of two walls. docs/notes/validation.md has the figures.
 #include "support/eye_readings.h"
 #include "support/luminaire_files.h"
@@ -69,8 +70,9 @@ double oppositeFormFactor(double height) {
             x * std::atan(x) - y * std::atan(y));
 }
 
-/// Indirect illuminance of the walls, lx, with the light of ceiling, walls and floor each spread evenly, as the transfer factors of CIE 40 and
-/// CIE 52 have it; `height`: from the luminaires to the floor, or, in the tables, to the eye.
+/// Indirect illuminance of the walls, lx, with the light of ceiling, walls and floor each spread evenly, as the
+/// transfer factors of CIE 40 and CIE 52 have it; `height`: from the luminaires to the floor, or, in the tables, to the
+/// eye.
 double indirectOnWalls(double height) {
     const double floorArea = width * depth, wallArea = 2 * height * (width + depth);
     const double down = directFlux(height), lamps = (width / spacing) * (depth / spacing);

@@ -1,5 +1,5 @@
-// Scenes of others (`--untrusted`): no file outside of their folder, and limits on what they take while they are loaded. Hostile ones are
-// refused at file:line:column, with the limit and what to do.
+// Scenes of others (`--untrusted`): no file outside of their folder, and limits on what they take while they are
+// loaded. Hostile ones are refused at file:line:column, with the limit and what to do.
 #include "support/program_runner.h"
 #include "support/scene_files.h"
 #include "support/vol_files.h"
@@ -188,8 +188,8 @@ TEST_F(Untrusted, LimitsAreNamed) {
                 HasSubstr("--limit seconds=N"));
 }
 
-// Where a scene cannot be read about the origin of its file it is read about its sensor; one that is refused is not, and one whose sensor is far off
-// counts each image once.
+// Where a scene cannot be read about the origin of its file it is read about its sensor; one that is refused is not,
+// and one whose sensor is far off counts each image once.
 TEST_F(Untrusted, LimitsHoldWhereTheSensorIsFarOff) {
     const auto loadFrom = [&](const std::string& x, const std::string& body, const LoadLimits& limits) {
         put("scene/scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"><transform name=\"to_world\">"

@@ -167,7 +167,8 @@ TEST(Edits, DeeplyNestedAreRefused) {
     EXPECT_EQ(parseEdits(std::string("{\"bdd\":2}")).bdd, 2u); // control
 }
 
-// However slow the machine is, pictures of a large film come as often as they may and take 3 % of the time, by fewer pixels.
+// However slow the machine is, pictures of a large film come as often as they may and take 3 % of the time, by fewer
+// pixels.
 TEST(FramePace, PicturesHaveAsManyPixelsAsTimeAllows) {
     using Seconds = std::chrono::duration<double>;
     const auto pauseOf = [](double secondsPerPixel) {

@@ -1,5 +1,5 @@
-// What a scene file says of volumes in media: values, defaults, places; and what is refused, hostile files too, at the line
-// that names them.
+// What a scene file says of volumes in media: values, defaults, places; and what is refused, hostile files too, at the
+// line that names them.
 #include "support/scene_files.h"
 #include "support/vol_files.h"
 

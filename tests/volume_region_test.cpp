@@ -1,6 +1,7 @@
-// Balls of density estimates in media, cut at the boundary or where extinction varies: what they make of light that is the same everywhere or
-// varies linearly, integrated over the medium on the host. Weights follow from 48 directions that are turned at random, so means over 256
-// regions are compared; the numbers are fixed, so the outcome is too. Controls: weights without slopes.
+// Balls of density estimates in media, cut at the boundary or where extinction varies: what they make of light that is
+// the same everywhere or varies linearly, integrated over the medium on the host. Weights follow from 48 directions
+// that are turned at random, so means over 256 regions are compared; the numbers are fixed, so the outcome is too.
+// Controls: weights without slopes.
 #include "prepare/device_scene.h"
 #include "render/geometry_buffers.h"
 #include "render/method.h"
@@ -82,7 +83,8 @@ std::vector<RegionWeights> regionsAt(const DeviceScene& flat, dvec3 p, const std
     return regions.read();
 }
 
-/// What light of 1 everywhere comes to, and where its mean lies, in units of the radius; by the kernel and by its square.
+/// What light of 1 everywhere comes to, and where its mean lies, in units of the radius; by the kernel and by its
+/// square.
 struct Response {
     double one = 0, oneOfSquare = 0;
     dvec3 place{0}, placeOfSquare{0};

@@ -1,8 +1,8 @@
-// Whatever was learned before pass 0 (docs/method/learning.md), means stay and weights are bounded: closed forms with learning turned against
-// the scene, a lamp that importance paths never find, the flux of photons.
+// Whatever was learned before pass 0 (docs/method/learning.md), means stay and weights are bounded: closed forms with
+// learning turned against the scene, a lamp that importance paths never find, the flux of photons.
 //
-// False alarms: readings are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case), and 0.5 % for density radii where
-// these take part; the seeds are fixed.
+// False alarms: readings are held to 4 standard errors of 10 or 12 batches (Student t: 0.3 % a case), and 0.5 % for
+// density radii where these take part; the seeds are fixed.
 #include "learn/guide.h"
 #include "render/renderer.h"
 #include "scene/color.h"
@@ -45,7 +45,8 @@ struct ClosedForm {
 // Printed where a case fails.
 void PrintTo(const ClosedForm& form, std::ostream* stream) { *stream << form.name; }
 
-// CIE 171, 5.4 and 5.8: the surfaces of a closed room of 80 m2 and reflectance 0.5 receive 10,000 lm / (80 m2 (1 - 0.5)).
+// CIE 171, 5.4 and 5.8: the surfaces of a closed room of 80 m2 and reflectance 0.5 receive 10,000 lm / (80 m2 (1 -
+// 0.5)).
 Scene closedRoom() {
     return test::meterScene(
         "<emitter type=\"point\"><point name=\"position\" value=\"1,2.5,2\"/>"
@@ -120,7 +121,8 @@ TEST(WrongLearning, PhotonsThatAreNotStoredAreMadeUpFor) {
 
 // --- bounds ---
 
-// A tenth of the photons begins evenly, so none has more than ten times the flux of a plain one, times the emitter's sources.
+// A tenth of the photons begins evenly, so none has more than ten times the flux of a plain one, times the emitter's
+// sources.
 TEST(GuideBounds, NoLeafOutweighsPlainEmission) {
     const DeviceScene flat = flattenScene(projectScene("furnace_split.xml"));
     const auto heaviest = [&](const GuideTables& guide) {
@@ -161,8 +163,8 @@ TEST(GuideBounds, NoLeafOutweighsPlainEmission) {
 
 // --- a lamp that no importance path finds ---
 
-// A patch at the origin is lit by a point lamp by way of two mirrors alone, as if from 22 above it; a lamp beside it, with all that
-// importance paths find, is ten times as strong. Radiance of the patch: reflectance / pi * I / 22^2.
+// A patch at the origin is lit by a point lamp by way of two mirrors alone, as if from 22 above it; a lamp beside it,
+// with all that importance paths find, is ten times as strong. Radiance of the patch: reflectance / pi * I / 22^2.
 Scene periscope() {
     const auto rectangle = [](const std::string& transform, const std::string& bsdf) {
         return "<shape type=\"rectangle\"><transform name=\"to_world\">" + transform + "</transform>" + bsdf +

@@ -33,7 +33,8 @@ size_t pilotsInMemory(Device& device, const Renderer& renderer) {
     return device.info().globalMemory / 4 / std::max<uint64_t>(1, each);
 }
 
-// What could be opened among other pilots can be opened alone, or else the render is that of the settings where the search began.
+// What could be opened among other pilots can be opened alone, or else the render is that of the settings where the
+// search began.
 std::unique_ptr<Renderer> openChosen(Device& device, const Scene& scene, const RenderSettings& first,
                                      const std::shared_ptr<const LearnedScene>& learned, AutoRender& result) {
     std::unique_ptr<Renderer> renderer;

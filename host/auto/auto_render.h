@@ -45,7 +45,8 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
                       const std::function<void(const SearchReport&)>& onChosen, const std::atomic<bool>& interrupted,
                       const AfterChosenPass& afterPass = {}, const PassRunner& run = {});
 
-/// The passes that follow of a render whose settings were chosen earlier, by `search`; `start` has the passes until then, of `seconds`.
+/// The passes that follow of a render whose settings were chosen earlier, by `search`; `start` has the passes until
+/// then, of `seconds`.
 AutoRender renderChosen(Device& device, const RenderSettings& settings, const SearchReport& search,
                         std::unique_ptr<Renderer> start, double seconds, const StopRule& stop,
                         const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted,

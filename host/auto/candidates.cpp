@@ -107,9 +107,9 @@ std::vector<std::string> singleLobes(const Scene& scene) {
     return names;
 }
 
-// In the order in which they are tried, as short renders have no time for all: what follows everything, by the alternative variant plain
-// path tracing, which a short render in open light should never miss; those that follow as much as possible; then those that follow
-// little, which seldom win.
+// In the order in which they are tried, as short renders have no time for all: what follows everything, by the
+// alternative variant plain path tracing, which a short render in open light should never miss; those that follow as
+// much as possible; then those that follow little, which seldom win.
 std::vector<std::string> firstSplits(const Scene& scene, const RenderSettings& start) {
     std::vector<std::string> splits{start.quasiSpecular, "all", "auto"};
     if (!scene.media.empty()) splits.insert(splits.end(), {"level:0.1", "level:0.3", "level:0.03"});
@@ -147,7 +147,8 @@ private:
     std::vector<std::string> known_;
 };
 
-// By the main variant and BDD 0 a split that follows everything comes to the standard method, which is among those tried last.
+// By the main variant and BDD 0 a split that follows everything comes to the standard method, which is among those
+// tried last.
 std::vector<Variant> variantsOf(const RenderSettings& start, unsigned bdd, const std::string& split,
                                 const Freedom& freedom) {
     if (!freedom.variant) return {start.variant};

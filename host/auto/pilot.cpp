@@ -79,8 +79,8 @@ double RendererPilot::secondsPerPass() const {
     return lateMedian(&PassSeconds::photons) + lateMedian(&PassSeconds::camera);
 }
 
-// The first pass pays for what the runtime compiles only then, others for a busy machine; and passes grow cheaper as radii
-// shrink. So the median of the second half predicts best what those to come will take.
+// The first pass pays for what the runtime compiles only then, others for a busy machine; and passes grow cheaper as
+// radii shrink. So the median of the second half predicts best what those to come will take.
 double RendererPilot::lateMedian(double PassSeconds::*part) const {
     std::vector<double> seconds;
     for (size_t pass = passes_.size() / 2; pass < passes_.size(); ++pass) seconds.push_back(passes_[pass].*part);
@@ -90,8 +90,8 @@ double RendererPilot::lateMedian(double PassSeconds::*part) const {
     return *middle;
 }
 
-// Until radii are chosen, the paths that choose them differ from those of the pass by discs of largestAdaptiveRadius^2 the area.
-// What does not grow with the area will not fall with it. As long as nothing is known, all of it.
+// Until radii are chosen, the paths that choose them differ from those of the pass by discs of largestAdaptiveRadius^2
+// the area. What does not grow with the area will not fall with it. As long as nothing is known, all of it.
 double RendererPilot::cameraSecondsWithoutDiscs() const {
     constexpr double area = largestAdaptiveRadius * largestAdaptiveRadius;
     const size_t last = std::min<size_t>(passesOfEqualRadius, passes_.size());

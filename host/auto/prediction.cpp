@@ -14,7 +14,8 @@ constexpr unsigned tilesPerSide = 8;
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// Radii fall smoothly, so far on sums over passes may take several at once: as many as this, by the radius of the middle one.
+// Radii fall smoothly, so far on sums over passes may take several at once: as many as this, by the radius of the
+// middle one.
 double passesAtOnce(double done) { return std::max(1.0, std::floor(done / 64)); }
 unsigned middleOf(double done, double step) { return static_cast<unsigned>(done + (step - 1) / 2); }
 
@@ -32,8 +33,8 @@ double meanSquaredRadius(double passes, bool inVolume) {
     return total / last;
 }
 
-// Bias goes as this power of the radius. Of smooth light it is 2, of a slope's break 1.5 (root of the mean square), of an
-// edge 0.5; true bias of renders falls as its power 0.9 to 1.6 (docs/method/auto.md).
+// Bias goes as this power of the radius. Of smooth light it is 2, of a slope's break 1.5 (root of the mean square), of
+// an edge 0.5; true bias of renders falls as its power 0.9 to 1.6 (docs/method/auto.md).
 constexpr double biasByRadius = 1.4;
 
 // Factors on noise and bias of a pilot after `passes` passes.
@@ -61,11 +62,12 @@ double passesAfter(const PilotMeasure& pilot, double seconds) {
     }
 }
 
-// Below this share of its noise the bias of an image of many pixels cannot be distinguished from 0 (docs/method/accuracy.md).
+// Below this share of its noise the bias of an image of many pixels cannot be distinguished from 0
+// (docs/method/accuracy.md).
 constexpr double resolvedBias = 1.0 / 25;
 
-// The bias that cannot be distinguished from 0: of small images it is more, as their tiles scatter. What is less counts as so much:
-// taken as estimated, a candidate would win for knowing less about its bias.
+// The bias that cannot be distinguished from 0: of small images it is more, as their tiles scatter. What is less counts
+// as so much: taken as estimated, a candidate would win for knowing less about its bias.
 double leastBias(const PilotMeasure& pilot) {
     const double n = static_cast<double>(pilot.bias.size()), mean = sum(pilot.bias) / std::max(1.0, n);
     double squares = 0;
@@ -82,7 +84,8 @@ struct Estimate {
 
 Estimate biasOf(const PilotMeasure& pilot) { return {sum(pilot.bias), leastBias(pilot)}; }
 
-// Several estimates of one thing, or of things that differ by `spread` (a variance) as far as their noise does not explain it (DerSimonian & Laird 1986).
+// Several estimates of one thing, or of things that differ by `spread` (a variance) as far as their noise does not
+// explain it (DerSimonian & Laird 1986).
 struct Common {
     double mean = 0, standardError = 0, spread = 0;
 
@@ -108,16 +111,18 @@ struct Common {
     }
 };
 
-// Fewer passes than this do not know their error well. Where one camera path leaves fewer, more paths leave half of these, but never less than the last.
+// Fewer passes than this do not know their error well. Where one camera path leaves fewer, more paths leave half of
+// these, but never less than the last.
 constexpr double fewestPassesOfImage = 32, fewestPassesOfAny = 8;
 constexpr unsigned mostCameraPaths = 64;
 
-// A few passes know nothing of light that paths seldom meet, and camera paths that gather nothing are cheap: for so much of what the photons of a pass cost
-// there are always some.
+// A few passes know nothing of light that paths seldom meet, and camera paths that gather nothing are cheap: for so
+// much of what the photons of a pass cost there are always some.
 constexpr double shareOfUnseen = 0.25;
 
-// Variance of a mean of n camera paths of a pass goes as this power of n: -1 of paths that know nothing of each other, and what is gained by nets, which
-// are larger then (kernels/lattice.clh): the variance of one path on them falls to 0.3 to 0.75 of that of a single one with 16, a half in the mean of ten scenes.
+// Variance of a mean of n camera paths of a pass goes as this power of n: -1 of paths that know nothing of each other,
+// and what is gained by nets, which are larger then (kernels/lattice.clh): the variance of one path on them falls to
+// 0.3 to 0.75 of that of a single one with 16, a half in the mean of ten scenes.
 constexpr double noiseByPaths = -1.25;
 
 // Share of the total noise that components from `first` to before `end` have; all of it where the film keeps none.

@@ -56,22 +56,25 @@ private:
     double weight_ = 0;
 };
 
-/// relMSE of each after `seconds` more on the clock. Biases that differ by less than what can be resolved, but for what their radii
-/// explain, count as one.
+/// relMSE of each after `seconds` more on the clock. Biases that differ by less than what can be resolved, but for what
+/// their radii explain, count as one.
 std::vector<double> predictedErrors(const std::vector<PilotMeasure>& pilots, double seconds);
 
 /// As it would be with so many times the camera paths of a pixel in a pass, one of which gathers for all.
 PilotMeasure withCameraPaths(PilotMeasure pilot, double factor);
 
-/// Camera paths of a pixel in a pass, a power of 2, with which a render of so many seconds by this pilot's settings, which have
-/// `cameraPaths` of them, has the least error. Photons, which all paths of a pass share, cost the same however many there are.
+/// Camera paths of a pixel in a pass, a power of 2, with which a render of so many seconds by this pilot's settings,
+/// which have `cameraPaths` of them, has the least error. Photons, which all paths of a pass share, cost the same
+/// however many there are.
 unsigned bestCameraPaths(const PilotMeasure& pilot, unsigned cameraPaths, double seconds);
 
-/// relMSE after equal time with camera paths of all pixels alike over that with camera paths by pixel. Bias is the same in both and left out.
+/// relMSE after equal time with camera paths of all pixels alike over that with camera paths by pixel. Bias is the same
+/// in both and left out.
 double gainOfSampling(const PilotMeasure& pilot, const SamplingGain& gain);
 
-/// Of camera paths, `cameraPaths` of a pixel in a pass, that find caustic light: those that seldom meet an emitter have little noise until one does. So what
-/// is known of it before, `noiseOfOnePath` at most (causticsByPaths of a pilot by photons), counts as one that was met.
+/// Of camera paths, `cameraPaths` of a pixel in a pass, that find caustic light: those that seldom meet an emitter have
+/// little noise until one does. So what is known of it before, `noiseOfOnePath` at most (causticsByPaths of a pilot by
+/// photons), counts as one that was met.
 PilotMeasure withRareCaustics(PilotMeasure pilot, double noiseOfOnePath, unsigned cameraPaths);
 
 /// Seconds until relMSE falls to the square of `relativeError`; never above `limit`.

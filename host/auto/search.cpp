@@ -15,8 +15,8 @@ namespace {
 constexpr unsigned fewestPasses = 2; // for an estimate of their noise
 // Numbers next to each other differ by little, and show it only when radii by pixel have been chosen.
 constexpr unsigned fewestOfNumbers = 4 * passesOfEqualRadius;
-constexpr double leastGainOfNumbers =
-    1.2; // of relMSE: the uncertainty of so few passes; photons by pixels and this radius are known to serve most scenes
+// Of relMSE: the uncertainty of so few passes; photons by pixels and this radius are known to serve most scenes
+constexpr double leastGainOfNumbers = 1.2;
 constexpr unsigned mostPasses = 256; // of a contender: those to come are better spent on the image
 constexpr unsigned mostAtFirst = 32; // before any is given up
 // Of the time for pilots, the rest is for numbers: a wrong method costs more than a wrong number.
@@ -25,7 +25,8 @@ constexpr double farWorse = 4; // times the least relMSE: given up whatever the 
 constexpr double mostPhotonsFactor = 16, mostRadiusFactor = 2; // either way from where the search starts
 // Of the time that is left, for the pilot of camera paths by pixel, and as much again for that of the image.
 constexpr double shareOfSamplingPilot = 0.03;
-// The time of a render, in passes and in camera paths of all pixels that gather nothing, from which on it may lose a few passes.
+// The time of a render, in passes and in camera paths of all pixels that gather nothing, from which on it may lose a
+// few passes.
 constexpr double leastPassesOfTime = 16, leastPathsOfTime = 64;
 constexpr double leastSeconds = 1;       // renders shorter than this are not worth a search
 constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
@@ -89,8 +90,9 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     return {chosen, report_, nullptr};
 }
 
-// Passes by which settings are chosen are no part of the image. Where a pass, or opening another renderer, takes a large part of the time, those of the start
-// are to be kept: nothing is chosen then. Its first pass, which shows that, is of the image if it is kept.
+// Passes by which settings are chosen are no part of the image. Where a pass, or opening another renderer, takes a
+// large part of the time, those of the start are to be kept: nothing is chosen then. Its first pass, which shows that,
+// is of the image if it is kept.
 bool Search::mayDiscard(Contender& start) {
     if (!freedom_.cameraPaths || report_.horizon < leastSeconds || world_.mostOpen < 2 ||
         2 * start.pilot->secondsToPrepare() > pilotShare * report_.horizon ||
@@ -100,8 +102,8 @@ bool Search::mayDiscard(Contender& start) {
     return renderUpTo(start, 1) && leastPassesOfTime * (world_.clock() - began) < report_.horizon;
 }
 
-// The passes that show whether there is time, of a pilot of its own random numbers if they may be lost; null, and `start` has them itself, if they may not,
-// or there is too little memory.
+// The passes that show whether there is time, of a pilot of its own random numbers if they may be lost; null, and
+// `start` has them itself, if they may not, or there is too little memory.
 std::unique_ptr<Pilot> Search::renderFirst(Contender& start, bool& begun) {
     std::unique_ptr<Pilot> kept;
     if (mayDiscard(start)) {
@@ -119,7 +121,8 @@ std::unique_ptr<Pilot> Search::renderFirst(Contender& start, bool& begun) {
     return nullptr;
 }
 
-// Of a search that had time for `first` alone: at least how many camera paths serve the image best is known. `kept`: the start.
+// Of a search that had time for `first` alone: at least how many camera paths serve the image best is known. `kept`:
+// the start.
 SearchResult Search::withItsPaths(Contender& first, std::unique_ptr<Pilot> kept) {
     RenderSettings& chosen = report_.rows[first.row].settings;
     chosen.cameraPaths = cameraPathsOf(first);
@@ -294,7 +297,8 @@ PilotMeasure Search::measureOf(const Contender& contender, const std::vector<flo
     return measure;
 }
 
-// Relative to the mean of all their images: one that is noisy is too bright where it has its noise, and that would make it look better.
+// Relative to the mean of all their images: one that is noisy is too bright where it has its noise, and that would make
+// it look better.
 void Search::measureTogether(Field& field) {
     Brightness brightness;
     for (auto& contender : field)

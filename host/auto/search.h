@@ -1,5 +1,5 @@
-// Pilot passes of all candidates; the worse half is given up again and again, and the last one left is chosen (docs/method/auto.md).
-// Knows no device.
+// Pilot passes of all candidates; the worse half is given up again and again, and the last one left is chosen
+// (docs/method/auto.md). Knows no device.
 #pragma once
 
 #include "auto/candidates.h"
@@ -28,7 +28,8 @@ struct SearchResult {
     std::unique_ptr<Pilot> start; ///< where nothing was tried; as it was, or with fewer photons
 };
 
-/// Share of the render's time that goes to pilots, opening them included. All of it lost, error grows by 1 / sqrt(1 - 0.16) = 1.09.
+/// Share of the render's time that goes to pilots, opening them included. All of it lost, error grows by 1 / sqrt(1 -
+/// 0.16) = 1.09.
 inline constexpr double pilotShare = 0.16;
 
 class Search {
@@ -36,8 +37,8 @@ public:
     /// `stop` must not be by passes.
     Search(SearchWorld world, const Scene& scene, Freedom freedom, const StopRule& stop);
 
-    /// `start` is the pilot of `settings`, without passes. Its first ones show whether there is time for a search. They are those of the
-    /// image where there is not, so the search itself has other random numbers.
+    /// `start` is the pilot of `settings`, without passes. Its first ones show whether there is time for a search. They
+    /// are those of the image where there is not, so the search itself has other random numbers.
     SearchResult run(const RenderSettings& settings, std::unique_ptr<Pilot> start);
 
 private:
@@ -52,14 +53,15 @@ private:
     };
     using Field = std::vector<Contender>;
 
-    /// Successive halving (Karnin et al. 2013) among these, for so many seconds. All begin anew, as estimates differ after fewer
-    /// passes: like must be held against like. All but the first one must have a relMSE that is `leastGain` times less to win.
+    /// Successive halving (Karnin et al. 2013) among these, for so many seconds. All begin anew, as estimates differ
+    /// after fewer passes: like must be held against like. All but the first one must have a relMSE that is `leastGain`
+    /// times less to win.
     void race(const std::vector<RenderSettings>& candidates, unsigned fewestPasses, double leastGain, double seconds);
     /// Camera paths of a pixel in a pass with which these settings have the least error.
     unsigned cameraPathsOf(const Contender& contender) const;
     static PilotMeasure withPaths(const Contender& contender, unsigned cameraPaths);
-    /// What the contender would measure with as many as serve it best. All are compared by it: one whose photons cost much and carry little is not to
-    /// be given up for what it is with one path.
+    /// What the contender would measure with as many as serve it best. All are compared by it: one whose photons cost
+    /// much and carry little is not to be given up for what it is with one path.
     PilotMeasure atItsBest(const Contender& contender) const;
     void chooseCameraPaths();
     /// Whether they are to be by pixel, of settings whose number is chosen. The pilot can render no more after that.
@@ -71,13 +73,15 @@ private:
     bool raceOfNumbers(double seconds);
     Field enter(const std::vector<RenderSettings>& candidates, unsigned passes, double leastGain, double middle,
                 double end);
-    /// Goes on from `passes` passes of each to as many as the time until `end` allows, `most` of them; false where that is none.
+    /// Goes on from `passes` passes of each to as many as the time until `end` allows, `most` of them; false where that
+    /// is none.
     bool renderAll(Field& field, unsigned passes, unsigned most, double end);
     void halve(Field& field, double end);
     bool isWithinBounds(const RenderSettings& settings) const;
     std::vector<RenderSettings> untried(const std::vector<RenderSettings>& candidates) const;
     size_t rowOf(const RenderSettings& settings, unsigned photons);
-    /// Does what concerns one contender; false where it fails, which is then the end of this contender, not of the search.
+    /// Does what concerns one contender; false where it fails, which is then the end of this contender, not of the
+    /// search.
     bool dare(Contender& contender, const std::function<void()>& action);
     void dropFailed(Field& field);
     void openContender(Field& field, const RenderSettings& settings, unsigned passes, double leastGain);

@@ -50,12 +50,12 @@ BenchRun measureRun(int device, const Scene& scene, const BenchMethod& method, d
                     const BenchReference* reference, const std::function<void(unsigned, double)>& onProgress,
                     const std::atomic<bool>& interrupted);
 
-/// relMSE ~ seconds^slope, by least squares in logarithms over the points from pass 16 on; nothing where fewer than three
-/// have a positive error.
+/// relMSE ~ seconds^slope, by least squares in logarithms over the points from pass 16 on; nothing where fewer than
+/// three have a positive error.
 std::optional<double> convergenceSlope(const BenchRun& run);
 
-/// Seconds until the root of relMSE falls below `relativeError`. Between points along a power law; beyond the last one with
-/// `slope` -1, that of noise.
+/// Seconds until the root of relMSE falls below `relativeError`. Between points along a power law; beyond the last one
+/// with `slope` -1, that of noise.
 struct TimeToError {
     double seconds = 0;
     bool extrapolated = false;

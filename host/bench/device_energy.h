@@ -18,7 +18,8 @@ public:
     ~EnergyCounter();
     EnergyCounter(EnergyCounter&&) noexcept;
 
-    /// Since some moment in the past; counters that begin anew are followed. Nothing where the device does not report it.
+    /// Since some moment in the past; counters that begin anew are followed. Nothing where the device does not report
+    /// it.
     std::optional<double> joules();
 
     struct Source; ///< one way to read it

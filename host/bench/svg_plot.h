@@ -15,8 +15,8 @@ struct PlotText {
     std::string title, x, y;
 };
 
-/// Both axes logarithmic, a line at each decade; colours and marks by series, with a legend. Says so where there is nothing
-/// to draw.
+/// Both axes logarithmic, a line at each decade; colours and marks by series, with a legend. Says so where there is
+/// nothing to draw.
 std::string logLogPlot(const PlotText& text, const std::vector<PlotSeries>& series);
 
 } // namespace quasilux

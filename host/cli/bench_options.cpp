@@ -7,6 +7,24 @@ namespace quasilux {
 
 namespace {
 
+void declareReferences(CLI::App& command, BenchOptions& options) {
+    command
+        .add_option("--reference", options.references,
+                    "Image that counts as right, one for each scene in their order, - for none (default: none; errors "
+                    "are those "
+                    "that renders estimate)")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        .add_option(
+            "--reference-noise", options.referenceNoise,
+            "relMSE of a right image against the reference, its own noise mostly; one for each --reference in their "
+            "order (default: 0)")
+        ->type_name("X")
+        ->allow_extra_args(false)
+        ->check(numberBetween(0, 1e30));
+}
+
 /// Where one of these is given, error over time is measured only if --method is given too.
 void declareParts(CLI::App& command, BenchOptions& options) {
     const char* group = "Parts (besides error over time, which needs --method then)";
@@ -37,6 +55,15 @@ void declareParts(CLI::App& command, BenchOptions& options) {
         .add_flag("--pass-times", options.passTimes,
                   "One pass of each SCENE again and again: the least time, by kernel")
         ->group(group);
+}
+
+void declareResults(CLI::App& command, BenchOptions& options) {
+    command.add_option("-o,--output", options.output, "All figures, .json (default: none)")->type_name("FILE");
+    command.add_option("--html", options.html, "Page with plots, pictures and tables, .html (default: none)")
+        ->type_name("FILE");
+    command.add_flag("--json", options.json, "The figures on stdout as one JSON object (default: off, tables)");
+    command.add_flag("--quiet", options.quiet,
+                     "No progress, no warnings and no tables; errors and --json are still printed (default: off)");
 }
 
 } // namespace
@@ -73,21 +100,7 @@ void declareBench(CLI::App& app, BenchOptions& options) {
         ->type_name("PARTS")
         ->expected(0, 1)
         ->default_str("all");
-    command
-        .add_option("--reference", options.references,
-                    "Image that counts as right, one for each scene in their order, - for none (default: none; errors "
-                    "are those "
-                    "that renders estimate)")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
-    command
-        .add_option(
-            "--reference-noise", options.referenceNoise,
-            "relMSE of a right image against the reference, its own noise mostly; one for each --reference in their "
-            "order (default: 0)")
-        ->type_name("X")
-        ->allow_extra_args(false)
-        ->check(numberBetween(0, 1e30));
+    declareReferences(command, options);
     declareParts(command, options);
     command
         .add_option("-D", options.definitions,
@@ -100,12 +113,7 @@ void declareBench(CLI::App& app, BenchOptions& options) {
         "--lenient", options.lenient,
         "What the scenes say and is not known is left out or replaced, with a warning at each (default: off, "
         "an error)");
-    command.add_option("-o,--output", options.output, "All figures, .json (default: none)")->type_name("FILE");
-    command.add_option("--html", options.html, "Page with plots, pictures and tables, .html (default: none)")
-        ->type_name("FILE");
-    command.add_flag("--json", options.json, "The figures on stdout as one JSON object (default: off, tables)");
-    command.add_flag("--quiet", options.quiet,
-                     "No progress, no warnings and no tables; errors and --json are still printed (default: off)");
+    declareResults(command, options);
 }
 
 } // namespace quasilux

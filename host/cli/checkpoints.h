@@ -61,7 +61,8 @@ public:
     Resumed(const std::string& path, const Checkpoint& wanted);
 
     const Checkpoint& checkpoint() const { return checkpoint_; }
-    /// The rule of the command line, or, where that says nothing, the one from before. Throws InputError where passes do not follow.
+    /// The rule of the command line, or, where that says nothing, the one from before. Throws InputError where passes
+    /// do not follow.
     StopRule stopRule(const StopRule& said) const;
     /// With all passes so far. Throws InputError where the scene has changed.
     std::unique_ptr<Renderer> renderer(Device& device, const Scene& scene) const;
@@ -71,7 +72,8 @@ private:
     Checkpoint checkpoint_;
 };
 
-/// `path`, or the one before it where only that is there: a file system without hard links has none by the name of `path` for a moment.
+/// `path`, or the one before it where only that is there: a file system without hard links has none by the name of
+/// `path` for a moment.
 std::string checkpointThatIsThere(const std::string& path);
 
 /// Throws InputError where the file of a new checkpoint would replace that of another render, or cannot be written.

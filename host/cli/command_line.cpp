@@ -37,7 +37,8 @@ int fail(int exitCode, const std::string& message) {
 // Where tev listens by itself.
 constexpr const char* ownTev = "--tev=127.0.0.1:14158";
 
-/// `quasilux SCENE …` is `quasilux render SCENE …`; and --tev without HOST:PORT has one, so that it takes no scene for that.
+/// `quasilux SCENE …` is `quasilux render SCENE …`; and --tev without HOST:PORT has one, so that it takes no scene for
+/// that.
 std::vector<std::string> completed(CLI::App& app, std::vector<std::string> arguments) {
     const auto commands = listedCommands(app);
     const auto isFirst = [&](const CLI::App* command) { return command->get_name() == arguments[0]; };
@@ -114,8 +115,9 @@ void flushResults() {
     throw std::system_error(why, std::generic_category(), "cannot write to the standard output");
 }
 
-// Without standard streams (`2>&-`) the next files that are opened would get their numbers, and messages would be written into them.
-// One that can be read alone is no place to write to, so that results which nobody gets still are a failure.
+// Without standard streams (`2>&-`) the next files that are opened would get their numbers, and messages would be
+// written into them. One that can be read alone is no place to write to, so that results which nobody gets still are a
+// failure.
 void openStandardStreams() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) return;

@@ -1,5 +1,5 @@
-// The program's commands: render, view, merge, compare, photometry, falsecolour, report, dgp, bench, devices, doctor, manual, info
-// (docs/reference/command-line.md).
+// The program's commands: render, view, merge, compare, photometry, falsecolour, report, dgp, bench, devices, doctor,
+// manual, info (docs/reference/command-line.md).
 #pragma once
 
 namespace quasilux {

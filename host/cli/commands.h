@@ -1,13 +1,14 @@
-// The commands of the program but for `render` (render_queue.h); a file each, in the order of `quasilux --help`. They throw InputError before anything is computed, DeviceError, and
-// std::runtime_error where a file cannot be written. What is returned is the exit code.
+// The commands of the program but for `render` (render_queue.h); a file each, in the order of `quasilux --help`. They
+// throw InputError before anything is computed, DeviceError, and std::runtime_error where a file cannot be written.
+// What is returned is the exit code.
 #pragma once
 
 #include "cli/options.h"
 
 namespace quasilux {
 
-/// A render that a page in the browser shows and changes (docs/guide/live-view.md). Throws InputError where the scene cannot
-/// be loaded to begin with; later the page says so.
+/// A render that a page in the browser shows and changes (docs/guide/live-view.md). Throws InputError where the scene
+/// cannot be loaded to begin with; later the page says so.
 int viewCommand(const RenderOptions& options);
 
 /// The image of the passes of several checkpoints.
@@ -34,8 +35,8 @@ int benchCommand(const BenchOptions& options);
 /// The OpenCL devices and their numbers on stdout, as a table or a JSON array.
 void listDevicesCommand(bool json);
 
-/// What is wrong with devices, runtimes and libraries, and what to do. 0: renders will run, also where there are warnings; 1:
-/// something keeps them from it.
+/// What is wrong with devices, runtimes and libraries, and what to do. 0: renders will run, also where there are
+/// warnings; 1: something keeps them from it.
 int doctorCommand(bool json);
 
 /// Man pages and completions of `program` as files, into the folders below `folder` where systems look for them (as in

@@ -1,4 +1,5 @@
-// What the shells bash, zsh and fish offer after "quasilux": commands, their options, values that options know, and files.
+// What the shells bash, zsh and fish offer after "quasilux": commands, their options, values that options know, and
+// files.
 #include "cli/manual_pages.h"
 
 #include "cli/option_list.h"

@@ -14,7 +14,8 @@ namespace quasilux {
 
 namespace {
 
-// What an image must show of the illuminance of a uniform field for its own to stand for that at the eye; and how many sources are listed.
+// What an image must show of the illuminance of a uniform field for its own to stand for that at the eye; and how many
+// sources are listed.
 constexpr double enoughOfField = 0.98;
 constexpr size_t listedSources = 10;
 

@@ -1,4 +1,5 @@
-// Names of output files by pattern: {scene}, {sensor}, {date}, {seed}, {passes} stand for what a render knows of itself.
+// Names of output files by pattern: {scene}, {sensor}, {date}, {seed}, {passes} stand for what a render knows of
+// itself.
 #pragma once
 
 #include <map>
@@ -12,8 +13,8 @@ using NameParts = std::map<std::string, std::string>;
 /// When a name has to be whole.
 enum class NameNeeded { whenWritten, beforeLoading };
 
-/// Throws InputError for words that are not known, or not known in time: {seed} and {passes} come late, and are no part of folders.
-/// `option` is named in the message.
+/// Throws InputError for words that are not known, or not known in time: {seed} and {passes} come late, and are no part
+/// of folders. `option` is named in the message.
 void checkNamePattern(const std::string& pattern, const std::string& option, NameNeeded when = NameNeeded::whenWritten);
 /// Those that are known take their places, the others stay. A '/' in one becomes '_'.
 std::string fillName(std::string pattern, const NameParts& known);

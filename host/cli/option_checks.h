@@ -11,9 +11,9 @@ namespace quasilux {
 
 /// For Option::transform: it takes leading zeros away, with which CLI11 would read an octal number.
 CLI::Validator wholeNumber(uint64_t from, uint64_t to);
-/// `above` itself is refused.
 /// "N", a count of passes, or "A:B", the passes A to B - 1; B up to `to`.
 CLI::Validator passRange(uint64_t to);
+/// `above` itself is refused.
 CLI::Validator numberAbove(double above, double to);
 CLI::Validator numberBetween(double from, double to);
 /// "A:B", two finite numbers, A below B.

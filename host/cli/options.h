@@ -40,8 +40,8 @@ struct RenderOptions : SceneOptions {
 
     /// `output`, or the scene's stem with .exr in the current folder; empty where only the grid is asked for.
     std::string outputPath() const;
-    /// For one of `scenes`: names of files have no {scene} and {date} any more, nor {sensor} unless there are several. Throws InputError
-    /// for patterns that cannot be filled.
+    /// For one of `scenes`: names of files have no {scene} and {date} any more, nor {sensor} unless there are several.
+    /// Throws InputError for patterns that cannot be filled.
     RenderOptions forScene(const std::string& one) const;
     /// For sensor number `index` of several: where a file's name does not say {sensor}, it ends with _0, _1 …
     RenderOptions forSensor(size_t index) const;

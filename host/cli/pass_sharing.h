@@ -39,7 +39,8 @@ private:
     std::map<std::string, KernelTiming> timings_;
 };
 
-/// Of a rank that is not the first: its devices render what rank 0 asks for, until the job is over. What fails is said by rank 0.
+/// Of a rank that is not the first: its devices render what rank 0 asks for, until the job is over. What fails is said
+/// by rank 0.
 void assistJob(const RenderOptions& options);
 
 /// One of the devices that have not failed, for what follows the passes; the first one where all have.

@@ -234,7 +234,8 @@ void SensorRender::render(const std::vector<DeviceChoice>& devices) {
     for (std::string& warning : tev->takeWarnings()) done_.warnings.push_back(std::move(warning));
 }
 
-// One that cannot learn what all need is dropped like one that fails later. What fails on all of them, as a wrong option does, is said once.
+// One that cannot learn what all need is dropped like one that fails later. What fails on all of them, as a wrong
+// option does, is said once.
 void SensorRender::renderOnFirstThatCan() {
     for (auto devices = ownDevices(options_);; devices.erase(devices.begin())) {
         if (devices.size() == 1)

@@ -17,8 +17,9 @@ struct RenderSurroundings {
 /// Of a render that was given up, with nothing written, as its scene had changed; no exit code of the program.
 constexpr int exitCodeOutdated = -1;
 
-/// `options`: as RenderOptions::forScene makes them. Returns the exit code: 0 done, 130 interrupted before the first pass (nothing is
-/// written then). Throws InputError (before anything is rendered), DeviceError, and std::runtime_error where a file cannot be written.
+/// `options`: as RenderOptions::forScene makes them. Returns the exit code: 0 done, 130 interrupted before the first
+/// pass (nothing is written then). Throws InputError (before anything is rendered), DeviceError, and std::runtime_error
+/// where a file cannot be written.
 int renderCommand(const RenderOptions& options, const RenderSurroundings& around = {});
 
 /// Throws InputError where a file could not be written.

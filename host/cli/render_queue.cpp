@@ -22,7 +22,8 @@ namespace {
 
 constexpr std::chrono::milliseconds betweenLooks{100};
 
-// Each scene with the names of its files. All are checked before the first is rendered, and no two may write the same file.
+// Each scene with the names of its files. All are checked before the first is rendered, and no two may write the same
+// file.
 std::vector<RenderOptions> optionsByScene(const RenderOptions& options) {
     std::vector<RenderOptions> all;
     std::map<std::string, std::string> sceneOfFile;

@@ -5,8 +5,8 @@
 
 namespace quasilux {
 
-/// Returns the exit code. A scene that fails does not keep others from being rendered: its error is said when it comes and again at the
-/// end. Of a single scene exceptions are thrown as by renderCommand.
+/// Returns the exit code. A scene that fails does not keep others from being rendered: its error is said when it comes
+/// and again at the end. Of a single scene exceptions are thrown as by renderCommand.
 int renderScenes(const RenderOptions& options);
 
 } // namespace quasilux

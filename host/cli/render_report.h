@@ -15,11 +15,12 @@ namespace quasilux {
 RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device, const AutoRender& render,
                         bool interrupted);
 
-/// renderAovs() with places in the pixel of as many camera paths as the image has passes; more than some hundreds would hardly change it.
+/// renderAovs() with places in the pixel of as many camera paths as the image has passes; more than some hundreds would
+/// hardly change it.
 std::vector<AovImage> renderLayers(Device& device, const Scene& scene, const AutoRender& render);
 
-/// Illuminance of free ground, lx, where daylight factors are asked for: then the scene's other lights are left out, which is added to
-/// `warnings`.
+/// Illuminance of free ground, lx, where daylight factors are asked for: then the scene's other lights are left out,
+/// which is added to `warnings`.
 std::optional<double> skyOfDaylightFactor(const RenderOptions& options, Scene& scene,
                                           std::vector<std::string>& warnings);
 

@@ -102,7 +102,8 @@ private:
         sharesLeft_ = std::max(sharesLeft_ - share, 1e-9);
         RenderOptions options;
         static_cast<SceneOptions&>(options) = options_;
-        // A search wants to know its time; others end by `isEnough` or when the time is over, though not before there is an error.
+        // A search wants to know its time; others end by `isEnough` or when the time is over, though not before there
+        // is an error.
         if (scene.sensor.meter == MeterKind::none)
             options.stop.seconds = std::max(budget, 1e-3);
         else

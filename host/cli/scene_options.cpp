@@ -15,118 +15,101 @@ std::optional<LoadLimits> SceneOptions::loadLimits() const {
     return chosen;
 }
 
-void declareSettings(CLI::App& command, SceneOptions& options) {
-    const char* group = "Method (overrides the scene's settings)";
-    command
-        .add_option("--bdd", options.bdd,
-                    "Backward diffuse depth: genuine diffuse scatterings that a camera path follows before it takes "
-                    "its light from the photon map, a count (default: the scene's, else 0)")
-        ->type_name("N")
-        ->transform(wholeNumber(0, bddLimit))
-        ->group(group);
-    command
-        .add_option("--variant", options.variant,
-                    "Variant of the method: main or alternative (default: the scene's, else main; of irradiance meters "
-                    "alternative)")
-        ->type_name("NAME")
-        ->check(oneOf(choiceNames<Variant>()))
-        ->group(group);
-    command
-        .add_option(
-            "--quasi-specular", options.quasiSpecular,
-            "Scattering followed like mirrors: auto, none, all, ids of bsdfs (or ID.LOBE) and media with commas "
-            "between, or level:X, the phase functions of media above X per sr (default: the scene's, else "
-            "auto)")
+namespace {
+
+/// Options of the method, one call each: the kinds of values that several have.
+struct MethodOptions {
+    CLI::App& command;
+    static constexpr const char* group = "Method (overrides the scene's settings)";
+
+    template <NamedChoice Choice>
+    void choice(const char* flag, std::optional<std::string>& value, const char* help) {
+        command.add_option(flag, value, help)->type_name("NAME")->check(oneOf(choiceNames<Choice>()))->group(group);
+    }
+    template <typename Number>
+    void count(const char* flag, std::optional<Number>& value, uint64_t least, uint64_t most, const char* help) {
+        command.add_option(flag, value, help)->type_name("N")->transform(wholeNumber(least, most))->group(group);
+    }
+};
+
+void declareLight(MethodOptions method, SceneOptions& options) {
+    method.count("--bdd", options.bdd, 0, bddLimit,
+                 "Backward diffuse depth: genuine diffuse scatterings that a camera path follows before it takes "
+                 "its light from the photon map, a count (default: the scene's, else 0)");
+    method.choice<Variant>("--variant", options.variant,
+                           "Variant of the method: main or alternative (default: the scene's, else main; of "
+                           "irradiance meters alternative)");
+    method.command
+        .add_option("--quasi-specular", options.quasiSpecular,
+                    "Scattering followed like mirrors: auto, none, all, ids of bsdfs (or ID.LOBE) and media with "
+                    "commas between, or level:X, the phase functions of media above X per sr (default: the scene's, "
+                    "else auto)")
         ->type_name("LIST")
         ->check(quasiSpecularList())
-        ->group(group);
-    command
-        .add_option("--direct", options.direct,
-                    "Direct light from samples of the emitters or from the photon map: emitters or photons (default: "
-                    "the scene's, else emitters)")
-        ->type_name("NAME")
-        ->check(oneOf(choiceNames<DirectLight>()))
-        ->group(group);
-    command
-        .add_option("--caustics", options.caustics,
-                    "Caustic light, which came by mirrors and clear glass alone, from photons, or found by camera "
-                    "paths (with everything "
-                    "quasi-specular and the alternative variant; no photons are traced then): photons or paths "
-                    "(default: the scene's, "
-                    "else searched, else photons)")
-        ->type_name("NAME")
-        ->check(oneOf(choiceNames<CausticLight>()))
-        ->group(group);
-    command
-        .add_option("--map", options.map,
-                    "What is stored and indexed in each pass: photons, found by camera paths, or camera (points of "
-                    "camera paths, found by photons) (default: the scene's, else photons)")
-        ->type_name("NAME")
-        ->check(oneOf(choiceNames<MapOrder>()))
-        ->group(group);
-    command
-        .add_option("--emission", options.emission,
-                    "Where photons begin: guided (where pilots found that they serve the image) or plain (in "
-                    "proportion to the emitters' power) (default: guided)")
-        ->type_name("NAME")
-        ->check(oneOf(choiceNames<Emission>()))
-        ->group(group);
-    command
-        .add_option("--photons", options.photons,
-                    "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)")
-        ->type_name("N")
-        ->transform(wholeNumber(1, photonsLimit))
-        ->group(group);
-    command
-        .add_option(
-            "--camera-paths", options.cameraPaths,
-            "Camera paths of a pixel in each pass, which share its photons, a count (default: the scene's, else "
-            "searched, else 1)")
-        ->type_name("N")
-        ->transform(wholeNumber(1, cameraPathsLimit))
-        ->group(group);
-    command
-        .add_option(
-            "--camera-sampling", options.cameraSampling,
-            "Camera paths by pixel: even (all have the same number) or adaptive (more where they have more noise, "
-            "found by a pilot, where there are several) (default: the scene's, else searched unless --camera-paths is "
-            "given, else even)")
-        ->type_name("NAME")
-        ->check(oneOf(choiceNames<CameraSampling>()))
-        ->group(group);
-    command
-        .add_option("--seed", options.seed,
-                    "Seed of the random numbers, a whole number below 2^64 (default: the scene's, else 1)")
-        ->type_name("N")
-        ->transform(wholeNumber(0, UINT64_MAX))
-        ->group(group);
-    command
-        .add_option(
-            "--radius", options.radius,
-            "Radius of the density estimate: adaptive, chosen for each pixel from its noise and bias, or fixed, "
-            "the same for all (default: adaptive)")
-        ->type_name("NAME")
-        ->check(oneOf(choiceNames<RadiusChoice>()))
-        ->group(group);
-    command
+        ->group(MethodOptions::group);
+    method.choice<DirectLight>("--direct", options.direct,
+                               "Direct light from samples of the emitters or from the photon map: emitters or photons "
+                               "(default: the scene's, else emitters)");
+    method.choice<CausticLight>("--caustics", options.caustics,
+                                "Caustic light, which came by mirrors and clear glass alone, from photons, or found "
+                                "by camera paths (with everything quasi-specular and the alternative variant; no "
+                                "photons are traced then): photons or paths (default: the scene's, else searched, "
+                                "else photons)");
+    method.choice<MapOrder>("--map", options.map,
+                            "What is stored and indexed in each pass: photons, found by camera paths, or camera "
+                            "(points of camera paths, found by photons) (default: the scene's, else photons)");
+}
+
+void declareSampling(MethodOptions method, SceneOptions& options) {
+    method.choice<Emission>("--emission", options.emission,
+                            "Where photons begin: guided (where importance paths found that they serve the image) or "
+                            "plain (in proportion to the emitters' power) (default: guided)");
+    method.count("--photons", options.photons, 1, photonsLimit,
+                 "Photons emitted in each pass, a count (default: the scene's, else chosen from the image size)");
+    method.count("--camera-paths", options.cameraPaths, 1, cameraPathsLimit,
+                 "Camera paths of a pixel in each pass, which share its photons, a count (default: the scene's, else "
+                 "searched, else 1)");
+    method.choice<CameraSampling>("--camera-sampling", options.cameraSampling,
+                                  "Camera paths by pixel: even (all have the same number) or adaptive (more where "
+                                  "they have more noise, found by a noise probe, where there are several) (default: "
+                                  "the scene's, else searched unless --camera-paths is given, else even)");
+    method.count("--seed", options.seed, 0, UINT64_MAX,
+                 "Seed of the random numbers, a whole number below 2^64 (default: the scene's, else 1)");
+    method.choice<RadiusChoice>("--radius", options.radius,
+                                "Radius of the density estimate: adaptive, chosen for each pixel from its noise and "
+                                "bias, or fixed, the same for all (default: adaptive)");
+    method.command
         .add_option("--radius-scale", options.radiusScale,
                     "Factor on the initial radius of the density estimate, a ratio (default: 1)")
         ->type_name("X")
         ->check(numberAbove(0, 1000))
-        ->group(group);
-    command
+        ->group(MethodOptions::group);
+    method.command
         .add_flag("--energy-balance", options.energyBalance,
                   "Count what becomes of the photons' flux, for the statistics (default: off)")
-        ->group(group);
-    auto* all = command
+        ->group(MethodOptions::group);
+}
+
+void declareSearch(MethodOptions method, SceneOptions& options) {
+    auto* all = method.command
                     .add_flag("--auto", options.autoAll,
                               "Search BDD, variant, split, photons per pass and radius by pilot passes, but for those "
                               "given here; the search starts at the scene's settings (default: search what "
                               "neither these options nor the scene fix)")
-                    ->group(group);
-    command.add_flag("--fixed", options.fixed, "Search nothing: what is given, else the defaults (default: off)")
-        ->group(group)
+                    ->group(MethodOptions::group);
+    method.command
+        .add_flag("--fixed", options.fixed, "Search nothing: what is given, else the defaults (default: off)")
+        ->group(MethodOptions::group)
         ->excludes(all);
+}
+
+} // namespace
+
+void declareSettings(CLI::App& command, SceneOptions& options) {
+    const MethodOptions method{command};
+    declareLight(method, options);
+    declareSampling(method, options);
+    declareSearch(method, options);
 }
 
 void declareDevice(CLI::App& command, SceneOptions& options) {

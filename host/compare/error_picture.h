@@ -21,12 +21,13 @@ inline constexpr double standardErrorScale = 5;                    ///< standard
 Picture signedPicture(const RadianceImage& image, const RadianceImage& reference);
 /// relMSE of each pixel on a logarithmic scale from black over red and yellow to white.
 Picture squarePicture(const Comparison& comparison);
-/// Difference of luminance in its standard errors: colours as of signedPicture(). Empty where no standard error is known.
+/// Difference of luminance in its standard errors: colours as of signedPicture(). Empty where no standard error is
+/// known.
 Picture standardErrorPicture(const RadianceImage& image, const RadianceImage& reference);
 
-/// Radiance with 8 bits to the mantissa of each channel and a common exponent (Ward 1991, Real Pixels): the upper half of
-/// the picture, 2*height rows, is the mantissas, the lower half the exponent. A channel is mantissa * 2^(exponent - 136);
-/// negative values become 0, and what is not finite has the exponent 255.
+/// Radiance with 8 bits to the mantissa of each channel and a common exponent (Ward 1991, Real Pixels): the upper half
+/// of the picture, 2*height rows, is the mantissas, the lower half the exponent. A channel is mantissa * 2^(exponent -
+/// 136); negative values become 0, and what is not finite has the exponent 255.
 Picture sharedExponentPicture(const RadianceImage& image);
 
 /// A PNG file. Throws std::runtime_error.

@@ -27,21 +27,23 @@ struct RegionMeasures {
     size_t pixels = 0;
     size_t nonFinite = 0; ///< pixels with a channel that is not finite, in either image
 
-    /// Mean over pixels and channels of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over channels and the whole picture.
+    /// Mean over pixels and channels of (I - R)^2 / (R^2 + 0.01 mean(R)^2), mean(R) over channels and the whole
+    /// picture.
     double relMse = 0;
     std::optional<double> referenceNoise, imageNoise; ///< expected share of relMse; nothing where unknown
     double netRelMse = 0;                             ///< relMse less what is known and was to be subtracted
-    /// What the reference's noise adds to netRelMse through the denominators (docs/method/accuracy.md), which subtracting
-    /// referenceNoise leaves. Nothing where the reference has no standard errors or CompareSettings::scale is given.
+    /// What the reference's noise adds to netRelMse through the denominators (docs/method/accuracy.md), which
+    /// subtracting referenceNoise leaves. Nothing where the reference has no standard errors or CompareSettings::scale
+    /// is given.
     std::optional<double> denominatorNoise;
     double rmse = 0; ///< over pixels and channels
 
     std::array<double, 3> meanImage{}, meanReference{}; ///< R, G, B
     double meanLuminance = 0, referenceLuminance = 0;
     double bias = 0; ///< meanLuminance - referenceLuminance
-    /// Of `bias`. byPixels: from the standard errors of pixels as if these were independent of each other. byTiles: from
-    /// how much the differences of tiles vary, tiles being squares of a quarter of the picture's longer side; it knows
-    /// noise that neighbours share, as a photon's, and takes bias that varies for noise. Nothing where unknown.
+    /// Of `bias`. byPixels: from the standard errors of pixels as if these were independent of each other. byTiles:
+    /// from how much the differences of tiles vary, tiles being squares of a quarter of the picture's longer side; it
+    /// knows noise that neighbours share, as a photon's, and takes bias that varies for noise. Nothing where unknown.
     std::optional<double> standardErrorByPixels, standardErrorByTiles;
 
     double relativeBias() const { return bias == 0 ? 0 : bias / referenceLuminance; }

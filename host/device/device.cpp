@@ -17,8 +17,9 @@ namespace quasilux {
 
 namespace {
 
-// Intel's compiler for CPUs runs several work-items in the lanes of a vector, which these kernels, written in vectors, do not gain from, and
-// some it makes wrong or crashes over (docs/notes/devices.md). It reads this when it is loaded; what the user has set stays.
+// Intel's compiler for CPUs runs several work-items in the lanes of a vector, which these kernels, written in vectors,
+// do not gain from, and some it makes wrong or crashes over (docs/notes/devices.md). It reads this when it is loaded;
+// what the user has set stays.
 void turnOffIntelVectorizer() { setenv("CL_CONFIG_CPU_VECTORIZER_MODE", "1", 0); }
 
 constexpr cl_int noPlatform = -1001; // CL_PLATFORM_NOT_FOUND_KHR of the loader, without any ICD
@@ -89,8 +90,9 @@ cl::Device pick(int index) {
     return devices.front();
 }
 
-/// Parts with so many compute units each. Throws cl::Error where the device cannot be divided. They are kept until the program ends: PoCL 3.1 looks
-/// at the device of an event once more after the queue has finished, and crashes if that is a part which has been released by then.
+/// Parts with so many compute units each. Throws cl::Error where the device cannot be divided. They are kept until the
+/// program ends: PoCL 3.1 looks at the device of an event once more after the queue has finished, and crashes if that
+/// is a part which has been released by then.
 std::vector<cl::Device> partsOf(cl::Device& device, unsigned computeUnits, unsigned count) {
     static std::mutex mutex;
     static auto& known = *new std::map<std::tuple<cl_device_id, unsigned, unsigned>, std::vector<cl::Device>>;

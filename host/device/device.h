@@ -1,4 +1,5 @@
-// One OpenCL device with its context, queue, kernels and timing table. The only folder that calls OpenCL (docs/notes/devices.md).
+// One OpenCL device with its context, queue, kernels and timing table. The only folder that calls OpenCL
+// (docs/notes/devices.md).
 #pragma once
 
 #include "device/device_choice.h"
@@ -47,9 +48,9 @@ double secondsOf(const cl::Event& event);
 
 class Device {
 public:
-    /// Throws InputError if there is no such device. One of several parts has its share of the compute units and of the memory.
-    /// `memoryLimit`, bytes: the device is taken to have no more; 0: what it has. `computeUnits` of it alone are used; 0 =
-    /// all. `bufferLimit`, bytes: likewise of one buffer.
+    /// Throws InputError if there is no such device. One of several parts has its share of the compute units and of the
+    /// memory. `memoryLimit`, bytes: the device is taken to have no more; 0: what it has. `computeUnits` of it alone
+    /// are used; 0 = all. `bufferLimit`, bytes: likewise of one buffer.
     explicit Device(const DeviceChoice& choice = {}, unsigned workGroupSize = 64, uint64_t memoryLimit = 0,
                     unsigned computeUnits = 0, uint64_t bufferLimit = 0);
 
@@ -98,8 +99,8 @@ private:
     std::map<std::string, KernelTiming> timings_;
 };
 
-/// While it lives, buffers that are allocated are noted in `sizes`, bytes by label (a label used twice holds the later size). Several
-/// renderers share a device; each notes its own.
+/// While it lives, buffers that are allocated are noted in `sizes`, bytes by label (a label used twice holds the later
+/// size). Several renderers share a device; each notes its own.
 class AllocationNotes {
 public:
     AllocationNotes(Device& device, std::map<std::string, uint64_t>& sizes) : device_(device), outer_(device.notes_) {

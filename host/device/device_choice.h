@@ -32,11 +32,12 @@ struct DeviceList {
 };
 std::optional<DeviceList> parseDeviceList(const std::string& text);
 
-/// In the order of `text`, of so many devices; "": the one that is taken without --device. Throws InputError where one is not there.
+/// In the order of `text`, of so many devices; "": the one that is taken without --device. Throws InputError where one
+/// is not there.
 std::vector<DeviceChoice> devicesOf(const std::string& text, size_t devices);
 
-/// Of programs that share a machine's devices, what the one with this number takes: every so many-th device, and where there are fewer than
-/// programs, one that several take.
+/// Of programs that share a machine's devices, what the one with this number takes: every so many-th device, and where
+/// there are fewer than programs, one that several take.
 std::vector<DeviceChoice> shareOf(const std::vector<DeviceChoice>& all, unsigned number, unsigned programs);
 
 } // namespace quasilux

@@ -1,5 +1,5 @@
-// How much of a kernel's work goes into one launch, so that none lasts long: a display driver ends a kernel that runs for some two
-// seconds. Knows no device.
+// How much of a kernel's work goes into one launch, so that none lasts long: a display driver ends a kernel that runs
+// for some two seconds. Knows no device.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@ inline constexpr double longestLaunchSeconds = 0.5;
 
 class LaunchPace {
 public:
-    /// `first`: work-items of the first launch, of which nothing is known; 0: all of them. On CPUs no driver ends it, and PoCL would
-    /// compile the kernel once more for a launch that begins elsewhere than at 0.
+    /// `first`: work-items of the first launch, of which nothing is known; 0: all of them. On CPUs no driver ends it,
+    /// and PoCL would compile the kernel once more for a launch that begins elsewhere than at 0.
     explicit LaunchPace(size_t first = 0) : first_(first) {}
 
     /// A launch of `items` took so long.

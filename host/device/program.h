@@ -12,7 +12,8 @@
 namespace quasilux {
 
 /// `source` with every `#include "…"` replaced by the file's text (each file once), with #line marks so that build
-/// errors name the real file; a `*` in the name includes every file that fits. `extra` adds or replaces files (tests). Throws DeviceError for an unknown include.
+/// errors name the real file; a `*` in the name includes every file that fits. `extra` adds or replaces files (tests).
+/// Throws DeviceError for an unknown include.
 std::string joinKernelSource(const std::string& file, const std::map<std::string, std::string>& extra = {});
 
 class Kernel {
@@ -33,8 +34,8 @@ public:
         launchInGroupsOf(device_->info().isCpu ? 1 : device_->workGroupSize(), count, args...);
     }
 
-    /// Called when a part of the work-items is done, with the number so far, where launches are split; empty: no more. A launch takes no
-    /// longer than `longest` seconds meanwhile.
+    /// Called when a part of the work-items is done, with the number so far, where launches are split; empty: no more.
+    /// A launch takes no longer than `longest` seconds meanwhile.
     void watchParts(std::function<void(size_t)> afterPart, double longest = longestLaunchSeconds) {
         afterPart_ = std::move(afterPart);
         longestPart_ = longest;
@@ -62,8 +63,8 @@ private:
         set(index, [&] { kernel_.setArg(index, sizeof(T), &value); });
     }
     void set(cl_uint index, const std::function<void()>& argument);
-    /// In as many launches as longestLaunchSeconds asks for, each of which is waited for if there are several. In groups of `asked`, or of as
-    /// many as the device can run of this kernel.
+    /// In as many launches as longestLaunchSeconds asks for, each of which is waited for if there are several. In
+    /// groups of `asked`, or of as many as the device can run of this kernel.
     void enqueue(size_t count, size_t asked);
     cl::Event enqueuePart(size_t first, size_t count, size_t group);
     void notePace();
@@ -72,8 +73,8 @@ private:
     cl::Kernel kernel_;
     std::string name_;
     uint64_t privateBytes_ = 0;
-    size_t largestGroup_ =
-        1; ///< work-items that the device can run in a group of this kernel: registers may leave room for few
+    /// Work-items that the device can run in a group of this kernel: registers may leave room for few
+    size_t largestGroup_ = 1;
     LaunchPace pace_;
     cl::Event last_; ///< the last launch
     size_t lastCount_ = 0;

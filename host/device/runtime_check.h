@@ -17,7 +17,8 @@ std::string vendorPlace();
 /// Of that place; none where it does not exist.
 std::vector<VendorFile> vendorFiles();
 
-/// Compiles a small kernel for the device of this number and runs it. Seconds that took. Throws DeviceError, also where the result is wrong.
+/// Compiles a small kernel for the device of this number and runs it. Seconds that took. Throws DeviceError, also where
+/// the result is wrong.
 double runSelfTest(int device);
 
 } // namespace quasilux

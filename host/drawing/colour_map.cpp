@@ -1,4 +1,5 @@
-// Published colours at every eighth of 256 places, linear between: within 6 of 255 of the published ones in any channel.
+// Published colours at every eighth of 256 places, linear between: within 6 of 255 of the published ones in any
+// channel.
 #include "drawing/colour_map.h"
 
 #include <algorithm>

@@ -14,9 +14,9 @@ struct Colour {
     friend bool operator==(const Colour&, const Colour&) = default;
 };
 
-/// viridis: Smith & van der Walt 2015 (matplotlib, CC0). cividis: Nuñez, Anderton & Renslow 2018, "Optimizing colormaps with
-/// consideration for color vision deficiency", PLoS ONE 13(7), made so that people with and without colour vision see
-/// the same differences.
+/// viridis: Smith & van der Walt 2015 (matplotlib, CC0). cividis: Nuñez, Anderton & Renslow 2018, "Optimizing colormaps
+/// with consideration for color vision deficiency", PLoS ONE 13(7), made so that people with and without colour vision
+/// see the same differences.
 enum class ColourMap { viridis, cividis, grey };
 
 /// For `--map`.

@@ -16,8 +16,8 @@ struct Field {
     double value(double atX, double atY) const;
 };
 
-/// Where the field has the value `level`: lines that are closed or end at the border. A place that has it exactly counts as above. Where a
-/// cell has two lines, the mean of its corners says which way they go.
+/// Where the field has the value `level`: lines that are closed or end at the border. A place that has it exactly
+/// counts as above. Where a cell has two lines, the mean of its corners says which way they go.
 std::vector<std::vector<Place>> contoursOf(const Field& field, double level);
 
 double lengthOf(const std::vector<Place>& line);

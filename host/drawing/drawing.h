@@ -1,4 +1,5 @@
-// A drawing of lines, texts and pictures, made once and written as SVG or as a picture of pixels (docs/reference/command-line.md#false-colours).
+// A drawing of lines, texts and pictures, made once and written as SVG or as a picture of pixels
+// (docs/reference/command-line.md#false-colours).
 #pragma once
 
 #include "drawing/colour_map.h"

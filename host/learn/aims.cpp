@@ -11,14 +11,17 @@ namespace quasilux {
 
 namespace {
 
-// By which the log likelihood of all scattered rays must grow; and by an opening that no light from outside is known to come through.
+// By which the log likelihood of all scattered rays must grow; and by an opening that no light from outside is known to
+// come through.
 constexpr double leastAimGain = 0.03, leastFoundGain = 0.2;
 // Squares about one place: each twice as wide as the one before. Those that would get less of the photons are left out.
 constexpr int innerSquares = 2, outerSquares = 6;
 constexpr double leastShare = 0.01;
-// What matters about one place has no wall around it: photons that are not aimed may come there, too, and are not to be heavy.
+// What matters about one place has no wall around it: photons that are not aimed may come there, too, and are not to be
+// heavy.
 constexpr double surestAtPlace = 0.5;
-// Where aimed photons are less dense than this many times those spread over all directions there is little to be gained.
+// Where aimed photons are less dense than this many times those spread over all directions there is little to be
+// gained.
 constexpr double leastDensity = 10;
 
 // Enough of the rays to tell what is gained by aiming.
@@ -59,8 +62,9 @@ double gainOf(const AimSet& set, const std::vector<UsefulRay>& rays) {
     return gain;
 }
 
-// Squares about the centre of `opening` whose mixture is as dense as the rays are in each ring between two of them, as far as they get
-// thinner outwards: of the square k, of area S_k, the share S_k (D_k - D_k+1), D being the rings' densities.
+// Squares about the centre of `opening` whose mixture is as dense as the rays are in each ring between two of them, as
+// far as they get thinner outwards: of the square k, of area S_k, the share S_k (D_k - D_k+1), D being the rings'
+// densities.
 AimSet nestedSquares(const Opening& opening, const std::vector<UsefulRay>& rays) {
     const int count = innerSquares + 1 + outerSquares;
     std::vector<double> half, weight(static_cast<size_t>(count)), density(static_cast<size_t>(count) + 1);
@@ -139,7 +143,8 @@ std::optional<UsefulRay> scatteredRay(const shared::ImportancePath& path, size_t
 
 namespace {
 
-// The ways of photons between the vertices of importance paths, by the light that comes to the image along them: what was found from there on.
+// The ways of photons between the vertices of importance paths, by the light that comes to the image along them: what
+// was found from there on.
 std::vector<UsefulRay> usefulRays(const std::vector<shared::ImportancePath>& paths,
                                   const std::vector<double>& pathWeights) {
     std::vector<UsefulRay> rays;
@@ -164,7 +169,8 @@ struct Candidate {
     double gain = 0;
 };
 
-// The set by which most is gained, which is then no candidate any more, as little as those by which too little is: rays only become fewer.
+// The set by which most is gained, which is then no candidate any more, as little as those by which too little is: rays
+// only become fewer.
 std::optional<AimSet> takeBest(std::vector<Candidate>& candidates, const std::vector<UsefulRay>& rays) {
     for (Candidate& candidate : candidates) {
         candidate.set = setAbout(candidate.opening, rays);

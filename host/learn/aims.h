@@ -10,8 +10,8 @@
 
 namespace quasilux {
 
-/// Openings that photons are aimed at together, each with its share of them: one, or squares within each other that face every place,
-/// where what matters lies about one place, ever more thinly.
+/// Openings that photons are aimed at together, each with its share of them: one, or squares within each other that
+/// face every place, where what matters lies about one place, ever more thinly.
 struct AimSet {
     std::vector<Opening> openings;
     std::vector<double> shares;
@@ -19,18 +19,20 @@ struct AimSet {
 
     /// Of aimed photons along the ray, about, over that of photons spread over all directions.
     double density(const UsefulRay& ray) const;
-    /// Share of what comes along the ray that is worth aiming: about one place that of aimed photons where every second one is aimed;
-    /// through an opening with walls about it all of it, if it is seen as a small part of all directions.
+    /// Share of what comes along the ray that is worth aiming: about one place that of aimed photons where every second
+    /// one is aimed; through an opening with walls about it all of it, if it is seen as a small part of all directions.
     double claim(const UsefulRay& ray) const;
 };
 
 inline constexpr std::size_t mostAimSets = 8;
 
-/// The way of a photon from vertex `v` of an importance path to the one before, by the throughput there; none where it brings nothing.
+/// The way of a photon from vertex `v` of an importance path to the one before, by the throughput there; none where it
+/// brings nothing.
 std::optional<UsefulRay> scatteredRay(const shared::ImportancePath& path, std::size_t v);
 
-/// Sets of openings that light should come through: those that light from outside comes through, and what the paths found beside them.
-/// `pathWeights`: 1 / brightness of each path's pixel, over the number of paths; `radius`: of the order of the scene.
+/// Sets of openings that light should come through: those that light from outside comes through, and what the paths
+/// found beside them. `pathWeights`: 1 / brightness of each path's pixel, over the number of paths; `radius`: of the
+/// order of the scene.
 std::vector<AimSet> findAims(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
                              const std::vector<Opening>& fromOutside, double radius);
 

@@ -96,8 +96,9 @@ Block about(const Blocks& blocks, size_t b) {
     return merged(std::move(all));
 }
 
-// Emitters between which the light tree chooses, or a single one. A block's list begins with the whole tree and all others; the strongest
-// group is replaced by its children as long as there is room and importance paths can distinguish these.
+// Emitters between which the light tree chooses, or a single one. A block's list begins with the whole tree and all
+// others; the strongest group is replaced by its children as long as there is room and importance paths can distinguish
+// these.
 struct Group {
     unsigned first = 0, count = 1, node = 0;
     double strength = 0, finds = 0;
@@ -105,7 +106,8 @@ struct Group {
     bool canSplit() const { return count > 1 && finds >= fewestFinds; }
 };
 
-// Running sums over what a block saw, to ask groups of. The root of what samples have as second moment leaves the least variance.
+// Running sums over what a block saw, to ask groups of. The root of what samples have as second moment leaves the least
+// variance.
 class Strengths {
 public:
     Strengths(const Block& seen, const std::vector<bool>& byPhotons) {

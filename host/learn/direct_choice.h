@@ -17,8 +17,8 @@ struct DirectFind {
 };
 
 struct DirectChoice {
-    /// By emitter: its light is taken from photons where it is genuinely diffusely reflected. True where samples of it mostly find it
-    /// hidden.
+    /// By emitter: its light is taken from photons where it is genuinely diffusely reflected. True where samples of it
+    /// mostly find it hidden.
     std::vector<bool> byPhotons;
     std::vector<shared::LightChoice> lights; ///< as LearnedTables; empty where there is at most one emitter to sample
     unsigned lightBlockSize = 1;

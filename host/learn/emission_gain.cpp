@@ -23,8 +23,8 @@ float mostSquares(const std::vector<shared::PhotonRecord>& photons) {
 
 } // namespace
 
-// E_plain[f] = E_guided[f r] with r = density by plain emission / density by the guide = flux / plain flux. By plain emission the square
-// of what a photon brings is 1 / r^2 as large.
+// E_plain[f] = E_guided[f r] with r = density by plain emission / density by the guide = flux / plain flux. By plain
+// emission the square of what a photon brings is 1 / r^2 as large.
 void EmissionGain::add(const std::vector<shared::PhotonRecord>& photons, const EmitterTables& emitters) {
     const float most = mostSquares(photons);
     for (const auto& photon : photons) {

@@ -14,7 +14,8 @@ public:
     /// The photons of a round.
     void add(const std::vector<shared::PhotonRecord>& photons, const EmitterTables& emitters);
 
-    /// Noise times time that plain emission would leave, over what these photons leave. 1 where none of them serves the image.
+    /// Noise times time that plain emission would leave, over what these photons leave. 1 where none of them serves the
+    /// image.
     double ratio() const;
 
 private:

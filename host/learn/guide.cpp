@@ -12,8 +12,8 @@ namespace {
 
 // Share of all photons that emitters get by their power, whatever was learned.
 constexpr double plainShare = 0.1;
-// An emitter is guided where photons by plain emission would have this many times the second moment at least: below, evenly
-// spread numbers (kernels/lattice.clh) do as much.
+// An emitter is guided where photons by plain emission would have this many times the second moment at least: below,
+// evenly spread numbers (kernels/lattice.clh) do as much.
 constexpr double leastGain = 1.5;
 constexpr size_t fewestRecords = 64;
 constexpr size_t mostOpenings = 16; // of an emitter

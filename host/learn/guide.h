@@ -1,4 +1,5 @@
-// Guided emission: from useful emission that importance paths found to the tables of kernels/guide.clh (docs/method/learning.md).
+// Guided emission: from useful emission that importance paths found to the tables of kernels/guide.clh
+// (docs/method/learning.md).
 #pragma once
 
 #include "learn/guide_tree.h"

@@ -11,9 +11,9 @@ namespace quasilux {
 /// For so many importance paths; no cells yet.
 shared::ImportanceGrid importanceGrid(const DeviceScene& scene, unsigned paths);
 
-/// The table of the grid, as the kernels read it, which gets as many cells as it takes. `pathWeights`: 1 / brightness of each
-/// path's pixel, over the number of paths. `keys`, fine and coarse, and `sizes` of all vertices come from the kernel findImportanceCells.
-/// Scattered light is aimed at those of `aims` that much of it should come through.
+/// The table of the grid, as the kernels read it, which gets as many cells as it takes. `pathWeights`: 1 / brightness
+/// of each path's pixel, over the number of paths. `keys`, fine and coarse, and `sizes` of all vertices come from the
+/// kernel findImportanceCells. Scattered light is aimed at those of `aims` that much of it should come through.
 std::vector<uint32_t> importanceCells(const std::vector<shared::ImportancePath>& paths,
                                       const std::vector<double>& pathWeights, const std::vector<uint32_t>& keys,
                                       const std::vector<float>& sizes, const std::vector<AimSet>& aims,

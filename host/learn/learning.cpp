@@ -15,7 +15,8 @@ namespace {
 constexpr uint64_t shareOfMemory = 4; // one part in so many
 constexpr unsigned pathsPerPixel = 16, fewestPaths = 8192, mostPaths = 262144;
 constexpr unsigned photonRounds = 3;
-// Where more of the photons lie about what is gathered, all are stored: the noise of those few that stand for others would not pay.
+// Where more of the photons lie about what is gathered, all are stored: the noise of those few that stand for others
+// would not pay.
 constexpr double mostSeenShare = 0.5;
 // Below, photons are not guided: plain ones are spread more evenly than chance would (kernels/lattice.clh).
 constexpr double leastGuidingGain = 10;
@@ -54,7 +55,8 @@ std::vector<double> pathWeights(const std::vector<shared::ImportancePath>& paths
     return weights;
 }
 
-// Is anything hidden, so that few of the photons matter that are not guided? Or else there is nothing to split or to end either.
+// Is anything hidden, so that few of the photons matter that are not guided? Or else there is nothing to split or to
+// end either.
 bool isHidden(const LearnedTables& learned) {
     return learned.guide.leaves.size() > learned.directByPhotons.size() || !learned.aims.empty();
 }
@@ -190,7 +192,8 @@ void Learning::forget() {
     upload();
 }
 
-// In media importance paths meet more than they can note (IMPORTANCE_VERTICES): what their cells say of importance there is too little.
+// In media importance paths meet more than they can note (IMPORTANCE_VERTICES): what their cells say of importance
+// there is too little.
 bool Learning::windowsHold() const { return !scene_.features.media; }
 
 void Learning::note(const RoundResult& result) {

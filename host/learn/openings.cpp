@@ -214,7 +214,8 @@ Opening fitRectangle(const std::vector<UsefulRay>& rays, const glm::dvec3& centr
     return best;
 }
 
-// Rays that are scattered towards a region, not through a plane opening, come from all sides: no rectangle is much narrower then.
+// Rays that are scattered towards a region, not through a plane opening, come from all sides: no rectangle is much
+// narrower then.
 Opening fitOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
     const Opening rectangle = fitRectangle(rays, centre);
     if (!rays.front().isScattered) return rectangle;

@@ -12,15 +12,15 @@ namespace quasilux {
 struct UsefulRay {
     glm::dvec3 position{}, direction{}; ///< direction is of unit length
     double weight = 0;
-    bool isScattered =
-        false; ///< begins at `position`, where its light is scattered into all directions; or else comes from outside
+    /// Begins at `position`, where its light is scattered into all directions; or else comes from outside
+    bool isScattered = false;
 };
 
 /// Of a place from the line that the ray lies on.
 double distance(const UsefulRay& ray, const glm::dvec3& place);
 
-/// Which of the rays systematic resampling draws, in their order, each as often as it weighs (no more than `mostCopies` times or so): `count`
-/// of them, fewer where some weigh more than that.
+/// Which of the rays systematic resampling draws, in their order, each as often as it weighs (no more than `mostCopies`
+/// times or so): `count` of them, fewer where some weigh more than that.
 std::vector<size_t> drawnByWeight(const std::vector<UsefulRay>& rays, size_t count,
                                   double mostCopies = std::numeric_limits<double>::infinity());
 
@@ -33,9 +33,10 @@ struct Opening {
     bool holds(const UsefulRay& ray) const;
 };
 
-/// At most `most`, the one first by which the rays' log likelihood grows most, were every second one aimed at it: before, rays from
-/// outside are spread evenly over a sphere of this `radius`, scattered ones over all directions. The same for the same rays.
-/// What comes through `known` ones is left out, and openings that bring less than `leastGain` of the likelihood.
+/// At most `most`, the one first by which the rays' log likelihood grows most, were every second one aimed at it:
+/// before, rays from outside are spread evenly over a sphere of this `radius`, scattered ones over all directions. The
+/// same for the same rays. What comes through `known` ones is left out, and openings that bring less than `leastGain`
+/// of the likelihood.
 std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, const std::vector<Opening>& known,
                                   size_t most, double leastGain = 0.05);
 

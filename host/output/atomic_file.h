@@ -16,8 +16,8 @@ void checkOutputPath(const std::string& path, const std::string& option, const s
 class AtomicFile {
 public:
     explicit AtomicFile(std::string path);
-    /// `temporary`: a name that does not differ from process to process, so that those that are killed leave no more than one file. It is
-    /// another's until an OutputStream has it.
+    /// `temporary`: a name that does not differ from process to process, so that those that are killed leave no more
+    /// than one file. It is another's until an OutputStream has it.
     AtomicFile(std::string path, std::string temporary)
         : path_(std::move(path)), temporary_(std::move(temporary)), isOurs_(false) {}
     ~AtomicFile();
@@ -40,7 +40,8 @@ private:
     int lock_ = -1; ///< descriptor that holds the lock until the file has its final name
 };
 
-/// Bytes into the temporary file, which no other process writes until that is renamed or removed. Every failure throws std::system_error with what the system said of it.
+/// Bytes into the temporary file, which no other process writes until that is renamed or removed. Every failure throws
+/// std::system_error with what the system said of it.
 class OutputStream {
 public:
     /// `path` is the final name, for messages.

@@ -1,4 +1,5 @@
-// The file of a checkpoint (docs/reference/reliability.md, "The file"): arrays, what they are as JSON, and a checksum over all.
+// The file of a checkpoint (docs/reference/reliability.md, "The file"): arrays, what they are as JSON, and a checksum
+// over all.
 #pragma once
 
 #include "output/atomic_file.h"
@@ -16,7 +17,8 @@ inline constexpr const char* checkpointExtension = ".ckpt";
 /// Where the checkpoint that a new one replaces is kept.
 std::string previousCheckpoint(const std::string& path);
 
-/// Writes arrays, then finish(). Without it nothing changes at `path`. Throws std::system_error where the disk is full or fails.
+/// Writes arrays, then finish(). Without it nothing changes at `path`. Throws std::system_error where the disk is full
+/// or fails.
 class CheckpointWriter : public StateSink {
 public:
     explicit CheckpointWriter(const std::string& path);

@@ -11,8 +11,8 @@ namespace quasilux {
 
 namespace {
 
-/// Lets OpenImageIO write into our temporary file. What it opens itself it writes through a buffer, and it does not report that the disk is
-/// full when that is flushed at the end.
+/// Lets OpenImageIO write into our temporary file. What it opens itself it writes through a buffer, and it does not
+/// report that the disk is full when that is flushed at the end.
 class StreamProxy : public OIIO::Filesystem::IOProxy {
 public:
     explicit StreamProxy(OutputStream& stream) : IOProxy("", Write), stream_(stream) {}

@@ -7,7 +7,8 @@
 
 namespace quasilux {
 
-/// `format`: as OpenImageIO names it. `write` gives the pixels, and returns whether all went well. Throws std::runtime_error.
+/// `format`: as OpenImageIO names it. `write` gives the pixels, and returns whether all went well. Throws
+/// std::runtime_error.
 void writeImage(const std::string& path, const std::string& format, const OIIO::ImageSpec& spec,
                 const std::function<bool(OIIO::ImageOutput&)>& write);
 

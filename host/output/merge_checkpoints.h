@@ -8,8 +8,8 @@ namespace quasilux {
 
 class MergedPasses {
 public:
-    /// In the order of their passes, whatever that of `paths`. Throws InputError where one is damaged, where two are not of one image, or
-    /// have a pass in common.
+    /// In the order of their passes, whatever that of `paths`. Throws InputError where one is damaged, where two are
+    /// not of one image, or have a pass in common.
     explicit MergedPasses(const std::vector<std::string>& paths);
 
     const Checkpoint& checkpoint() const { return checkpoint_; }

@@ -43,7 +43,8 @@ struct GridFigures {
     double overall = 0, overallStandardError = 0;     ///< U0: minimum over mean (EN 12464-1)
     double diversity = 0, diversityStandardError = 0; ///< Ud: minimum over maximum
 };
-/// Errors of ratios as though those of their terms were independent. The minimum of noisy values is too low by about their noise.
+/// Errors of ratios as though those of their terms were independent. The minimum of noisy values is too low by about
+/// their noise.
 GridFigures gridFigures(const FilmImage& image, PixelRange range, bool unitsArePhotometric);
 
 /// Of the cylindrical and the horizontal illuminance (EN 12464-1): their ratio.

@@ -12,9 +12,9 @@ namespace quasilux {
 /// Such as "rendering: pass 12, 1.25 M photons/s, 310 k paths/s, error 2.31 %, 0:24 left"; unknown values are left out.
 std::string progressText(const Progress& progress);
 
-/// On a terminal the line is redrawn at most every 0.5 s, a new phase is shown at once, and it is cleared at the end of the scope.
-/// Elsewhere, as in a log, lines follow each other: after `betweenLines`, and then whenever a tenth of the time so far has passed again,
-/// though not sooner than that.
+/// On a terminal the line is redrawn at most every 0.5 s, a new phase is shown at once, and it is cleared at the end of
+/// the scope. Elsewhere, as in a log, lines follow each other: after `betweenLines`, and then whenever a tenth of the
+/// time so far has passed again, though not sooner than that.
 class ProgressLine {
 public:
     /// Nothing is shown unless `enabled`. `label` goes before all it says.

@@ -49,12 +49,14 @@ nlohmann::json describe(const Checkpoint& checkpoint);
 /// Throws InputError where it is of another version.
 Checkpoint checkpointOf(const CheckpointReader& reader);
 
-/// Whole or not at all; the one before is kept. `save` writes what was learned, film and radii. Throws std::system_error, DeviceError.
+/// Whole or not at all; the one before is kept. `save` writes what was learned, film and radii. Throws
+/// std::system_error, DeviceError.
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint,
                      const std::function<void(StateSink&)>& save);
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint, const Renderer& renderer);
 
-/// Why `there`, the checkpoint, and `here` cannot be of one image: the first setting that differs. Empty: they can, as far as `wanted` tells.
+/// Why `there`, the checkpoint, and `here` cannot be of one image: the first setting that differs. Empty: they can, as
+/// far as `wanted` tells.
 std::string differenceOfWanted(const Checkpoint& there, const Checkpoint& here);
 /// The same of all that makes the image, once the scene has been prepared.
 std::string differenceOfImage(const Checkpoint& there, const Checkpoint& here);

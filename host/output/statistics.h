@@ -7,7 +7,8 @@
 
 namespace quasilux {
 
-/// Bytes and seconds; numbers that are unknown (an error after one pass) are null. Keys: docs/reference/command-line.md.
+/// Bytes and seconds; numbers that are unknown (an error after one pass) are null. Keys:
+/// docs/reference/command-line.md.
 nlohmann::json statisticsJson(const RenderRecord& record, const FilmImage& image);
 nlohmann::json deviceJson(const DeviceInfo& device);
 nlohmann::json settingsJson(const RenderSettings& settings);

@@ -1,5 +1,5 @@
-// Daylight Glare Probability of an image (Wienold & Christoffersen 2006, "Evaluation methods and development of a new glare prediction
-// model for daylight environments with the use of CCD cameras", Energy and Buildings 38).
+// Daylight Glare Probability of an image (Wienold & Christoffersen 2006, "Evaluation methods and development of a new
+// glare prediction model for daylight environments with the use of CCD cameras", Energy and Buildings 38).
 #pragma once
 
 #include "photometry/luminance_image.h"

@@ -28,12 +28,13 @@ struct GlareSources {
     double strength() const;
 };
 
-/// Luminaires (quasilux_ies, by intensity / luminous area towards the eye) and shapes that emit, as seen by the observer. The sky and the sun are
-/// no luminaires. `photometric`: what the scene's radiances are.
+/// Luminaires (quasilux_ies, by intensity / luminous area towards the eye) and shapes that emit, as seen by the
+/// observer. The sky and the sun are no luminaires. `photometric`: what the scene's radiances are.
 GlareSources glareSources(const Scene& scene, const Observer& observer, const Occlusion& occlusion, bool photometric);
 
 /// 8 log10(0.25 / Lb · Σ L² ω / p²) and its standard error, with the background luminance Lb = Ei / π of the
-/// vertical illuminance at the eye without the sources' direct light, lx. NaN where that is not above 0: there is no background then.
+/// vertical illuminance at the eye without the sources' direct light, lx. NaN where that is not above 0: there is no
+/// background then.
 struct GlareRating {
     double value = 0, standardError = 0;
 };

@@ -20,11 +20,12 @@ struct LuminanceImage {
     const char* unit() const { return isIlluminance ? "lx" : "cd/m²"; }
 };
 
-/// What R, G, B of the file are: radiometric (W) or photometric (lm); `asHeaderSays`, and radiometric where that is silent.
+/// What R, G, B of the file are: radiometric (W) or photometric (lm); `asHeaderSays`, and radiometric where that is
+/// silent.
 enum class ImageUnits { asHeaderSays, photometric };
 
-/// An image as readRadiance() takes it, of radiance or, if its header says so, of irradiance. 683 lm/W over the primaries of sRGB
-/// (docs/method/meters.md). Throws InputError.
+/// An image as readRadiance() takes it, of radiance or, if its header says so, of irradiance. 683 lm/W over the
+/// primaries of sRGB (docs/method/meters.md). Throws InputError.
 LuminanceImage readLuminance(const std::string& path, ImageUnits units);
 
 /// Of linear sRGB pixels, interleaved.

@@ -7,7 +7,8 @@
 
 namespace quasilux {
 
-/// Surfaces of a scene but those that let all light pass (bsdf 'null'). Panes of glass and masks hide what is behind them.
+/// Surfaces of a scene but those that let all light pass (bsdf 'null'). Panes of glass and masks hide what is behind
+/// them.
 class Occlusion {
 public:
     explicit Occlusion(const Scene& scene);

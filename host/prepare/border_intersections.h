@@ -34,12 +34,13 @@ struct CutCandidates {
     std::vector<Box> boxes;
 };
 CutCandidates collectCandidates(const Surface& surface);
-/// Appends the cuts of candidate i and candidate j > i, of one surface, that are not neighbours. Returns their primitives.
+/// Appends the cuts of candidate i and candidate j > i, of one surface, that are not neighbours. Returns their
+/// primitives.
 std::pair<unsigned, unsigned> cutPair(const Surface& surface, const CutCandidates& candidates, unsigned i, unsigned j,
                                       std::vector<CutSegment>& cuts);
 
-/// Appends all intersections in the scene, with the patches that meet there (neighbours in one patch are not tested), to
-/// borders.segments, and notes sheets that overlap within a plane.
+/// Appends all intersections in the scene, with the patches that meet there (neighbours in one patch are not tested),
+/// to borders.segments, and notes sheets that overlap within a plane.
 void intersectSurfaces(const Surface& surface, SurfaceBorders& borders);
 
 } // namespace quasilux

@@ -53,7 +53,8 @@ unsigned primitiveCount(const ShapeDescription& shape);
 void measureTriangle(SurfaceTriangle& triangle, const std::vector<glm::dvec3>& vertices);
 SurfaceSphere makeSurfaceSphere(const Sphere& sphere, unsigned primitive);
 
-/// Triangles and spheres of those of the scene's shapes that are visible, with vertices that coincide within rounding made one.
+/// Triangles and spheres of those of the scene's shapes that are visible, with vertices that coincide within rounding
+/// made one.
 Surface collectSurface(const Scene& scene, std::span<const ShapeDescription> shapes);
 
 } // namespace quasilux

@@ -71,7 +71,8 @@ shared::BorderLeaf leafOf(Entries first, Entries last) {
     return leaf;
 }
 
-/// Where the range is parted: half way by `key` along its longest axis, and between two patches where there are several.
+/// Where the range is parted: half way by `key` along its longest axis, and between two patches where there are
+/// several.
 Entries part(Entries first, Entries last, glm::dvec3 Entry::*key, bool betweenPatches) {
     Box box;
     for (auto entry = first; entry != last; ++entry) box.add((*entry).*key);

@@ -134,6 +134,49 @@ void appendAllBorders(const Scene& scene, const SurfaceBorders& borders, SceneTa
     offsets.instanceRoot = tree.instanceRoot;
 }
 
+void appendTextures(const Scene& scene, const TextureTables& textures, SceneTableWriter& tables, DeviceScene& out) {
+    out.offsets.textures = tables.append(textures.textures);
+    out.offsets.uvs = tables.append(flattenUvs(scene));
+    out.offsets.attributes = tables.append(textures.attributes);
+    out.features.nestedTextures = textures.areNested;
+    out.features.meshAttributes = textures.haveAttributes;
+    out.features.textureVolumes = textures.haveVolumes;
+}
+
+void appendEmitters(EmitterTables& emitters, SceneTableWriter& tables, shared::SceneTables& offsets) {
+    offsets.emitters = tables.append(emitters.emitters);
+    offsets.emitterTriangles = tables.append(emitters.triangles);
+    offsets.environment = tables.append(emitters.environment);
+    emitters.environment = {}; // it is large
+    offsets.goniograms = tables.append(emitters.goniograms);
+    offsets.emitterCount = static_cast<unsigned>(emitters.emitters.size());
+    offsets.lightTree = tables.append(emitters.lightTree);
+    offsets.lightTreeCount = emitters.countInTree();
+}
+
+/// `lobe`: of an irradiance meter.
+void appendMeter(const MeterTables& meter, unsigned lobe, SceneTableWriter& tables, shared::SceneTables& offsets) {
+    offsets.meter = meter.meter;
+    offsets.meter.lobe = lobe;
+    offsets.meter.primitives = meter.grids.empty() ? tables.append(meter.primitives) : tables.append(meter.grids);
+}
+
+// For reports.
+void countParts(const Scene& scene, const SurfaceBorders& borders, DeviceScene& out) {
+    for (const auto& shape : scene.shapes) {
+        out.triangles += shape.mesh.triangles.size();
+        out.spheres += shape.sphere ? 1 : 0;
+    }
+    out.patches = borders.patchCount;
+    out.borderSegments = borders.segments.size();
+    for (const SurfaceBorders& group : borders.groups) {
+        out.patches += group.patchCount;
+        out.borderSegments += group.segments.size();
+    }
+    out.instances = scene.instances.size();
+    for (const double power : out.emitters.power) out.emittedFlux += power;
+}
+
 unsigned shapeOfPrimitive(const Scene& scene, unsigned primitive) {
     unsigned shape = 0;
     while (primitive >= primitiveCount(scene.shapes[shape])) primitive -= primitiveCount(scene.shapes[shape++]);
@@ -151,10 +194,6 @@ std::vector<std::string> findWarnings(const Scene& scene, const SurfaceBorders& 
                     "Remove one of them, or move it by a thousandth of its size.",
                     second.where.text(), first.id, second.id, place.x, place.y, place.z)};
 }
-
-} // namespace
-
-namespace {
 
 void setDirectByPhotons(DeviceScene& scene, const std::vector<bool>& byPhotons) {
     auto& emitters = scene.emitters.emitters;
@@ -222,30 +261,15 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.offsets.cornerNormals = tables.append(flattenCornerNormals(scene));
     out.offsets.materials = tables.append(materials.materials);
     out.offsets.lobes = tables.append(materials.lobes);
-    const auto textures = flattenTextures(scene, materials, out.emitters);
-    out.offsets.textures = tables.append(textures.textures);
-    out.offsets.uvs = tables.append(flattenUvs(scene));
-    out.offsets.attributes = tables.append(textures.attributes);
-    out.features.nestedTextures = textures.areNested;
-    out.features.meshAttributes = textures.haveAttributes;
-    out.features.textureVolumes = textures.haveVolumes;
+    const TextureTables textures = flattenTextures(scene, materials, out.emitters);
+    appendTextures(scene, textures, tables, out);
     out.offsets.media = appendMedia(media, tables);
     out.offsets.reliefs = tables.append(materials.reliefs);
     out.offsets.roughness = tables.append(materials.roughness);
     out.offsets.lobeWeights = tables.append(materials.weights);
     out.offsets.mediumPlanes = tables.append(media.planes);
-    out.offsets.emitters = tables.append(out.emitters.emitters);
-    out.offsets.emitterTriangles = tables.append(out.emitters.triangles);
-    out.offsets.environment = tables.append(out.emitters.environment);
-    out.emitters.environment = {}; // it is large
-    out.offsets.goniograms = tables.append(out.emitters.goniograms);
-    out.offsets.emitterCount = static_cast<unsigned>(out.emitters.emitters.size());
-    out.offsets.lightTree = tables.append(out.emitters.lightTree);
-    out.offsets.lightTreeCount = out.emitters.countInTree();
-    const auto meter = flattenMeter(scene, placement.camera, placement.grids);
-    out.offsets.meter = meter.meter;
-    out.offsets.meter.lobe = meterLobe;
-    out.offsets.meter.primitives = meter.grids.empty() ? tables.append(meter.primitives) : tables.append(meter.grids);
+    appendEmitters(out.emitters, tables, out.offsets);
+    appendMeter(flattenMeter(scene, placement.camera, placement.grids), meterLobe, tables, out.offsets);
     const unsigned filterSteps = tables.append(filterTable(scene.sensor));
     appendAllBorders(scene, borders, tables, tree, out.offsets);
     out.bvh = std::move(tree.bvh);
@@ -257,19 +281,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     LearnedTables nothing;
     nothing.guide = plainGuide(out.emitters);
     setLearned(out, nothing);
-
-    for (const auto& shape : scene.shapes) {
-        out.triangles += shape.mesh.triangles.size();
-        out.spheres += shape.sphere ? 1 : 0;
-    }
-    out.patches = borders.patchCount;
-    out.borderSegments = borders.segments.size();
-    for (const SurfaceBorders& group : borders.groups) {
-        out.patches += group.patchCount;
-        out.borderSegments += group.segments.size();
-    }
-    out.instances = scene.instances.size();
-    for (const double power : out.emitters.power) out.emittedFlux += power;
+    countParts(scene, borders, out);
     return out;
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Share of directions that are even over rows, and over the cells of a row, whatever their radiance: or else a dim pixel beside a
-// bright one had a probability below the step of random numbers.
+// Share of directions that are even over rows, and over the cells of a row, whatever their radiance: or else a dim
+// pixel beside a bright one had a probability below the step of random numbers.
 constexpr double evenShare = 1.0 / 256;
 constexpr double steps = 1 << 24; // of random numbers in [0,1)
 

@@ -1,5 +1,5 @@
-// An image of the surroundings as the kernels take it: its pixels, and the probabilities by which directions are sampled
-// (kernels/emitters/envmap.clh).
+// An image of the surroundings as the kernels take it: its pixels, and the probabilities by which directions are
+// sampled (kernels/emitters/envmap.clh).
 #pragma once
 
 #include "scene/scene.h"

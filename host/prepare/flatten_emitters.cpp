@@ -32,7 +32,8 @@ void addTriangles(const Mesh& mesh, shared::Emitter& emitter, std::vector<shared
     }
     emitter.triangleCount = static_cast<unsigned>(sums.size());
     emitter.area = static_cast<float>(area);
-    // One without area has the cdf of the one before, or of all, so that it is never chosen; the numbers stay those of the mesh.
+    // One without area has the cdf of the one before, or of all, so that it is never chosen; the numbers stay those of
+    // the mesh.
     for (size_t k = 0; k < sums.size(); ++k)
         triangles[emitter.firstTriangle + k].areaCdf = sums[k] == area ? 1.f : static_cast<float>(sums[k] / area);
 }
@@ -105,7 +106,8 @@ Rgb meanOfRadiance(const ShapeDescription& shape, const Scene& scene) {
     return meanOfTexture(texture, scene.textures, shape.mesh);
 }
 
-/// Of its intensity over that on the axis: 2 pi times the integral of min(1, (cutoff - angle) / (cutoff - beam)) sin(angle).
+/// Of its intensity over that on the axis: 2 pi times the integral of min(1, (cutoff - angle) / (cutoff - beam))
+/// sin(angle).
 double solidAngleOf(const PointEmitter::Spot& spot) {
     const double b = spot.beamAngle, c = spot.cutoffAngle;
     return 2 * pi * (1 - (std::sin(c) - std::sin(b)) / (c - b));

@@ -24,7 +24,8 @@ unsigned appendSide(const Bsdf& bsdf, const std::vector<LobeDescription>& side,
     return static_cast<unsigned>(side.size());
 }
 
-/// As in Material: appends the side's lobes again for all levels of their roughness but the first, whose place they have.
+/// As in Material: appends the side's lobes again for all levels of their roughness but the first, whose place they
+/// have.
 unsigned appendRoughness(const Scene& scene, const Bsdf& bsdf, const std::vector<LobeDescription>& side, unsigned first,
                          MaterialTables& tables) {
     const auto levels = roughnessLevels(scene, bsdf, side);

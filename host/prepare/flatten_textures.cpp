@@ -51,7 +51,8 @@ void appendAttribute(const TextureDescription& texture, const Mesh& mesh, std::v
     }
 }
 
-/// Adds the attributes that the texture of this index shows. Returns where it is said in which word those of a shape begin.
+/// Adds the attributes that the texture of this index shows. Returns where it is said in which word those of a shape
+/// begin.
 unsigned appendAttributes(unsigned index, const Scene& scene, std::vector<uint32_t>& words) {
     const size_t directory = words.size();
     words.resize(directory + scene.shapes.size(), QL_NONE);

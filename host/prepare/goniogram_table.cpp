@@ -37,7 +37,8 @@ Goniogram withNarrowRows(const Goniogram& given) {
     return out;
 }
 
-/// Sums of probabilities in proportion to `weights`, in steps of random numbers: at least one where a weight is above 0, none where it is
+/// Sums of probabilities in proportion to `weights`, in steps of random numbers: at least one where a weight is above
+/// 0, none where it is
 /// 0. Even where all are 0, which is never looked at.
 void addStepSums(std::vector<double> weights, std::vector<float>& sums) {
     double all = 0;

@@ -1,5 +1,5 @@
-// Luminaire types as the kernels take them: intensities, luminous shape, and the probabilities by which directions are sampled
-// (kernels/emitters/goniogram.clh).
+// Luminaire types as the kernels take them: intensities, luminous shape, and the probabilities by which directions are
+// sampled (kernels/emitters/goniogram.clh).
 #pragma once
 
 #include "scene/scene.h"

@@ -1,4 +1,5 @@
-// Instances whose boxes meet others are looked at: those of their primitives that may cut something are carried to the world.
+// Instances whose boxes meet others are looked at: those of their primitives that may cut something are carried to the
+// world.
 #include "prepare/instance_cuts.h"
 
 #include "prepare/border_intersections.h"

@@ -6,8 +6,8 @@
 
 namespace quasilux {
 
-/// Appends the curves in which the surfaces of instances cut each other and those of the world to borders.segments, in the world.
-/// `groups`: by Scene::groups, each in its own space.
+/// Appends the curves in which the surfaces of instances cut each other and those of the world to borders.segments, in
+/// the world. `groups`: by Scene::groups, each in its own space.
 void cutInstances(const Scene& scene, const Surface& world, const std::vector<Surface>& groups,
                   SurfaceBorders& borders);
 

@@ -10,7 +10,8 @@ struct LightTree {
     std::vector<shared::LightNode> nodes; ///< 2 n - 1 of n emitters, as LightNode says
 };
 
-/// Of emitters in the scene, none of them distant: each node is cut at the median along the longest side of its emitters' bounds.
+/// Of emitters in the scene, none of them distant: each node is cut at the median along the longest side of its
+/// emitters' bounds.
 LightTree buildLightTree(const EmitterTables& emitters);
 
 } // namespace quasilux

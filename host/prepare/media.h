@@ -16,11 +16,11 @@ struct MediumPlacement {
     std::vector<unsigned> grids; ///< by grid that is measured: about its centre
 };
 
-/// What the scene states holds. Where a shape states only one of interior and exterior, the other one, and likewise what
-/// surrounds a camera, a point emitter or an emitting shape that states nothing, is the medium inside of the innermost
-/// closed shape that states media and holds the place (nested dielectrics by innermost boundary). It is none inside of
-/// a shape that states only its outer medium, as in Mitsuba, and where no shape holds the place. The inside of a closed
-/// shape whose normals point inwards is its `exterior`. Shapes that are closed only together hold nothing.
+/// What the scene states holds. Where a shape states only one of interior and exterior, the other one, and likewise
+/// what surrounds a camera, a point emitter or an emitting shape that states nothing, is the medium inside of the
+/// innermost closed shape that states media and holds the place (nested dielectrics by innermost boundary). It is none
+/// inside of a shape that states only its outer medium, as in Mitsuba, and where no shape holds the place. The inside
+/// of a closed shape whose normals point inwards is its `exterior`. Shapes that are closed only together hold nothing.
 MediumPlacement placeMedia(const Scene& scene);
 
 } // namespace quasilux

@@ -1,4 +1,5 @@
-// The geometry of what a medium fills: its extent, whether it is a plate, and its faces where it is a convex polyhedron.
+// The geometry of what a medium fills: its extent, whether it is a plate, and its faces where it is a convex
+// polyhedron.
 #pragma once
 
 #include "scene/scene.h"

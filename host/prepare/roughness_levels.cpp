@@ -8,7 +8,8 @@ namespace quasilux {
 
 namespace {
 
-// Of one texture alpha is within 0.6 % of what it says above 0.01, and 2 % above 0.0001; of two within four times that, of three within 25 times.
+// Of one texture alpha is within 0.6 % of what it says above 0.01, and 2 % above 0.0001; of two within four times that,
+// of three within 25 times.
 constexpr unsigned mostLevels[ROUGHNESS_TEXTURES] = {1024, 256, 40};
 // As in Mitsuba.
 constexpr double leastAlpha = 1e-4;

@@ -1,5 +1,5 @@
-// Roughness by texture, and what else lobes are not linear in: a lobe for each level of it, so that the kernels sample and evaluate lobes
-// as ever.
+// Roughness by texture, and what else lobes are not linear in: a lobe for each level of it, so that the kernels sample
+// and evaluate lobes as ever.
 #pragma once
 
 #include "scene/scene.h"
@@ -17,7 +17,8 @@ struct SideLevels {
     shared::Lobe lobeAt(unsigned combination, shared::Lobe lobe, const LobeDescription& description) const;
 };
 
-/// Of the lobes of one side, or nullopt where none has such a texture. Throws InputError where they have too many different ones.
+/// Of the lobes of one side, or nullopt where none has such a texture. Throws InputError where they have too many
+/// different ones.
 std::optional<SideLevels> roughnessLevels(const Scene& scene, const Bsdf& bsdf,
                                           const std::vector<LobeDescription>& side);
 

@@ -62,7 +62,8 @@ PrimitiveBounds boundsInWorld(const Instance& instance, const std::vector<Primit
     return {glm::vec3(all.lower), glm::vec3(all.upper)};
 }
 
-/// Squares of what a matrix scales vectors by, in its three principal directions, falling: eigenvalues of a symmetric matrix (Smith 1961).
+/// Squares of what a matrix scales vectors by, in its three principal directions, falling: eigenvalues of a symmetric
+/// matrix (Smith 1961).
 std::array<double, 3> principalSquares(const glm::dmat3& m) {
     const glm::dmat3 a = glm::transpose(m) * m;
     const double mean = (a[0][0] + a[1][1] + a[2][2]) / 3;
@@ -78,7 +79,8 @@ std::array<double, 3> principalSquares(const glm::dmat3& m) {
     return {largest, 3 * mean - largest - least, least};
 }
 
-/// Of a surface that a matrix carries, a radius of curvature shrinks at most by this: the square of the least scale over the largest.
+/// Of a surface that a matrix carries, a radius of curvature shrinks at most by this: the square of the least scale
+/// over the largest.
 double radiusScale(const glm::dmat3& toWorld) {
     const auto squares = principalSquares(toWorld);
     return std::max(squares[2], 1e-30 * squares[0]) / std::sqrt(squares[0]);

@@ -1,5 +1,5 @@
-// The tree of a scene: over what lies in the world and, where there are instances, over these, behind which lies a tree for each group
-// (docs/method/traversal.md).
+// The tree of a scene: over what lies in the world and, where there are instances, over these, behind which lies a tree
+// for each group (docs/method/traversal.md).
 #pragma once
 
 #include "prepare/borders.h"
@@ -15,7 +15,8 @@ struct SceneTree {
 };
 SceneTree buildSceneTree(const Scene& scene);
 
-/// Writes the records of groups and instances in the places that buildSceneTree() has written into the tree. The groups lack their roots.
+/// Writes the records of groups and instances in the places that buildSceneTree() has written into the tree. The groups
+/// lack their roots.
 void appendInstances(const Scene& scene, const SurfaceBorders& borders, std::vector<shared::ShapeGroup> groups,
                      SceneTree& tree);
 

@@ -1,5 +1,5 @@
-// Which lobes, and which part of a phase function, are genuine diffuse and which quasi-specular: the one choice that the method leaves to its user. Any choice
-// gives the same mean image (kernels/law.clh); only the noise differs.
+// Which lobes, and which part of a phase function, are genuine diffuse and which quasi-specular: the one choice that
+// the method leaves to its user. Any choice gives the same mean image (kernels/law.clh); only the noise differs.
 #pragma once
 
 #include "scene/scene.h"
@@ -23,8 +23,8 @@ struct BsdfDecision {
 };
 
 /// `setting` is auto | none | all | level:NUMBER (as auto) | ID,ID,… where ID names a bsdf (its lobes other than
-/// Lambert, or all if it has no other), ID.LOBE one lobe of it, or ID a medium (no lobe). With `overridesScene` it wins over what the bsdfs of the scene say.
-/// Throws InputError for an ID that the scene does not have.
+/// Lambert, or all if it has no other), ID.LOBE one lobe of it, or ID a medium (no lobe). With `overridesScene` it wins
+/// over what the bsdfs of the scene say. Throws InputError for an ID that the scene does not have.
 std::vector<BsdfDecision> decideSplit(const Scene& scene, const std::string& setting, bool overridesScene);
 
 /// How a medium's phase function is split (shared::Medium::level).

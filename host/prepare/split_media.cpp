@@ -68,8 +68,8 @@ double highestValue(const std::vector<PhasePartDescription>& parts) {
     return highest;
 }
 
-/// The integral of min(p, level) over the sphere, by the midpoint rule: part by part over equal shares of its HG function, so
-/// that a narrow peak is resolved too, over the uniform density for others.
+/// The integral of min(p, level) over the sphere, by the midpoint rule: part by part over equal shares of its HG
+/// function, so that a narrow peak is resolved too, over the uniform density for others.
 double genuineDiffuseShare(const std::vector<PhasePartDescription>& parts, double level) {
     constexpr int steps = 4096;
     double share = 0;

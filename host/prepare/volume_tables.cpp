@@ -16,8 +16,8 @@ size_t wrapped(int i, int n, unsigned wrap) {
     return static_cast<size_t>(k < n ? k : 2 * n - 1 - k);
 }
 
-/// Largest values over blocks of cells; cell i lies between the centres of the voxels i and i + 1 (or is voxel i), and block b
-/// begins with cell VOLUME_BLOCK b - 1.
+/// Largest values over blocks of cells; cell i lies between the centres of the voxels i and i + 1 (or is voxel i), and
+/// block b begins with cell VOLUME_BLOCK b - 1.
 std::vector<float> blockMaxima(const VolumeDescription& volume) {
     const shared::VolumeGrid& grid = volume.device;
     int n[3], blocks[3];

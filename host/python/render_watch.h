@@ -11,8 +11,8 @@
 
 namespace quasilux {
 
-/// The handlers of signals as they were. An OpenCL runtime that compiles in this process may put in handlers of its own (PoCL's LLVM
-/// does, when it looks for devices), with which Python would not learn of Ctrl-C.
+/// The handlers of signals as they were. An OpenCL runtime that compiles in this process may put in handlers of its own
+/// (PoCL's LLVM does, when it looks for devices), with which Python would not learn of Ctrl-C.
 class SignalHandlers {
 public:
     SignalHandlers();

@@ -24,8 +24,8 @@ struct Rendered {
     std::vector<std::string> warnings;
 };
 
-/// `arguments`: options of `quasilux render`, without the scene. `measuresGrids`: the scene's grids instead of its sensor. Null where
-/// `watch` ended the render before its first pass. Throws InputError, DeviceError.
+/// `arguments`: options of `quasilux render`, without the scene. `measuresGrids`: the scene's grids instead of its
+/// sensor. Null where `watch` ended the render before its first pass. Throws InputError, DeviceError.
 std::shared_ptr<const Rendered> renderScene(const LoadedScene& loaded, const std::vector<std::string>& arguments,
                                             bool measuresGrids, RenderWatch& watch);
 

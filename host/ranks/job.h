@@ -1,5 +1,5 @@
-// The MPI job that this program is one rank of (docs/reference/reliability.md, "Machines"). Built without MPI, or started alone, there is one rank.
-// Only the main thread may call any of this.
+// The MPI job that this program is one rank of (docs/reference/reliability.md, "Machines"). Built without MPI, or
+// started alone, there is one rank. Only the main thread may call any of this.
 #pragma once
 
 #include "share/pass_workers.h"
@@ -35,7 +35,8 @@ public:
 
     /// Of rank 0: workers of all ranks, its `own` first. One render after the other.
     std::unique_ptr<PassWorkers> spread(std::unique_ptr<PassWorkers> own, const RankPlan& plan);
-    /// Of the others: renders what rank 0 asks for until it ends the job. `onTurn` is called some hundred times a second.
+    /// Of the others: renders what rank 0 asks for until it ends the job. `onTurn` is called some hundred times a
+    /// second.
     void assist(const OpenWorkers& open, const std::function<void()>& onTurn);
     /// Before the program ends, also after an error: on rank 0 it ends the job, if there is one.
     static void endCurrent();

@@ -12,15 +12,16 @@ namespace quasilux {
 
 namespace {
 
-// The radii are chosen anew, and the coarse camera's discs narrowed, after so many of its passes; these end with the last choice.
+// The radii are chosen anew, and the coarse camera's discs narrowed, after so many of its passes; these end with the
+// last choice.
 constexpr std::array<unsigned, 4> choices{passesOfEqualRadius, 4, 8, 16};
 constexpr unsigned foreseenPasses = 1024;
 const std::string coarseOwner = "coarse ";
 
 double squaredShrink(unsigned pass) { return radiusShrink(pass) * radiusShrink(pass); }
 
-// With s_i the squared radius of pass i for scale 1: squared bias c^2 r^4 mean(s)^2, variance v mean(1 / s) / (N r^2). Their
-// sum is least at r^6 = v / (2 c^2) times this. It hardly depends on N, since s_i falls as i^(-1/3).
+// With s_i the squared radius of pass i for scale 1: squared bias c^2 r^4 mean(s)^2, variance v mean(1 / s) / (N r^2).
+// Their sum is least at r^6 = v / (2 c^2) times this. It hardly depends on N, since s_i falls as i^(-1/3).
 double noiseToCurvature() {
     double mean = 0, meanInverse = 0;
     for (unsigned pass = 0; pass < foreseenPasses; ++pass) {

@@ -1,6 +1,6 @@
-// Density radius by block of pixels and class of light, chosen from passes of a coarse camera (docs/method/radius.md, "Radius by pixel"). Coarse passes
-// follow each other from 0 on, with the photons of the passes of these numbers. So the radii of a pass are a function of scene,
-// settings and seed, whichever passes have been rendered.
+// Density radius by block of pixels and class of light, chosen from passes of a coarse camera (docs/method/radius.md,
+// "Radius by pixel"). Coarse passes follow each other from 0 on, with the photons of the passes of these numbers. So
+// the radii of a pass are a function of scene, settings and seed, whichever passes have been rendered.
 #pragma once
 
 #include "device/program.h"
@@ -32,19 +32,21 @@ public:
     static unsigned coarsePassesBefore(unsigned pass);
     /// So many coarse passes have ended.
     unsigned coarsePasses() const { return passes_; }
-    /// Is the next coarse pass due with this one: is the bias of coarse pixels to be estimated, at the largest radius, with its photons?
+    /// Is the next coarse pass due with this one: is the bias of coarse pixels to be estimated, at the largest radius,
+    /// with its photons?
     bool coarsePassIsDue(unsigned pass) const { return film_ && passes_ == pass; }
     const shared::Camera& camera() const { return camera_; }
     Film& coarseFilm() { return *film_; }
     const Buffer<float>& coarseScales() const { return coarseScales_; }
-    /// To be called when the coarse film has taken its next pass. Chooses the radii anew after 2, 4, 8 and 16, and ends coarse passes.
+    /// To be called when the coarse film has taken its next pass. Chooses the radii anew after 2, 4, 8 and 16, and ends
+    /// coarse passes.
     void endCoarsePass();
 
     /// Have all radii been chosen?
     bool coarsePassesHaveEnded() const { return !film_; }
 
-    /// Radius of each block in a pass by that of the map, radiusIndex() in kernels/adaptive_radius.clh; 1 in the first passes. The
-    /// coarse passes before it must have ended.
+    /// Radius of each block in a pass by that of the map, radiusIndex() in kernels/adaptive_radius.clh; 1 in the first
+    /// passes. The coarse passes before it must have ended.
     const Buffer<float>& scales(unsigned pass) const;
     /// The radii chosen so far, and what those to come are chosen from.
     void save(StateSink& sink) const;

@@ -16,8 +16,8 @@ struct CameraMapPassCount : TraceCount {
 
 class CameraMapStage {
 public:
-    /// `pass` is camera_map_pass.cl; `classes` as PhotonStage takes them. `meanRadiance`, of the order of the scene's, W sr^-1 m^-2, decides the unit
-    /// of the sums of splats.
+    /// `pass` is camera_map_pass.cl; `classes` as PhotonStage takes them. `meanRadiance`, of the order of the scene's,
+    /// W sr^-1 m^-2, decides the unit of the sums of splats.
     CameraMapStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                    shared::CameraParams camera, shared::PhotonParams photons, unsigned classes, double meanRadiance);
 
@@ -28,7 +28,8 @@ public:
     /// From now on photons in media are splatted with these probabilities, by class, and weigh accordingly more.
     void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
 
-    /// Enlarges the buffers to what a trial pass of camera paths stores, so that their sizes are known before the first.
+    /// Enlarges the buffers to what a trial pass of camera paths stores, so that their sizes are known before the
+    /// first.
     void makeRoom(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
 
     /// Photons emitted in a pass: none where no path can use any class.

@@ -19,8 +19,9 @@ struct PixelTables {
 
 class CameraStage {
 public:
-    /// `radii`: of the pixels, or null where they are one radius (then the options do not say ADAPTIVE_RADIUS). `shared`: what pixels share,
-    /// or null where each has samples of its own. `paths`: camera paths of each pixel in a pass, at first.
+    /// `radii`: of the pixels, or null where they are one radius (then the options do not say ADAPTIVE_RADIUS).
+    /// `shared`: what pixels share, or null where each has samples of its own. `paths`: camera paths of each pixel in a
+    /// pass, at first.
     CameraStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                 shared::CameraParams params, unsigned paths, AdaptiveRadius* radii, SharedSamples* shared);
 
@@ -45,10 +46,11 @@ public:
     /// The same without photons, to learn what it takes: one path of each pixel, into the film.
     void runWithoutGathering(const PhotonStage& photons);
 
-    /// What the paths of a coarse camera bring: light that they find themselves, that and what photons carry, or how many rays they follow, as an image.
+    /// What the paths of a coarse camera bring: light that they find themselves, that and what photons carry, or how
+    /// many rays they follow, as an image.
     enum class Brings { ownLight, allLight, rays };
-    /// Pass `pass` of a coarse camera, `paths` of each of its pixels, a batch of its film; random numbers are its own. They begin within a
-    /// single pixel of the image, in the middle: what differs between pixels is no noise.
+    /// Pass `pass` of a coarse camera, `paths` of each of its pixels, a batch of its film; random numbers are its own.
+    /// They begin within a single pixel of the image, in the middle: what differs between pixels is no noise.
     void runCoarse(Film& film, const shared::Camera& camera, unsigned pass, Brings brings, const PathCounts& paths,
                    const PhotonStage& photons);
 

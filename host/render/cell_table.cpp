@@ -20,7 +20,8 @@ SortParts partsFor(const DeviceInfo& device, unsigned regions) {
     return {std::max(1u, std::min(regions, most)), device.isCpu};
 }
 
-// Of the thousands of chunks of a GPU each has counts of its own: of so few bins that these do not outnumber the records.
+// Of the thousands of chunks of a GPU each has counts of its own: of so few bins that these do not outnumber the
+// records.
 constexpr unsigned digitBits = 11;
 
 uint64_t divideUp(uint64_t count, uint64_t by) { return (count + by - 1) / by; }

@@ -1,5 +1,5 @@
-// Where the records of each slot and cell stand in a pass's index, and the sort that puts them there (kernels/cell_sort.clh), whether
-// the records are photons or camera points.
+// Where the records of each slot and cell stand in a pass's index, and the sort that puts them there
+// (kernels/cell_sort.clh), whether the records are photons or camera points.
 #pragma once
 
 #include "device/program.h"
@@ -13,11 +13,12 @@
 
 namespace quasilux {
 
-/// Records are read so many at a time: the last group may reach beyond the last record (PHOTONS_READ of photon_grid.clh).
+/// Records are read so many at a time: the last group may reach beyond the last record (PHOTONS_READ of
+/// photon_grid.clh).
 constexpr size_t recordsRead = 8;
 
-/// How records are sorted: chunks, each of which counts a run of them, and whether by the whole cell at once, as for the few
-/// chunks of a CPU, or by its digits.
+/// How records are sorted: chunks, each of which counts a run of them, and whether by the whole cell at once, as for
+/// the few chunks of a CPU, or by its digits.
 struct SortParts {
     unsigned chunks = 1;
     bool wholeCells = true;
@@ -28,8 +29,8 @@ std::vector<shared::SortDigit> sortDigits(size_t cells, const SortParts& parts, 
 
 class CellTable {
 public:
-    /// `pass` holds the kernels; `slots` are the bits 1 << slot that occur; `noun` names the records in labels of buffers
-    /// and in messages; `keySide` as in SortDigit.
+    /// `pass` holds the kernels; `slots` are the bits 1 << slot that occur; `noun` names the records in labels of
+    /// buffers and in messages; `keySide` as in SortDigit.
     CellTable(Device& device, const Program& pass, unsigned slots, unsigned keySide, std::string noun);
 
     /// Makes room for about `expected` records, which come from this many regions.
@@ -50,8 +51,8 @@ public:
         std::function<void(const shared::SortDigit&, const Buffer<uint32_t>& counts)> count;
         std::function<void(const shared::SortDigit&, const Buffer<uint32_t>& counts, const Words& to)> place;
     };
-    /// `order` becomes the numbers of all `records`, by cell; `keys` begins with the cell of record 0. Where there are several
-    /// digits, `spare` holds as many words meanwhile. Of photons (uint32_t) and camera points.
+    /// `order` becomes the numbers of all `records`, by cell; `keys` begins with the cell of record 0. Where there are
+    /// several digits, `spare` holds as many words meanwhile. Of photons (uint32_t) and camera points.
     template <typename Record>
     void sort(unsigned records, const FirstDigit& first, const Buffer<Record>& keys, const Words& order,
               const Words& spare);

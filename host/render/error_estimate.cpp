@@ -20,8 +20,8 @@ double meanAbout(const FilmImage& image, const std::vector<float>& radiance, siz
     return sum / count;
 }
 
-// 1 / sqrt(3 (value^2 + 0.01 m^2)) of each channel of each pixel: times an error, its share of the relative one; the squares of three
-// channels add up. Not squared themselves: those of faint images leave the range of a float.
+// 1 / sqrt(3 (value^2 + 0.01 m^2)) of each channel of each pixel: times an error, its share of the relative one; the
+// squares of three channels add up. Not squared themselves: those of faint images leave the range of a float.
 // After few passes a pixel that is too bright has a large standard error, too, and would divide it by too much: so the
 // value is that of the neighbourhood.
 std::vector<float> relativeScales(const FilmImage& image, const std::vector<float>& radiance) {
@@ -56,7 +56,8 @@ double meanOfSampleDeviation(double n) {
     return std::sqrt(2 / (n - 1)) * std::exp(std::lgamma(n / 2) - std::lgamma((n - 1) / 2));
 }
 
-// Derivative of log gamma, and its derivative: recurrence, then the asymptotic series (Abramowitz & Stegun 6.3.18, 6.4.12).
+// Derivative of log gamma, and its derivative: recurrence, then the asymptotic series (Abramowitz & Stegun 6.3.18,
+// 6.4.12).
 double digamma(double x) {
     double sum = 0;
     while (x < 10) {
@@ -78,8 +79,8 @@ double trigamma(double x) {
 }
 
 // 95th percentile of the true variances, given their estimates from n normal values each, of which the scatter of the
-// estimates would make too much. Logarithms: log s^2 = log sigma^2 + log (chi^2 / nu), and mean and variance of the latter
-// are known, so those of log sigma^2 follow and the estimates are drawn together to have them.
+// estimates would make too much. Logarithms: log s^2 = log sigma^2 + log (chi^2 / nu), and mean and variance of the
+// latter are known, so those of log sigma^2 follow and the estimates are drawn together to have them.
 double percentile95(std::vector<double> variances, double n) {
     const size_t rank = static_cast<size_t>(std::ceil(0.95 * static_cast<double>(variances.size()))) - 1;
     std::nth_element(variances.begin(), variances.begin() + static_cast<std::ptrdiff_t>(rank), variances.end());

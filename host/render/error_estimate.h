@@ -1,4 +1,5 @@
-// How far an image is from the truth, from its own passes: noise and the bias of the density radius (docs/method/accuracy.md).
+// How far an image is from the truth, from its own passes: noise and the bias of the density radius
+// (docs/method/accuracy.md).
 #pragma once
 
 #include "render/film_image.h"
@@ -30,17 +31,18 @@ struct ErrorEstimate {
 
 ErrorEstimate estimateError(const FilmImage& image);
 
-/// Squares of noise and bias, the latter net of its noise, by tile of the image: the tiles' sums are noiseRms^2 and, where
-/// that is above 0, biasRms^2.
+/// Squares of noise and bias, the latter net of its noise, by tile of the image: the tiles' sums are noiseRms^2 and,
+/// where that is above 0, biasRms^2.
 struct TileErrors {
     std::vector<double> noise, bias;
 };
-/// `perSide` tiles in a row and in a column, fewer where the image has fewer pixels. `brightness`: radiance of an image of the same scene that is less noisy,
-/// what errors are relative to; empty: that of `image`.
+/// `perSide` tiles in a row and in a column, fewer where the image has fewer pixels. `brightness`: radiance of an image
+/// of the same scene that is less noisy, what errors are relative to; empty: that of `image`.
 TileErrors errorByTile(const FilmImage& image, unsigned perSide, const std::vector<float>& brightness = {});
 
-/// relMSE of the noise, at most, with which one camera path a pixel finds the light of `component` by meeting emitters of this mean radiance. What a path
-/// brings is the emitter's radiance times a throughput of at most 1, so the mean of its square is at most the pixel's light times the radiance.
+/// relMSE of the noise, at most, with which one camera path a pixel finds the light of `component` by meeting emitters
+/// of this mean radiance. What a path brings is the emitter's radiance times a throughput of at most 1, so the mean of
+/// its square is at most the pixel's light times the radiance.
 double noiseOfFinding(const FilmImage& image, unsigned component, double radiance,
                       const std::vector<float>& brightness = {});
 

@@ -8,9 +8,9 @@ namespace quasilux {
 
 namespace {
 
-// Pixel positions are spread evenly over passes in a row, so batches estimate the variance of the mean with less bias; but of few passes
-// single ones estimate it with less variance. Bias is estimated in the middle half of each batch of four, about whose middle
-// the radii are even, and in all passes before: half the cost, and no change of its mean.
+// Pixel positions are spread evenly over passes in a row, so batches estimate the variance of the mean with less bias;
+// but of few passes single ones estimate it with less variance. Bias is estimated in the middle half of each batch of
+// four, about whose middle the radii are even, and in all passes before: half the cost, and no change of its mean.
 constexpr unsigned singlePasses = 16, batchPasses = 4;
 
 // How often the film was added to.
@@ -37,8 +37,8 @@ std::vector<size_t> partsOf(size_t pixels, const FilmLayout& layout, uint64_t la
     return parts;
 }
 
-// Standard error of the mean from the sum over passes, the squares of batches, each divided by its number of passes, and
-// the sum over the open batch.
+// Standard error of the mean from the sum over passes, the squares of batches, each divided by its number of passes,
+// and the sum over the open batch.
 float standardError(double sum, double squares, double open, const Counts& n) {
     if (n.batches < 2) return 0;
     const double all = squares + open * open * n.openWeight;
@@ -50,11 +50,13 @@ struct BiasCounts {
     double passes, squares; // sums over batches of their passes and of the squares of their passes
 };
 
-// Standard error of the mean bias from the sum over passes and the squares of batches S_b of m_b passes. Its noise grows
-// as discs shrink, and early passes make up more batches than late ones: divided by m_b, as those of the image are,
-// the squares estimated 0.77 of its variance after 64 passes. For independent batches with one mean and any variances,
+// Standard error of the mean bias from the sum over passes and the squares of batches S_b of m_b passes. Its noise
+// grows as discs shrink, and early passes make up more batches than late ones: divided by m_b, as those of the image
+// are, the squares estimated 0.77 of its variance after 64 passes. For independent batches with one mean and any
+// variances,
 //     E [sum S_b^2 - q S^2] = (1 - q) Var S,    q = sum m_b^2 / n^2.
-// The estimate has little variance as long as a pass's noise is not much less than its mean, which holds for the bias, but not for the image.
+// The estimate has little variance as long as a pass's noise is not much less than its mean, which holds for the bias,
+// but not for the image.
 float biasStandardError(double sum, double squares, double open, const BiasCounts& n) {
     const double share = n.squares / (n.passes * n.passes);
     if (share >= 1) return 0;

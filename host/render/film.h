@@ -70,8 +70,8 @@ public:
     };
     /// To be called once before each pass is added, and after it.
     Pass beginPass(unsigned pass);
-    /// The same of a pass that is a batch of its own: those of a meter have no positions in common, and differ by less than the sum of a batch is
-    /// rounded by.
+    /// The same of a pass that is a batch of its own: those of a meter have no positions in common, and differ by less
+    /// than the sum of a batch is rounded by.
     Pass beginBatch();
     void endPass() {
         isWhole_ = true;
@@ -83,8 +83,8 @@ public:
         if (onRows_) onRows_();
     }
     size_t pixelsAhead() const { return pixelsAhead_; }
-    /// Called whenever more pixels have all of a pass, by the thread that renders; empty: no more. Who looks on changes nothing.
-    /// `isAwaited`: somebody waits for them now.
+    /// Called whenever more pixels have all of a pass, by the thread that renders; empty: no more. Who looks on changes
+    /// nothing. `isAwaited`: somebody waits for them now.
     void watchRows(std::function<void()> onRows, bool isAwaited = false) const {
         onRows_ = std::move(onRows);
         isAwaited_ = isAwaited;
@@ -95,7 +95,8 @@ public:
 
     /// Means over `passes`, their standard errors and bias.
     FilmImage develop(unsigned passes) const;
-    /// The same over an older image. Pixels that cannot be read stay as they are, and the image has as many passes as before.
+    /// The same over an older image. Pixels that cannot be read stay as they are, and the image has as many passes as
+    /// before.
     void developOver(FilmImage& image, unsigned passes) const;
     /// Samples dropped and paths cut since the beginning.
     shared::CameraCounters counters() const { return counters_.read().front(); }

@@ -5,8 +5,8 @@
 
 namespace quasilux {
 
-/// Adds the sums of other passes of the same image, pixel by pixel from `first` on, to `sums`. Each film's open batch of passes is
-/// complete then (FilmCounts::close).
+/// Adds the sums of other passes of the same image, pixel by pixel from `first` on, to `sums`. Each film's open batch
+/// of passes is complete then (FilmCounts::close).
 void mergeFilmSums(float* sums, const FilmCounts& counts, const float* others, const FilmCounts& otherCounts,
                    size_t pixels, const FilmLayout& layout);
 

@@ -12,7 +12,8 @@ namespace {
 // A photon carries at most three times its share of the emitted flux at first, which is a mean of R, G, B; shading
 // normals may add to it. What is 2^-18 of it has little to say.
 constexpr int headroomBits = 12;
-// A guided photon may carry far more, where the guide expected hardly any. What is 2^-8 of a typical one has little to say.
+// A guided photon may carry far more, where the guide expected hardly any. What is 2^-8 of a typical one has little to
+// say.
 constexpr int guidedHeadroomBits = 22;
 
 float unitOf(double photonFlux, int headroom) {

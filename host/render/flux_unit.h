@@ -3,9 +3,9 @@
 
 namespace quasilux {
 
-/// For a pass of `paths` photons, `emittedFlux` W (mean of R, G, B) together: packed flux reaches from 2^-30 of it to 2 of
-/// them. In proportion to the emitted flux, not a power of two: so a scene in other units or of another size, or with
-/// brighter lamps, has its photons rounded as before, and makes the same image.
+/// For a pass of `paths` photons, `emittedFlux` W (mean of R, G, B) together: packed flux reaches from 2^-30 of it to 2
+/// of them. In proportion to the emitted flux, not a power of two: so a scene in other units or of another size, or
+/// with brighter lamps, has its photons rounded as before, and makes the same image.
 float fluxUnit(double emittedFlux, unsigned paths);
 
 struct DeviceScene;

@@ -1,4 +1,5 @@
-// Which photons of a pass its camera paths gather, by kernels/gathered_photons.cl: how much of the map serves the image.
+// Which photons of a pass its camera paths gather, by kernels/gathered_photons.cl: how much of the map serves the
+// image.
 #pragma once
 
 #include "render/photon_stage.h"
@@ -19,7 +20,8 @@ struct GatheredCount {
     double share() const;
 };
 
-/// `options` are those of the pass, `params` of its camera paths, `photons` hold its photons; Compiles a program for it.
+/// `options` are those of the pass, `params` of its camera paths, `photons` hold its photons; Compiles a program for
+/// it.
 GatheredCount countGathered(Device& device, const std::string& options, const GeometryBuffers& geometry,
                             const PhotonStage& photons, const shared::CameraParams& params, const PixelTables& tables);
 

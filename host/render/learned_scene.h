@@ -12,8 +12,8 @@ namespace quasilux {
 LearnedScene learnScene(Device& device, const Program& program, const Scene& scene, const RenderSettings& settings,
                         DeviceScene& flat, GeometryBuffers& geometry);
 
-/// Samples of emitters where a camera path scatters first, one of `cameraPaths` of a pixel in a pass that gather photons of `classes` (bits): several where
-/// each must choose one of many, and few paths share the choices out.
+/// Samples of emitters where a camera path scatters first, one of `cameraPaths` of a pixel in a pass that gather photons of
+/// `classes` (bits): several where each must choose one of many, and few paths share the choices out.
 unsigned directSamplesOf(const LearnedScene& learned, unsigned classes, unsigned cameraPaths);
 
 } // namespace quasilux

@@ -1,4 +1,5 @@
-// --map photons where the sensor is a meter or a grid: its paths gather from a map of photons, which are also counted as they cross it (stage 3 of
+// --map photons where the sensor is a meter or a grid: its paths gather from a map of photons, which are also counted
+//   as they cross it (stage 3 of
 // a pass, meter_stage.h).
 #pragma once
 

@@ -176,9 +176,9 @@ unsigned photonsPerPass(const RenderSettings& settings, const shared::Camera& ca
     return photonsForPixels(camera, 20'000);
 }
 
-// A path costs about what a photon costs. Where photons are counted, theirs or the paths' may be the larger variance: with half of the time for each it
-// is at most twice that of the best shares; so where all paths meet one place, as those of a ray. Elsewhere photons lie about their hits all over the
-// scene, and have little of it.
+// A path costs about what a photon costs. Where photons are counted, theirs or the paths' may be the larger variance:
+// with half of the time for each it is at most twice that of the best shares; so where all paths meet one place, as
+// those of a ray. Elsewhere photons lie about their hits all over the scene, and have little of it.
 unsigned meterSamples(const DeviceScene& scene, const RenderSettings& settings) {
     const shared::Meter& meter = scene.offsets.meter;
     if (meter.kind == METER_NONE) return 1;

@@ -12,15 +12,17 @@ namespace quasilux {
 /// Bits 1 << LIGHT_* of the photons that some camera path can use; the others are not stored (kernels/law.clh).
 unsigned photonClasses(const Features& features, const RenderSettings& settings);
 
-/// The same and those of other splits and variants that share these kernels, RenderSettings::furtherClasses. Where none are in use
-/// themselves, the kernels find an empty map.
+/// The same and those of other splits and variants that share these kernels, RenderSettings::furtherClasses. Where none
+/// are in use themselves, the kernels find an empty map.
 unsigned compiledClasses(const Features& features, const RenderSettings& settings);
 
-/// Why camera paths cannot find the caustic light themselves, with CausticLight::paths; empty where they can. They take it by meeting emitters
-/// after specular events alone since the hit that takes it, so nothing but specular events may be left to photons.
+/// Why camera paths cannot find the caustic light themselves, with CausticLight::paths; empty where they can. They take
+/// it by meeting emitters after specular events alone since the hit that takes it, so nothing but specular events may
+/// be left to photons.
 std::string whyNotCausticsByPaths(const Scene& scene, const Features& features, const RenderSettings& settings);
 
-/// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's readings.
+/// Do the kernels estimate the bias that the density radius leaves? Neither in the camera map nor of a meter's
+/// readings.
 bool estimatesBias(const Features& features, const RenderSettings& settings);
 /// Of the image's film: what the settings ask it to keep, as far as there is such a thing.
 FilmLayout filmLayout(const Features& features, const RenderSettings& settings);
@@ -36,7 +38,8 @@ bool learns(const Features& features, const RenderSettings& settings);
 /// Whether direct light of some emitters may be taken from photons, that of others by sampling them.
 bool mayTakeDirectFromPhotons(const Features& features, const RenderSettings& settings);
 
-/// An irradiance meter scatters by its variant: genuine diffuse in the main one, else quasi-specular (meterScattering, kernels/law.clh).
+/// An irradiance meter scatters by its variant: genuine diffuse in the main one, else quasi-specular (meterScattering,
+/// kernels/law.clh).
 bool meterIsGenuineDiffuse(const Features& features, const RenderSettings& settings);
 
 /// Whether photons that cross an irradiance meter are counted there (kernels/meter_photons.clh).

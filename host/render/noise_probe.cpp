@@ -18,7 +18,8 @@ constexpr unsigned passesThatGather = 4;
 constexpr unsigned passesThatCount = 2;
 // A pass of so many paths of each pixel tells as much about times as one of more.
 constexpr unsigned mostTimedPaths = 4;
-// Of what a ray that meets nothing costs: shading, choosing an emitter, its ray and the next one (docs/notes/camera-paths.md).
+// Of what a ray that meets nothing costs: shading, choosing an emitter, its ray and the next one
+// (docs/notes/camera-paths.md).
 constexpr double costOfEvent = 8;
 constexpr FilmLayout layout{false, true};
 using Brings = CameraStage::Brings;
@@ -31,7 +32,8 @@ unsigned passesOfHalf(const shared::Camera& coarse) {
         std::clamp(pathsOfHalf / (double(coarse.width) * coarse.height), fewestPasses, mostPasses));
 }
 
-// What photons carry, of `classes` (bits); paths may find a part of its direct light themselves, which is there already.
+// What photons carry, of `classes` (bits); paths may find a part of its direct light themselves, which is there
+// already.
 void addPhotons(const FilmImage& gathered, const FilmImage& found, unsigned classes, std::vector<float>& radiance) {
     const auto at = [](const std::vector<float>& values, size_t k) { return values.empty() ? 0.f : values[k]; };
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c)

@@ -8,8 +8,8 @@
 
 namespace quasilux {
 
-/// Traces photons, where they are taken, and coarse camera paths; leaves nothing in the image. What it finds is a function of the scene, the settings and the
-/// seed alone, but for times.
+/// Traces photons, where they are taken, and coarse camera paths; leaves nothing in the image. What it finds is a
+/// function of the scene, the settings and the seed alone, but for times.
 class NoiseProbe {
 public:
     /// `classes`: bits of the light that photons carry.

@@ -1,5 +1,5 @@
-// A pass of a render: one independent estimate of the image, added to the film. There are three kinds, by a photon map for camera paths or for meters
-// and by a map of camera points; only makePass() tells them apart.
+// A pass of a render: one independent estimate of the image, added to the film. There are three kinds, by a photon map
+// for camera paths or for meters and by a map of camera points; only makePass() tells them apart.
 #pragma once
 
 #include "device/program.h"
@@ -36,17 +36,19 @@ class Pass {
 public:
     virtual ~Pass() = default;
 
-    /// Adds the estimate of this number to the film, and to the counters what it counted; passes and seconds are the caller's.
+    /// Adds the estimate of this number to the film, and to the counters what it counted; passes and seconds are the
+    /// caller's.
     virtual void run(unsigned pass, RenderCounters& counters) = 0;
     /// That each pass has traced, of all pixels.
     virtual uint64_t cameraPaths() const = 0;
     /// Memory that all passes will take, known once the pass is made.
     const MemoryForecast& forecast() const { return forecast_; }
 
-    /// Seconds that a camera path of each pixel takes without gathering photons; 0 where it gathers none anyway, or passes have no more than one. It leaves what is no
-    /// part of the image in the film.
+    /// Seconds that a camera path of each pixel takes without gathering photons; 0 where it gathers none anyway, or
+    /// passes have no more than one. It leaves what is no part of the image in the film.
     virtual double secondsWithoutGathering() { return 0; }
-    /// What camera paths by pixel would gain, with so many of the mean pixel; nothing where passes have no more than one. No pass may follow.
+    /// What camera paths by pixel would gain, with so many of the mean pixel; nothing where passes have no more than
+    /// one. No pass may follow.
     virtual SamplingGain samplingGain(unsigned /*paths*/) { return {}; }
     /// Which photons of this pass its camera paths gather; none where nothing is gathered.
     virtual std::optional<GatheredCount> countGathered(unsigned /*pass*/) { return std::nullopt; }
@@ -59,10 +61,12 @@ protected:
     MemoryForecast forecast_;
 };
 
-/// The kind that sensor and settings ask for, with its kernels compiled. Throws InputError where a pass does not fit into the device's memory.
+/// The kind that sensor and settings ask for, with its kernels compiled. Throws InputError where a pass does not fit
+/// into the device's memory.
 std::unique_ptr<Pass> makePass(const PassContext& context);
 
-/// All buffers, of which `untouched` bytes are still to become resident: those of a CPU device are memory of this process.
+/// All buffers, of which `untouched` bytes are still to become resident: those of a CPU device are memory of this
+/// process.
 MemoryForecast forecastOf(const PassContext& context, const BufferSizes& sizes, uint64_t untouched);
 
 } // namespace quasilux

@@ -26,7 +26,8 @@ PhotonPassCount PassPhotons::run(unsigned pass) {
     return stage_->run(pass, context_.radii.radii(pass), context_.radii.volumeScale(pass));
 }
 
-// Kernels that other methods share know photons even where this one takes none: then their map is left empty, once for all.
+// Kernels that other methods share know photons even where this one takes none: then their map is left empty, once for
+// all.
 void PassPhotons::trace(unsigned pass, RenderCounters& counters) {
     if (mapIsEmpty_) return;
     mapIsEmpty_ = !areTaken_;

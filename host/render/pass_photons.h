@@ -10,7 +10,8 @@ namespace quasilux {
 
 class PassPhotons {
 public:
-    /// `compile` launches the kernels that gather, with photons of the forecast; `counted` takes those that cross a meter, where there is one.
+    /// `compile` launches the kernels that gather, with photons of the forecast; `counted` takes those that cross a
+    /// meter, where there is one.
     PassPhotons(const PassContext& context, const std::function<void(const PhotonStage&)>& compile,
                 MeterSums* counted = nullptr);
 

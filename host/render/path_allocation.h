@@ -13,12 +13,13 @@ struct PathNoise {
     std::vector<double> cost;       ///< of a path, by block, in any unit above 0
 };
 
-/// Paths in a pass of each pixel of a block, powers of two: together they cost no more than `paths` of each pixel do, but where each has one already.
-/// The variance that is left at this cost is least where paths go as the root of variance over cost (Neyman 1934; Cochran 1977, eq. 5.21).
+/// Paths in a pass of each pixel of a block, powers of two: together they cost no more than `paths` of each pixel do,
+/// but where each has one already. The variance that is left at this cost is least where paths go as the root of
+/// variance over cost (Neyman 1934; Cochran 1977, eq. 5.21).
 std::vector<uint32_t> allocatePaths(const PathNoise& noise, unsigned paths);
 
-/// Variance of the image with `paths` of each pixel over that with `counts` of each block. `noise` must know nothing of what the counts were chosen by: a
-/// rare path that was met there would be counted as removed.
+/// Variance of the image with `paths` of each pixel over that with `counts` of each block. `noise` must know nothing of
+/// what the counts were chosen by: a rare path that was met there would be counted as removed.
 double varianceSaved(const PathNoise& noise, const std::vector<uint32_t>& counts, unsigned paths);
 
 /// What `counts` cost, as a share of `paths` of each pixel.

@@ -10,8 +10,8 @@ namespace quasilux {
 namespace {
 
 constexpr unsigned photonFields(bool storesDepth) { return PHOTON_FIELDS_WITHOUT_DEPTH + (storesDepth ? 1 : 0); }
-// One array is free, so that the next field has where to go; one says where each photon goes; on GPUs, which sort by several
-// digits, one more.
+// One array is free, so that the next field has where to go; one says where each photon goes; on GPUs, which sort by
+// several digits, one more.
 unsigned arrayCount(bool storesDepth, const DeviceInfo& device) {
     return photonFields(storesDepth) + (device.isCpu ? 2 : 3);
 }

@@ -18,8 +18,8 @@ struct PhotonForecast {
 constexpr unsigned forecastPaths = 2048;
 constexpr unsigned forecastPass = UINT32_MAX; // no render gets there
 
-/// Traces the few photons with a program of --map photons, which compiles its kernels: the runtime does when they are first launched. `compile` launches
-/// those that gather, with these photons, if there are any.
+/// Traces the few photons with a program of --map photons, which compiles its kernels: the runtime does when they are
+/// first launched. `compile` launches those that gather, with these photons, if there are any.
 PhotonForecast forecastPhotons(const PassContext& context, const Program& photonMap,
                                const std::function<void(const PhotonStage&)>& compile = {});
 

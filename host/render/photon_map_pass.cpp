@@ -41,8 +41,8 @@ void PhotonMapPass::run(unsigned pass, RenderCounters& counters) {
     chooseRadii(pass, counters);
 }
 
-// Radii of this pass are chosen with the photons of earlier ones; where these were not rendered here, they are traced for that
-// alone.
+// Radii of this pass are chosen with the photons of earlier ones; where these were not rendered here, they are traced
+// for that alone.
 void PhotonMapPass::catchUpRadii(unsigned pass, RenderCounters& counters) {
     while (radii_ && photons_->areTaken() && radii_->coarsePasses() < AdaptiveRadius::coarsePassesBefore(pass)) {
         const unsigned earlier = radii_->coarsePasses();

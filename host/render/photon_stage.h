@@ -18,8 +18,8 @@ struct PhotonPassCount : TraceCount {
 
 class PhotonStage {
 public:
-    /// `pass` is photon_map_pass.cl; `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where the
-    /// kernels are compiled with HAS_DEPTH_LIMIT; room for so many `photons` saves enlarging the buffers
+    /// `pass` is photon_map_pass.cl; `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where
+    /// the kernels are compiled with HAS_DEPTH_LIMIT; room for so many `photons` saves enlarging the buffers
     /// later.
     PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry, shared::PhotonParams params,
                 unsigned classes, bool storesDepth, std::optional<uint64_t> photons = std::nullopt);

@@ -5,8 +5,8 @@
 
 namespace quasilux {
 
-/// Factors on a radius of `radius` scene units that suits all that the camera sees, so that discs hold as many photons near the eye
-/// as far from it; at most `largest`. None where photons lie evenly, or nothing is known of them.
+/// Factors on a radius of `radius` scene units that suits all that the camera sees, so that discs hold as many photons
+/// near the eye as far from it; at most `largest`. None where photons lie evenly, or nothing is known of them.
 shared::RadiusField radiusField(const LearnedScene& learned, double radius, double largest);
 
 } // namespace quasilux

@@ -8,8 +8,8 @@ namespace quasilux {
 
 namespace {
 
-// Photons of a class that is rare are gathered from so many times as far as all together would be: where such light is weak, a
-// wider disc costs more than its noise.
+// Photons of a class that is rare are gathered from so many times as far as all together would be: where such light is
+// weak, a wider disc costs more than its noise.
 constexpr double rareClassRadius = 2;
 
 } // namespace

@@ -1,5 +1,5 @@
-// Density radii of a render: those of pass 0 by how photons lie about what the camera sees, or by the scene's area; of later passes by their number
-// alone. Radii by pixel are multiples of them (adaptive_radius.h).
+// Density radii of a render: those of pass 0 by how photons lie about what the camera sees, or by the scene's area; of
+// later passes by their number alone. Radii by pixel are multiples of them (adaptive_radius.h).
 #pragma once
 
 #include "learn/learning.h"

@@ -1,5 +1,6 @@
-// Regions: the paths that one work-item follows, one after the other. Long ones on a CPU, whose cores each take a few; short ones on a GPU,
-// which needs some hundred thousand work-items, and whose driver may end a kernel in which one takes seconds.
+// Regions: the paths that one work-item follows, one after the other. Long ones on a CPU, whose cores each take a few;
+// short ones on a GPU, which needs some hundred thousand work-items, and whose driver may end a kernel in which one
+// takes seconds.
 #pragma once
 
 #include "device/device.h"

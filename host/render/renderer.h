@@ -30,9 +30,9 @@ struct Progress {
 
 class Renderer {
 public:
-    /// Prepares the scene, compiles the kernels it needs and learns where photons serve the image, unless that is `known` from
-    /// another renderer of the scene. Throws InputError where `expected` is not empty and not SceneReport::checksums: what is
-    /// known is of another scene then.
+    /// Prepares the scene, compiles the kernels it needs and learns where photons serve the image, unless that is
+    /// `known` from another renderer of the scene. Throws InputError where `expected` is not empty and not
+    /// SceneReport::checksums: what is known is of another scene then.
     Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
              std::shared_ptr<const LearnedScene> known = nullptr, const SceneChecksums& expected = {});
     ~Renderer();
@@ -60,20 +60,22 @@ public:
     void saveState(StateSink& sink) const;
     /// The same bits in another renderer of the same scene and settings, which knows what this one has learned.
     void restoreState(const StateSource& source, const RenderCounters& counters, unsigned nextPass);
-    /// Do radii no longer depend on which passes have been rendered here? Then other renderers of the scene and settings, which know what this
-    /// one has learned, may take them up.
+    /// Do radii no longer depend on which passes have been rendered here? Then other renderers of the scene and
+    /// settings, which know what this one has learned, may take them up.
     bool radiiAreChosen() const;
     void saveRadii(StateSink& sink) const;
     void restoreRadii(const StateSource& source);
     /// Forgets passes, film and counters, but neither radii nor what was learned.
     void clearPasses();
-    /// Seconds that one camera path of each pixel takes where it gathers no photons; 0 where it gathers none anyway, or a pass has no more than one. Before the first pass.
+    /// Seconds that one camera path of each pixel takes where it gathers no photons; 0 where it gathers none anyway, or
+    /// a pass has no more than one. Before the first pass.
     double secondsWithoutGathering();
     /// Pass::samplingGain.
     SamplingGain samplingGain(unsigned paths);
     /// Camera paths that samplingGain() traces, as a multiple of the image's pixels.
     double pathsOfSamplingGain() const;
-    /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for meters and
+    /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for
+    /// meters and
     /// --map camera. Compiles kernels for it.
     std::optional<GatheredCount> countGathered();
 
@@ -87,7 +89,8 @@ struct RenderedBefore {
     double seconds = 0; ///< that the stop rule counts
 };
 
-/// Called before the first pass, after each, and once more when the last one is done; `seconds` as the stop rule counts them.
+/// Called before the first pass, after each, and once more when the last one is done; `seconds` as the stop rule counts
+/// them.
 using AfterPass = std::function<void(const Renderer& renderer, double seconds, bool isLast)>;
 
 /// What a render came to.
@@ -97,8 +100,8 @@ struct RenderOutcome {
     std::exception_ptr failure; ///< what ended it too early; null: nothing
 };
 
-/// Renders passes from StopRule::firstPass on (or from the last one rendered on) until the rule, or `interrupted`, ends it. A pass that fails ends it, too:
-/// the image is then of the passes before. Throws only where there are none.
+/// Renders passes from StopRule::firstPass on (or from the last one rendered on) until the rule, or `interrupted`, ends
+/// it. A pass that fails ends it, too: the image is then of the passes before. Throws only where there are none.
 RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stop,
                                   const std::function<void(const Progress&)>& onProgress,
                                   const std::atomic<bool>& interrupted, const RenderedBefore& before = {},

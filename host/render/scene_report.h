@@ -50,7 +50,8 @@ struct SceneReport {
         double seconds = 0;
     } learned;
     std::vector<std::string> warnings; ///< DeviceScene::warnings
-    /// "geometry", "materials", "camera": of the scene as it is rendered. A file that says the same in another way has the same.
+    /// "geometry", "materials", "camera": of the scene as it is rendered. A file that says the same in another way has
+    /// the same.
     SceneChecksums checksums;
 };
 

@@ -27,14 +27,14 @@ struct RenderSettings {
     double radiusScale = 1.0;    ///< factor on the initial density radius
     bool photometric = false;    ///< radiance is in cd/m^2, not W sr^-1 m^-2: only what readings in lux and cd/m^2 say
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
-    unsigned furtherClasses =
-        0; ///< of photons, as bits of photonClasses(): kernels serve splits and variants that use them, too; not 0 in a search
+    /// Of photons, as bits of photonClasses(): kernels serve splits and variants that use them, too; not 0 in a search
+    unsigned furtherClasses = 0;
     bool estimateBias = true;   ///< beside the image; see estimatesBias() in method.h
     FilmLayout film;            ///< what it is to keep; see filmLayout() in method.h
     bool energyBalance = false; ///< count what becomes of the photons' flux
     bool countGathered = false; ///< after the image: which photons of one more pass camera paths gather
-    std::string
-        controlOptions; ///< of tests alone: compiler options that switch on a known mistake (tests/support/wrong_rules.h)
+    /// Of tests alone: compiler options that switch on a known mistake (tests/support/wrong_rules.h)
+    std::string controlOptions;
 };
 
 /// Time of a render that no rule ends.
@@ -48,8 +48,8 @@ struct StopRule {
     std::optional<double> relativeError; ///< ErrorEstimate::sum()
 };
 
-/// Whether a pass may have several camera paths for a pixel: meters have a number of paths of their own, and the camera map would store the
-/// points of all.
+/// Whether a pass may have several camera paths for a pixel: meters have a number of paths of their own, and the camera
+/// map would store the points of all.
 inline bool mayHaveCameraPaths(bool isMeter, const RenderSettings& settings) {
     return !isMeter && settings.map == MapOrder::photons;
 }

@@ -25,7 +25,8 @@ public:
 
     /// Traces the samples `firstPixel` and `pixels` of the grid into the buffer.
     using Trace = std::function<void(Buffer<float>& samples, const shared::CameraParams&)>;
-    /// Adds a pass to `film`, the image of `params.camera`, which has no more rows or columns than that of the constructor, band by band.
+    /// Adds a pass to `film`, the image of `params.camera`, which has no more rows or columns than that of the
+    /// constructor, band by band.
     void addPass(Film& film, const shared::CameraParams& params, const GeometryBuffers& geometry, const Trace& trace);
     /// Has the runtime compile the kernels, by launches that do nothing.
     void compile(Film& film, shared::CameraParams params, const GeometryBuffers& geometry, const Trace& trace);

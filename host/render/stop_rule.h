@@ -1,5 +1,5 @@
-// When a render ends, how long it goes on, and when its error is to be estimated: for one device (render_loop.cpp) and for several
-// (host/share/shared_render.cpp).
+// When a render ends, how long it goes on, and when its error is to be estimated: for one device (render_loop.cpp) and
+// for several (host/share/shared_render.cpp).
 #pragma once
 
 #include "render/renderer.h"

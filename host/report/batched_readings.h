@@ -13,7 +13,8 @@ struct Figure {
     double value = 0;
     double standardError = 0; ///< NaN: too few passes to say
     unsigned batches = 0;     ///< that the error is from
-    /// Of extremes of noisy points: how much the noise itself lowers a minimum (above 0) or raises a maximum (below 0), at most.
+    /// Of extremes of noisy points: how much the noise itself lowers a minimum (above 0) or raises a maximum (below 0),
+    /// at most.
     double bias = 0;
 
     bool isKnown() const;
@@ -23,8 +24,9 @@ struct Figure {
     double relativeHalfWidth() const;
 };
 
-/// Illuminances of each point after each pass, lx. Passes are independent, points are not: they share photons. So figures of several points
-/// take their error from batches, by the jackknife (Quenouille 1956; Tukey 1958): leave out each in turn.
+/// Illuminances of each point after each pass, lx. Passes are independent, points are not: they share photons. So
+/// figures of several points take their error from batches, by the jackknife (Quenouille 1956; Tukey 1958): leave out
+/// each in turn.
 class BatchedReadings {
 public:
     using Points = std::vector<double>;

@@ -24,8 +24,8 @@ Points partOf(const Points& points, PixelRange range) {
     return {first, first + static_cast<std::ptrdiff_t>(range.count)};
 }
 
-/// The point that one half of the passes says is extreme, by the other half, and the other way round: the mean of both is that of
-/// a real point, so it is no less than the minimum of the true values, and no more than the maximum.
+/// The point that one half of the passes says is extreme, by the other half, and the other way round: the mean of both
+/// is that of a real point, so it is no less than the minimum of the true values, and no more than the maximum.
 struct Crossed {
     double least, largest;
 };

@@ -10,8 +10,8 @@ namespace quasilux {
 
 class LoadContext;
 
-/// What a colour is for decides what a <spectrum> means: emitted, it is energy by wavelength; elsewhere a factor by wavelength, seen under
-/// D65, which a reflectance keeps within [0, 1].
+/// What a colour is for decides what a <spectrum> means: emitted, it is energy by wavelength; elsewhere a factor by
+/// wavelength, seen under D65, which a reflectance keeps within [0, 1].
 enum class ColorUse { reflectance, unbounded, emission };
 
 /// Linear sRGB of a parameter element. Throws InputError for anything but finite numbers and spectra.

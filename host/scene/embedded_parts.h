@@ -18,7 +18,8 @@ struct Image {
     unsigned clamped = 0; ///< pixels that were out of range
 };
 
-/// By the names under which elements mention them: `name` of <shape type="mesh">, `filename` of <texture type="bitmap">.
+/// By the names under which elements mention them: `name` of <shape type="mesh">, `filename` of <texture
+/// type="bitmap">.
 struct EmbeddedParts {
     std::map<std::string, std::shared_ptr<const MeshSource>> meshes;
     std::map<std::string, Image> images;

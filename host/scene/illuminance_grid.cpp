@@ -35,9 +35,10 @@ IlluminanceKind kindOf(const InstructionValues& values, const SourceLocation& wh
                                         values.text("quantity")));
 }
 
-/// EN 12464-1:2021, 4.4: at most p = 0.2 * 5^(log10 d) m between points, d being the longer side, or the shorter one where the longer is twice
-/// as long or more; p is at most 10 m. Along d there are d / p points, to the nearest whole number, and the other side is divided by the
-/// spacing that they then have, so that cells are nearly square. Sides are in metres.
+/// EN 12464-1:2021, 4.4: at most p = 0.2 * 5^(log10 d) m between points, d being the longer side, or the shorter one
+/// where the longer is twice as long or more; p is at most 10 m. Along d there are d / p points, to the nearest whole
+/// number, and the other side is divided by the spacing that they then have, so that cells are nearly square. Sides are
+/// in metres.
 void countBySpacing(const InstructionValues& values, IlluminanceGrid& grid) {
     const std::string& rule = values.text("spacing");
     if (rule != "en12464")

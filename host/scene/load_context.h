@@ -36,8 +36,8 @@ public:
     /// Throws InputError with this message, or notes it and what is done instead where the unknown is forgiven.
     void refuseUnknown(const SourceLocation& where, const std::string& message, const std::string& instead);
 
-    /// Throws InputError where `element`, which is to be read within the objects of `open`, contains itself, lies too deep, or where
-    /// objects that refer to each other multiply without end.
+    /// Throws InputError where `element`, which is to be read within the objects of `open`, contains itself, lies too
+    /// deep, or where objects that refer to each other multiply without end.
     void enter(const Element& element, std::vector<const Element*>& open);
 
     Unknown unknown = Unknown::refused;

@@ -1,4 +1,5 @@
-// What a scene that somebody else has made may take while it is loaded (docs/reference/reliability.md, "Scenes of others").
+// What a scene that somebody else has made may take while it is loaded (docs/reference/reliability.md, "Scenes of
+// others").
 #pragma once
 
 #include <array>

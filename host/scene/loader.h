@@ -5,7 +5,8 @@
 
 namespace quasilux {
 
-/// `document`: checked, as readSceneDocument returns it; `path` names the scene in messages about all of it. Throws InputError.
+/// `document`: checked, as readSceneDocument returns it; `path` names the scene in messages about all of it. Throws
+/// InputError.
 Scene loadScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice);
 
 } // namespace quasilux

@@ -5,7 +5,8 @@
 
 namespace quasilux {
 
-/// The tag of its elements, "bsdf" of "diffuse"; of plugins that only Mitsuba has, too. Empty for one that is not known.
+/// The tag of its elements, "bsdf" of "diffuse"; of plugins that only Mitsuba has, too. Empty for one that is not
+/// known.
 std::string_view tagOfPlugin(std::string_view plugin);
 
 /// Of all kinds.

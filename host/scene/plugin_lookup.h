@@ -11,7 +11,8 @@
 
 namespace quasilux {
 
-/// Throws InputError with what to use instead of a plugin that Mitsuba has, or else with the nearest of the `known` ones.
+/// Throws InputError with what to use instead of a plugin that Mitsuba has, or else with the nearest of the `known`
+/// ones.
 [[noreturn]] inline void throwUnknownPlugin(const Element& element, const Names& known) {
     const std::string& plugin = element.get("type");
     const std::string_view instead = insteadOfUnsupported(element.tag, plugin);
@@ -29,8 +30,8 @@ Names namesOf(const Plugin (&plugins)[count], const Names& others = {}) {
     return names;
 }
 
-/// The row of `plugins` whose `name` is the element's type. Throws InputError with the nearest name if there is none, of
-/// `others` too, which are known besides.
+/// The row of `plugins` whose `name` is the element's type. Throws InputError with the nearest name if there is none,
+/// of `others` too, which are known besides.
 template <typename Plugin, size_t count>
 const Plugin& findPlugin(const Plugin (&plugins)[count], const Element& element, const Names& others = {}) {
     for (const Plugin& plugin : plugins)

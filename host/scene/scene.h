@@ -1,12 +1,14 @@
-// What a scene file says, in world space (less Scene::origin) and resolved: the input of host/prepare. No device, no Embree, no XML here.
+// What a scene file says, in world space (less Scene::origin) and resolved: the input of host/prepare. No device, no
+// Embree, no XML here.
 #pragma once
 
 #include "bsdf/lobe_list.h"
 #include "scene/goniograms/goniogram.h"
 #include "scene/load_limits.h"
+#include "scene/sensor.h"
 #include "scene/setting_choices.h"
 #include "scene/shape_group.h"
-#include "sensor_types.h"
+#include "shared_types.h"
 #include "util/error.h"
 
 #include <array>
@@ -145,7 +147,8 @@ struct Sphere {
     glm::mat3 toLocal{1.f}; ///< rotation (and mirroring) from the world to its own axes, for texture coordinates
 };
 
-/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides along which u and v run from 0 to 1, unit normal.
+/// A rectangle that emits can be sampled by solid angle: corner, two orthogonal sides along which u and v run from 0 to
+/// 1, unit normal.
 struct RectangleFrame {
     glm::vec3 corner{}, edgeU{}, edgeV{}, normal{};
 };
@@ -200,7 +203,8 @@ struct PointEmitter {
         glm::vec3 u{}, v{};
         std::optional<unsigned> texture; ///< index into Scene::textures; multiplies the intensity
     };
-    /// Throws its picture: the intensity is that on the axis over cos^3 of the angle to it, none outside of the unit square.
+    /// Throws its picture: the intensity is that on the axis over cos^3 of the angle to it, none outside of the unit
+    /// square.
     struct Projector {
         glm::vec3 axis{}; ///< unit
         Picture picture;
@@ -249,70 +253,6 @@ struct Surroundings {
     Rgb radiance{};              ///< without an image: the same from everywhere
     bool isPerNanometre = false; ///< radiance is W m^-2 sr^-1 nm^-1, of which 683 lm/W makes no lux
     std::optional<EnvironmentImage> image;
-};
-
-/// What a sensor measures that is no camera.
-enum class MeterKind { none, ray, area, grid };
-/// Or else it measures radiance.
-inline bool isIrradiance(MeterKind meter) { return meter == MeterKind::area || meter == MeterKind::grid; }
-
-/// What is measured at the points of a grid: illuminance of its plane, or the mean of that of all planes that hold its normal.
-enum class IlluminanceKind { planar, cylindrical };
-
-/// <?quasilux illuminance-grid …?>: points at the centres of nx × ny equal cells of a parallelogram, all of one normal.
-struct IlluminanceGrid {
-    SourceLocation where;
-    std::string name; ///< in tables and reports; of one scene each another
-    IlluminanceKind kind = IlluminanceKind::planar;
-    glm::dvec3 origin{}, edgeU{},
-        edgeV{}; ///< corner and sides, world space; column i lies along edgeU, row j along edgeV
-    unsigned nx = 0, ny = 0;
-    bool flipNormals = false; ///< the normal is edgeU × edgeV, or its opposite
-    double height = 0;        ///< cylindrical: of the cells in which photons are counted, half of it on each side
-
-    size_t points() const { return size_t{nx} * ny; }
-    glm::dvec3 point(unsigned i, unsigned j) const { return origin + (i + 0.5) / nx * edgeU + (j + 0.5) / ny * edgeV; }
-    glm::dvec3 normal() const {
-        const glm::dvec3 n = glm::normalize(glm::cross(edgeU, edgeV));
-        return flipNormals ? -n : n;
-    }
-};
-
-/// <?quasilux observer …?>: an eye that glare is rated for.
-struct Observer {
-    SourceLocation where;
-    std::string name;
-    glm::dvec3 position{}, direction{0, 1, 0}, up{0, 0, 1}; ///< world space; the last two are unit
-    double size = 0.1;                                      ///< side of the square that light is measured on at the eye
-};
-
-/// What the image holds beside R, G, B.
-struct PixelFormat {
-    bool luminance = false, xyz = false, alpha = false;
-};
-
-struct Sensor {
-    SourceLocation where;
-    std::string plugin = "perspective";
-    MeterKind meter = MeterKind::none;
-    unsigned meterShape = 0;   ///< MeterKind::area: which lies on it
-    glm::dmat4 toWorld{1.0};   ///< looks along its local +z, +y up, +x to the LEFT of the image (Mitsuba)
-    bool orthographic = false; ///< parallel rays from local x in [-1, 1]; else perspective, or a fisheye
-    unsigned fisheye = FISHEYE_NONE;
-    double fovX = 0;              ///< perspective, fisheye: full horizontal angle, radians (fov_axis already resolved)
-    glm::dvec2 principalPoint{0}; ///< perspective: of the film's size, by how much the view lies to the right and down
-    double apertureRadius = 0;    ///< of a thin lens, scene units; 0: a pinhole
-    double focusDistance = 0;     ///< and depth of the plane that is sharp
-    double nearClip = 1e-2, farClip = 1e4;
-    unsigned width = 768, height = 576;         ///< pixels of the image: the film's, or those of its crop window
-    unsigned filmWidth = 768, filmHeight = 576; ///< of the whole film, which the view is laid over
-    unsigned cropX = 0, cropY = 0;              ///< of the film's pixels, where the image begins
-    unsigned filter = FILTER_BOX;
-    double filterRadius = 0.5;                 ///< pixels
-    std::function<double(double)> filterShape; ///< along one axis, not normalised; FILTER_TABLE needs it
-    bool filterEnds = false;                   ///< at the edge of the image: sample_border is false
-    PixelFormat pixelFormat;
-    std::optional<unsigned> medium; ///< as stated, index into Scene::media
 };
 
 /// quasilux settings of the scene; std::nullopt = not said. Command-line options override them.
@@ -385,7 +325,8 @@ struct Scene {
     }
 };
 
-/// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is known.
+/// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is
+/// known.
 enum class Unknown { refused, forgiven };
 
 /// How a file is read.
@@ -401,7 +342,8 @@ struct LoadChoice {
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters = {},
                 const LoadChoice& choice = {});
 
-/// Makes the grids of the scene its sensor. Throws InputError where the scene has none, or they have too many points together.
+/// Makes the grids of the scene its sensor. Throws InputError where the scene has none, or they have too many points
+/// together.
 void useGridsAsSensor(Scene& scene);
 
 } // namespace quasilux

@@ -1,5 +1,5 @@
-// Settings that are one of a few, and limits of those that are numbers: the one table of their names, for scenes, options, statistics and
-// checkpoints.
+// Settings that are one of a few, and limits of those that are numbers: the one table of their names, for scenes,
+// options, statistics and checkpoints.
 #pragma once
 
 #include "util/error.h"

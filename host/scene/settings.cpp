@@ -5,7 +5,7 @@
 #include "scene/xml/names.h"
 #include "scene/xml/numbers.h"
 
-#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <limits>
 #include <set>
@@ -13,9 +13,6 @@
 namespace quasilux {
 
 namespace {
-
-const Names settingNames = {"bdd",     "variant",      "quasi-specular",  "direct", "caustics", "map",
-                            "photons", "camera-paths", "camera-sampling", "seed",   "units",    "instances"};
 
 template <NamedChoice Choice>
 Choice choiceOf(const Attribute& entry, const SourceLocation& where) {
@@ -25,45 +22,59 @@ Choice choiceOf(const Attribute& entry, const SourceLocation& where) {
                                         knownNames(entry.value, Names(names.begin(), names.end()))));
 }
 
-std::string parseQuasiSpecular(const Attribute& entry, const SourceLocation& where) {
+void readQuasiSpecular(const Attribute& entry, const SourceLocation& where, SceneSettings& to) {
     if (isPhaseLevel(entry.value))
         parsePhaseLevel(entry.value, where);
     else if (entry.value == "yes" || entry.value == "no" || splitList(entry.value).empty())
         throw InputError(where, fmt::format("quasi-specular=\"{}\" of a scene: expected auto, none, all, level:NUMBER, "
                                             "or ids of bsdfs and media.",
                                             entry.value));
-    return entry.value;
+    to.quasiSpecular = entry.value;
 }
 
+template <NamedChoice Choice, std::optional<Choice> SceneSettings::*value>
+void readChoice(const Attribute& entry, const SourceLocation& where, SceneSettings& to) {
+    to.*value = choiceOf<Choice>(entry, where);
+}
+
+template <std::optional<unsigned> SceneSettings::*value, unsigned least, unsigned most>
+void readCount(const Attribute& entry, const SourceLocation& where, SceneSettings& to) {
+    to.*value = static_cast<unsigned>(parseUnsigned(entry.value, least, most, where, entry.name));
+}
+
+void readSeed(const Attribute& entry, const SourceLocation& where, SceneSettings& to) {
+    to.seed = parseUnsigned(entry.value, 0, std::numeric_limits<uint64_t>::max(), where, entry.name);
+}
+
+struct Key {
+    std::string_view name;
+    void (*read)(const Attribute& entry, const SourceLocation& where, SceneSettings& to);
+};
+
+using S = SceneSettings;
+constexpr std::array keys = {
+    Key{"bdd", readCount<&S::bdd, 0, bddLimit>},
+    Key{"variant", readChoice<Variant, &S::variant>},
+    Key{"quasi-specular", readQuasiSpecular},
+    Key{"direct", readChoice<DirectLight, &S::direct>},
+    Key{"caustics", readChoice<CausticLight, &S::caustics>},
+    Key{"map", readChoice<MapOrder, &S::map>},
+    Key{"photons", readCount<&S::photons, 1, photonsLimit>},
+    Key{"camera-paths", readCount<&S::cameraPaths, 1, cameraPathsLimit>},
+    Key{"camera-sampling", readChoice<CameraSampling, &S::cameraSampling>},
+    Key{"seed", readSeed},
+    Key{"units", readChoice<Units, &S::units>},
+    Key{"instances", readChoice<InstanceLevels, &S::instances>},
+};
+
 void apply(const Attribute& entry, const SourceLocation& where, SceneSettings& settings) {
-    if (entry.name == "bdd")
-        settings.bdd = static_cast<unsigned>(parseUnsigned(entry.value, 0, bddLimit, where, "bdd"));
-    else if (entry.name == "variant")
-        settings.variant = choiceOf<Variant>(entry, where);
-    else if (entry.name == "quasi-specular")
-        settings.quasiSpecular = parseQuasiSpecular(entry, where);
-    else if (entry.name == "direct")
-        settings.direct = choiceOf<DirectLight>(entry, where);
-    else if (entry.name == "caustics")
-        settings.caustics = choiceOf<CausticLight>(entry, where);
-    else if (entry.name == "map")
-        settings.map = choiceOf<MapOrder>(entry, where);
-    else if (entry.name == "units")
-        settings.units = choiceOf<Units>(entry, where);
-    else if (entry.name == "instances")
-        settings.instances = choiceOf<InstanceLevels>(entry, where);
-    else if (entry.name == "photons")
-        settings.photons = static_cast<unsigned>(parseUnsigned(entry.value, 1, photonsLimit, where, "photons"));
-    else if (entry.name == "camera-paths")
-        settings.cameraPaths =
-            static_cast<unsigned>(parseUnsigned(entry.value, 1, cameraPathsLimit, where, "camera-paths"));
-    else if (entry.name == "camera-sampling")
-        settings.cameraSampling = choiceOf<CameraSampling>(entry, where);
-    else if (entry.name == "seed")
-        settings.seed = parseUnsigned(entry.value, 0, std::numeric_limits<uint64_t>::max(), where, "seed");
-    else
-        throw InputError(where, fmt::format("unknown key '{}' of <?quasilux?> in a scene.{}", entry.name,
-                                            knownNames(entry.name, settingNames)));
+    Names names;
+    for (const Key& key : keys) {
+        if (key.name == entry.name) return key.read(entry, where, settings);
+        names.push_back(key.name);
+    }
+    throw InputError(where, fmt::format("unknown key '{}' of <?quasilux?> in a scene.{}", entry.name,
+                                        knownNames(entry.name, names)));
 }
 
 } // namespace

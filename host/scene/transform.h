@@ -21,7 +21,8 @@ glm::vec3 toSingle(const glm::dvec3& point, const SourceLocation& where);
 inline glm::dvec3 transformPoint(const glm::dmat4& m, const glm::dvec3& p) { return glm::dvec3(m * glm::dvec4(p, 1)); }
 inline glm::dvec3 transformVector(const glm::dmat4& m, const glm::dvec3& v) { return glm::dmat3(m) * v; }
 
-/// Whether `m` turns or mirrors, and scales all directions alike so that squared lengths are multiplied by `squaredScale`; `tolerance` is relative.
+/// Whether `m` turns or mirrors, and scales all directions alike so that squared lengths are multiplied by
+/// `squaredScale`; `tolerance` is relative.
 inline bool keepsAngles(const glm::dmat3& m, double squaredScale, double tolerance) {
     const glm::dmat3 product = glm::transpose(m) * m;
     for (int column = 0; column < 3; ++column)

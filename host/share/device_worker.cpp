@@ -1,7 +1,6 @@
 #include "share/device_worker.h"
 
 #include "util/error.h"
-#include "util/steady_seconds.h"
 
 namespace quasilux {
 
@@ -24,8 +23,7 @@ std::optional<WorkerEvent> WorkerEvents::wait(double seconds) {
 
 DeviceWorker::DeviceWorker(size_t number, std::string name, std::function<OpenedRenderer()> open,
                            std::shared_ptr<WorkerEvents> events)
-    : number_(number), name_(std::move(name)), open_(std::move(open)), events_(std::move(events)),
-      lastSign_(steadySeconds()) {}
+    : number_(number), name_(std::move(name)), open_(std::move(open)), events_(std::move(events)) {}
 
 void DeviceWorker::run(const std::shared_ptr<DeviceWorker>& worker) {
     const auto why = failureOf([&] { worker->obey(); });
@@ -95,25 +93,25 @@ PassSums DeviceWorker::takeSums() {
     return std::exchange(given_, {});
 }
 
-void DeviceWorker::sign() { lastSign_ = steadySeconds(); }
+void DeviceWorker::sign() { lastSign_ = watch_.seconds(); }
 
-double DeviceWorker::silentFor() const { return isBusy_ ? steadySeconds() - lastSign_ : 0; }
+double DeviceWorker::silentFor() const { return isBusy_ ? watch_.seconds() - lastSign_ : 0; }
 
 void DeviceWorker::doRender(const PassRange& passes) {
     Renderer& renderer = *opened_.renderer;
-    const double start = steadySeconds();
+    const Stopwatch watch;
     const auto before = renderer.counters();
     WorkerEvent rendered = event(WorkerEvent::Kind::rendered);
     for (unsigned pass = passes.first; pass < passes.end && !isOver_; ++pass) {
-        const double begun = steadySeconds();
+        const Stopwatch ofPass;
         renderer.renderPass(pass);
-        const double seconds = steadySeconds() - begun;
+        const double seconds = ofPass.seconds();
         longestPass_ = std::max<double>(longestPass_, seconds);
         rendered.squaredSeconds += seconds * seconds;
         sign();
     }
     rendered.passes = passes;
-    rendered.seconds = steadySeconds() - start;
+    rendered.seconds = watch.seconds();
     rendered.photons = renderer.counters().photonsEmitted - before.photonsEmitted;
     rendered.paths = renderer.counters().cameraPaths - before.cameraPaths;
     if (renderer.radiiAreChosen()) addRadii(rendered);
@@ -121,11 +119,11 @@ void DeviceWorker::doRender(const PassRange& passes) {
 }
 
 void DeviceWorker::doGive() {
-    const double start = steadySeconds();
+    const Stopwatch watch;
     PassSums sums = quasilux::takeSums(*opened_.device, *opened_.renderer);
     WorkerEvent gave = event(WorkerEvent::Kind::gave);
     addRadii(gave);
-    gave.seconds = steadySeconds() - start;
+    gave.seconds = watch.seconds();
     {
         const std::scoped_lock lock(mutex_);
         given_ = std::move(sums);

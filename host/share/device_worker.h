@@ -2,6 +2,7 @@
 #pragma once
 
 #include "share/pass_workers.h"
+#include "util/stopwatch.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -45,7 +46,8 @@ public:
     PassSums takeSums();
 
     const std::string& name() const { return name_; }
-    /// Seconds since its last sign: a pass that ended, or the beginning of what it does now; 0 where it has nothing to do.
+    /// Seconds since its last sign: a pass that ended, or the beginning of what it does now; 0 where it has nothing to
+    /// do.
     double silentFor() const;
     double longestPass() const { return longestPass_; }
 
@@ -71,7 +73,8 @@ private:
     std::deque<Task> tasks_;
     PassSums given_;
     std::atomic<bool> isBusy_{true}, isOver_{false};
-    std::atomic<double> lastSign_, longestPass_{0};
+    Stopwatch watch_;
+    std::atomic<double> lastSign_{0}, longestPass_{0}; ///< the first by watch_
 };
 
 } // namespace quasilux

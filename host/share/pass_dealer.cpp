@@ -24,7 +24,8 @@ double PassDealer::batchesLeft() const {
     return std::ceil(passes / passesInBatch);
 }
 
-// Towards the end ever fewer, so that all end at about the same time (guided self-scheduling, Polychronopoulos and Kuck 1987).
+// Towards the end ever fewer, so that all end at about the same time (guided self-scheduling, Polychronopoulos and Kuck
+// 1987).
 unsigned PassDealer::batchesFor(const WorkerLoad& worker, size_t workers, double secondsLeft) const {
     if (!(worker.secondsPerPass > 0)) return 1;
     const double ofBatch = passesInBatch * worker.secondsPerPass;
@@ -33,7 +34,8 @@ unsigned PassDealer::batchesFor(const WorkerLoad& worker, size_t workers, double
     return static_cast<unsigned>(std::max(1.0, most));
 }
 
-// Others would have done all batches before this one has done the first of them. Of equal ones none waits for the other.
+// Others would have done all batches before this one has done the first of them. Of equal ones none waits for the
+// other.
 bool PassDealer::isWorthIt(size_t who, const std::vector<WorkerLoad>& workers, double batches) {
     const double mine = workers[who].secondsPerPass;
     double byOthers = 0;

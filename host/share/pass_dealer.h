@@ -30,9 +30,10 @@ public:
     /// Passes before this one have been given to somebody.
     unsigned next() const { return next_; }
 
-    /// Whole batches, of which the last one may be cut by the end, for worker number `who`, which is free; as many as take about a time that is long beside
-    /// what giving them costs, and short beside `secondsLeft`. None where all that is left is done sooner by others, or
-    /// only what was given back is to be done (`onlyAgain`) and there is none.
+    /// Whole batches, of which the last one may be cut by the end, for worker number `who`, which is free; as many as
+    /// take about a time that is long beside what giving them costs, and short beside `secondsLeft`. None where all
+    /// that is left is done sooner by others, or only what was given back is to be done (`onlyAgain`) and there is
+    /// none.
     std::optional<PassRange> take(size_t who, const std::vector<WorkerLoad>& workers, double secondsLeft,
                                   bool onlyAgain = false);
 

@@ -20,7 +20,8 @@ struct PassSums {
     void save(StateSink& sink, const std::string& name) const;
 };
 
-/// Takes them off the renderer, which forgets its passes. Throws DeviceError where they cannot be read, or are not finite.
+/// Takes them off the renderer, which forgets its passes. Throws DeviceError where they cannot be read, or are not
+/// finite.
 PassSums takeSums(Device& device, Renderer& renderer);
 
 /// Films are added to 48 bits (film_merge.h).

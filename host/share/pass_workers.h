@@ -1,5 +1,5 @@
-// Who renders passes: devices of this process, or ranks of an MPI job with theirs. Each takes passes by their numbers; their sums are asked
-// for all at once.
+// Who renders passes: devices of this process, or ranks of an MPI job with theirs. Each takes passes by their numbers;
+// their sums are asked for all at once.
 #pragma once
 
 #include "output/render_checkpoint.h"

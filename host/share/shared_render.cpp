@@ -2,7 +2,6 @@
 
 #include "render/error_estimate.h"
 #include "render/stop_rule.h"
-#include "util/steady_seconds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +32,14 @@ SharedRender::SharedRender(PassWorkers& workers, SharedStart start, const StopRu
                            const std::atomic<bool>& interrupted)
     : workers_(workers), stop_(withDefault(stop)), hooks_(std::move(hooks)), interrupted_(interrupted),
       dealer_(start.passes.end, stop.passes), sums_(std::move(start.sums)), first_(start.passes.first),
-      radii_(std::move(start.radii)), rendered_(sums_.counters.passes), begun_(steadySeconds()),
-      secondsBefore_(start.seconds) {
+      radii_(std::move(start.radii)), rendered_(sums_.counters.passes), secondsBefore_(start.seconds) {
     if (!sums_.isEmpty()) added_ = {start.passes};
     renderedBefore_ = sums_.counters.renderSeconds;
     progress_.phase = "rendering";
     lastSums_ = elapsed();
 }
 
-double SharedRender::elapsed() const { return secondsBefore_ + steadySeconds() - begun_; }
+double SharedRender::elapsed() const { return secondsBefore_ + watch_.seconds(); }
 
 RenderOutcome SharedRender::run() {
     for (;;) {
@@ -150,14 +148,14 @@ void SharedRender::noteRadii(const WorkerEvent& event) {
 }
 
 void SharedRender::noteSummed() {
-    const double start = steadySeconds();
+    const Stopwatch watch;
     add(sums_, workers_.takeSums());
     added_.insert(added_.end(), arriving_.begin(), arriving_.end());
     added_ = joined(std::move(added_));
     arriving_.clear();
     isSumming_ = false;
     if (!isIdle() || mayBegin()) publish(false);
-    costOfSums_ = steadySeconds() - start + slowestGiving_;
+    costOfSums_ = watch.seconds() + slowestGiving_;
     slowestGiving_ = 0;
     lastSums_ = elapsed();
 }
@@ -166,7 +164,7 @@ void SharedRender::noteSummed() {
 void SharedRender::publish(bool isLast) {
     const bool isWhole = added_.size() == 1 && added_.front().first == first_;
     if (sums_.isEmpty() || (!isWhole && !isLast)) return;
-    sums_.counters.renderSeconds = renderedBefore_ + steadySeconds() - begun_;
+    sums_.counters.renderSeconds = renderedBefore_ + watch_.seconds();
     if (!isLast && sums_.counters.passes >= fewestPassesForError)
         progress_.relativeError = estimateError(sums_.develop()).sum();
     if (isWhole && hooks_.onSums) hooks_.onSums({sums_, {first_, added_.front().end}, radii_}, elapsed(), isLast);
@@ -177,7 +175,7 @@ void SharedRender::publish(bool isLast) {
 void SharedRender::report() {
     progress_.passes = static_cast<unsigned>(rendered_);
     progress_.seconds = elapsed();
-    const double seconds = std::max(1e-9, steadySeconds() - begun_);
+    const double seconds = std::max(1e-9, watch_.seconds());
     progress_.photonsPerSecond = static_cast<double>(photons_) / seconds;
     progress_.pathsPerSecond = static_cast<double>(paths_) / seconds;
     progress_.secondsLeft = secondsLeft(stop_, progress_);
@@ -196,13 +194,14 @@ std::vector<WorkerLoad> SharedRender::loads() const {
         WorkerLoad load;
         if (one.isAlive) load.secondsPerPass = one.secondsPerPass;
         // One that should be done already may take as long again.
-        if (!one.running.empty()) load.busyFor = std::abs(one.freeAt - steadySeconds());
+        if (!one.running.empty()) load.busyFor = std::abs(one.freeAt - watch_.seconds());
         all.push_back(load);
     }
     return all;
 }
 
-// The fastest first. Until radii are chosen one renders alone, since later ones are chosen with the photons of its passes.
+// The fastest first. Until radii are chosen one renders alone, since later ones are chosen with the photons of its
+// passes.
 std::vector<size_t> SharedRender::freeWorkers() const {
     std::vector<size_t> free;
     for (size_t k = 0; k < members_.size(); ++k) {
@@ -229,7 +228,7 @@ void SharedRender::handOutTo(size_t worker) {
     if (!passes) return;
     one.running.push_back(*passes);
     one.loose.push_back({*passes});
-    one.freeAt = steadySeconds() + one.secondsPerPass * (passes->end - passes->first);
+    one.freeAt = watch_.seconds() + one.secondsPerPass * (passes->end - passes->first);
     workers_.render(worker, *passes);
 }
 

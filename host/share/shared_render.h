@@ -1,10 +1,11 @@
-// One render whose passes are shared among workers by how fast they are (docs/method/scaling.md). What a worker that fails has not given
-// is rendered by others, so the image is the sum of the same passes.
+// One render whose passes are shared among workers by how fast they are (docs/method/scaling.md). What a worker that
+// fails has not given is rendered by others, so the image is the sum of the same passes.
 #pragma once
 
 #include "render/worker_record.h"
 #include "share/pass_dealer.h"
 #include "share/pass_workers.h"
+#include "util/stopwatch.h"
 
 namespace quasilux {
 
@@ -19,7 +20,8 @@ struct SharedHooks {
     std::function<void(const Progress&)> onProgress;
     /// Whenever all sums are there; `seconds` as the stop rule counts them.
     std::function<void(const SharedPasses& soFar, double seconds, bool isLast)> onSums;
-    /// At the end, where passes before or between these are missing, and are nobody's to render: no state to go on from. May be empty.
+    /// At the end, where passes before or between these are missing, and are nobody's to render: no state to go on
+    /// from. May be empty.
     std::function<void(const std::vector<PassRange>& there)> onGap;
     /// What a worker is called, and why it was dropped.
     std::function<void(const std::string& name, const std::string& why)> onDropped;
@@ -40,8 +42,8 @@ public:
     SharedRender(PassWorkers& workers, SharedStart start, const StopRule& stop, SharedHooks hooks,
                  const std::atomic<bool>& interrupted);
 
-    /// Until the stop rule, or `interrupted`, ends it: passes that were begun are ended, as are those of workers that fail. Where
-    /// all workers fail, what there is until then.
+    /// Until the stop rule, or `interrupted`, ends it: passes that were begun are ended, as are those of workers that
+    /// fail. Where all workers fail, what there is until then.
     RenderOutcome run();
     const std::vector<WorkerRecord>& workers() const { return records_; }
     const PassSums& sums() const { return sums_; }
@@ -56,7 +58,7 @@ private:
         std::deque<PassRange> running; ///< given, not yet rendered
         std::vector<Given> loose;      ///< given, and lost if it fails now
         double secondsPerPass = 0;
-        double freeAt = 0; ///< expected
+        double freeAt = 0; ///< expected, by watch_
     };
 
     void note(const WorkerEvent& event);
@@ -98,7 +100,8 @@ private:
     Progress progress_;
     uint64_t photons_ = 0, paths_ = 0; ///< since it began, also those that were lost
     uint64_t rendered_;                ///< passes, those before among them
-    double begun_, secondsBefore_, renderedBefore_ = 0, lastSums_ = 0, costOfSums_ = 0, slowestGiving_ = 0;
+    Stopwatch watch_;                  ///< since it began
+    double secondsBefore_, renderedBefore_ = 0, lastSums_ = 0, costOfSums_ = 0, slowestGiving_ = 0;
 };
 
 } // namespace quasilux

@@ -36,7 +36,8 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// What an InputError, a DeviceError or bad_alloc that `action` throws says, as where memory does not suffice; nothing if it succeeds.
+/// What an InputError, a DeviceError or bad_alloc that `action` throws says, as where memory does not suffice; nothing
+/// if it succeeds.
 std::optional<std::string> refusal(const std::function<void()>& action);
 /// The same of any exception.
 std::optional<std::string> failureOf(const std::function<void()>& action);

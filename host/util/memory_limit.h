@@ -5,8 +5,8 @@
 
 namespace quasilux {
 
-/// While it lives, allocations that would take more than `bytes` beyond what the process has now fail (std::bad_alloc), those of libraries
-/// and other threads too. Where the system has no such limit, it has no effect. One at a time.
+/// While it lives, allocations that would take more than `bytes` beyond what the process has now fail (std::bad_alloc),
+/// those of libraries and other threads too. Where the system has no such limit, it has no effect. One at a time.
 class MemoryLimit {
 public:
     explicit MemoryLimit(uint64_t bytes);

@@ -1,4 +1,5 @@
-// Named arrays in memory, in the order in which they were written (state_archive.h); packed into bytes to be sent elsewhere.
+// Named arrays in memory, in the order in which they were written (state_archive.h); packed into bytes to be sent
+// elsewhere.
 #pragma once
 
 #include "util/state_archive.h"

@@ -44,8 +44,8 @@ public:
     explicit EditedScene(Scene scene);
 
     const Scene& scene() const { return scene_; }
-    /// The scene is as if these were the only ones ever made; lamps with a factor of 0 are no part of it. Throws InputError where none
-    /// is left.
+    /// The scene is as if these were the only ones ever made; lamps with a factor of 0 are no part of it. Throws
+    /// InputError where none is left.
     void apply(const ViewEdits& edits);
 
     struct Lamp {

@@ -1,4 +1,5 @@
-// What others want of a render while it goes on: done by the thread that renders, between two passes, as nobody else may use the device.
+// What others want of a render while it goes on: done by the thread that renders, between two passes, as nobody else
+// may use the device.
 #pragma once
 
 #include "auto/auto_render.h"
@@ -35,8 +36,8 @@ public:
         bool inPasses = false; ///< or in the middle of a pass, when some rows of the film have it and others not
     };
 
-    /// Waits until the errand is done: true. Or until `patience` ends or close() is called: false, and it is not done any more.
-    /// Throws what the errand throws.
+    /// Waits until the errand is done: true. Or until `patience` ends or close() is called: false, and it is not done
+    /// any more. Throws what the errand throws.
     bool run(Errand errand, const Due& due, std::chrono::milliseconds patience);
 
     /// The thread that renders: does what is due. Nothing but a look at a number where nobody wants anything.

@@ -23,8 +23,8 @@ std::vector<std::string> layersOf(const FilmLayout& film);
 /// Whether a layer is of values, as image and components are; or else of errors.
 bool isValueLayer(const std::string& layer);
 
-/// The wish as far as the film goes, thinned to what a screen shows. `mostRead`: while the render goes on, how many of the film's pixels
-/// may be read where the picture is thinned. Throws InputError where the film has no such layer.
+/// The wish as far as the film goes, thinned to what a screen shows. `mostRead`: while the render goes on, how many of
+/// the film's pixels may be read where the picture is thinned. Throws InputError where the film has no such layer.
 FilmCutChoice cutFor(const FrameWish& wish, const Film& film, std::optional<size_t> mostRead);
 /// How many pixels of the film that reads.
 size_t pixelsRead(const FilmCutChoice& choice);
@@ -40,9 +40,9 @@ struct Frame {
     std::vector<uint16_t> halves; ///< row by row, channels side by side
 };
 
-/// `mean`: what relative errors are relative to where the image is dark, the mean radiance of the whole image; 0: that of the piece.
-/// Figures of a pixel are over R, G, B: of "stderr" the root mean square, W sr^-1 m^-2; of "relative_error" the same, each relative to
-/// sqrt(value^2 + 0.01 mean^2); of "bias" the mean, relative likewise.
+/// `mean`: what relative errors are relative to where the image is dark, the mean radiance of the whole image; 0: that
+/// of the piece. Figures of a pixel are over R, G, B: of "stderr" the root mean square, W sr^-1 m^-2; of
+/// "relative_error" the same, each relative to sqrt(value^2 + 0.01 mean^2); of "bias" the mean, relative likewise.
 Frame makeFrame(const FrameWish& wish, const FilmCutChoice& choice, const FilmImage& cut, double mean);
 
 /// IEEE 754 binary16 nearest to `value`, ties to even; what is too large becomes the largest one.

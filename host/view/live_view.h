@@ -1,4 +1,5 @@
-// A render that is watched by a page in the browser: between the render loop, which calls it after each pass, and the server (docs/guide/live-view.md).
+// A render that is watched by a page in the browser: between the render loop, which calls it after each pass, and the
+// server (docs/guide/live-view.md).
 #pragma once
 
 #include "auto/auto_render.h"
@@ -26,14 +27,16 @@ struct ViewOptions {
     bool opensBrowser = true; ///< where there is a desktop
 };
 
-/// Thrown in the middle of a pass, which is lost: something else is to be rendered. Not for a stop, which keeps the pass.
+/// Thrown in the middle of a pass, which is lost: something else is to be rendered. Not for a stop, which keeps the
+/// pass.
 struct PassAbandoned : std::exception {
     const char* what() const noexcept override { return "something else is to be rendered"; }
 };
 
 class LiveView {
 public:
-    /// Listens from now on. `signalled`: set by signals that end the program. Throws InputError where the address cannot be had.
+    /// Listens from now on. `signalled`: set by signals that end the program. Throws InputError where the address
+    /// cannot be had.
     LiveView(const ViewOptions& options, const std::atomic<bool>& signalled);
     ~LiveView();
 
@@ -49,10 +52,11 @@ public:
                bool isEndless);
     /// Both are called by the thread that renders.
     void onProgress(const Progress& progress);
-    /// The next pass throws PassAbandoned where rows of the film are done and an edit has come; not the first one, which is all that is seen of a render
-    /// where edits follow each other, as while the camera is dragged.
+    /// The next pass throws PassAbandoned where rows of the film are done and an edit has come; not the first one,
+    /// which is all that is seen of a render where edits follow each other, as while the camera is dragged.
     void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
-    /// Its render is over, but the view goes on until somebody wants something else, or `isOver()`: errands are done meanwhile.
+    /// Its render is over, but the view goes on until somebody wants something else, or `isOver()`: errands are done
+    /// meanwhile.
     void waitWith(const AutoRender& soFar, const Renderer& renderer, const std::function<bool()>& isOver);
 
     /// What the page asked for since the last call.

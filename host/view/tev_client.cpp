@@ -197,7 +197,8 @@ void TevClient::sendPicture(const FilmImage& picture) {
 }
 
 bool TevClient::sendAll(const std::string& bytes) {
-    // tev says nothing, so that an end is all that can be read; the system would take one more packet after it without a word.
+    // tev says nothing, so that an end is all that can be read; the system would take one more packet after it without
+    // a word.
     char none = 0;
     if (recv(socket_, &none, 1, MSG_PEEK | MSG_DONTWAIT) == 0) {
         giveUp("it has closed the connection");

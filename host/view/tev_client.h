@@ -26,14 +26,15 @@ std::string updateImage(const std::string& name, unsigned y, unsigned width, uns
 
 class TevClient {
 public:
-    /// `address`: HOST:PORT. That nobody is there is a warning, and then nothing is sent. `name`: of the picture in tev.
+    /// `address`: HOST:PORT. That nobody is there is a warning, and then nothing is sent. `name`: of the picture in
+    /// tev.
     TevClient(const std::string& address, std::string name, Device& device);
     ~TevClient();
     TevClient(const TevClient&) = delete;
     TevClient& operator=(const TevClient&) = delete;
 
-    /// Called by the thread that renders, after each pass: a new picture, if it is time for one and the one before has gone; of the last
-    /// pass in any case.
+    /// Called by the thread that renders, after each pass: a new picture, if it is time for one and the one before has
+    /// gone; of the last pass in any case.
     void afterPass(const Renderer& renderer, bool isLast);
     /// Waits until the last picture has gone, or tev takes no more.
     void finish();

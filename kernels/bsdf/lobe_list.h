@@ -1,5 +1,6 @@
-/* Every lobe the kernels know, in the order of Lobe.type. A new lobe is one line here and one file in kernels/bsdf/lobes/,
- * which docs/method/bsdf.md describes. The host compiles only those that the scene uses (HAS_LOBE_<ID>). */
+/* Every lobe the kernels know, in the order of Lobe.type. A new lobe is one line here and one file in
+ * kernels/bsdf/lobes/, which docs/method/bsdf.md describes. The host compiles only those that the scene uses
+ * (HAS_LOBE_<ID>). */
 #ifndef QUASILUX_LOBE_LIST_H
 #define QUASILUX_LOBE_LIST_H
 
@@ -32,7 +33,8 @@ enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
     ((type) == LOBE_LAMBERT || (type) == LOBE_COATEDLAMBERT || (type) == LOBE_ROUGHCOATEDLAMBERT ||                    \
      (type) == LOBE_PRINCIPLEDDIFFUSE || (type) == LOBE_SHEEN || (type) == LOBE_DIFFUSETRANSMISSION)
 
-/* A lobe that lets light pass as if the surface were not there is no event of a path: neither a class nor a segment begins. */
+/* A lobe that lets light pass as if the surface were not there is no event of a path: neither a class nor a segment
+ * begins. */
 #define LOBE_PASSES(type) ((type) == LOBE_PASSAGE)
 
 /* Lobes of microfacets whose roughness may differ along two axes, alphaU and alphaV. */

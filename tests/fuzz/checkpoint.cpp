@@ -1,4 +1,5 @@
-// A checkpoint whose checksum is right: arrays, a byte 0, and the description, in which KERNELS stands for the checksum of the kernels.
+// A checkpoint whose checksum is right: arrays, a byte 0, and the description, in which KERNELS stands for the checksum
+// of the kernels.
 #include "fuzz/input_files.h"
 #include "fuzz/targets.h"
 

@@ -56,8 +56,8 @@ __kernel void findRegions(__global const BvhNode* nodes, __global const Primitiv
 typedef struct {
     float byRegion; /* irradiance by the region, red */
     float sloped;   /* the same, green */
-    float
-        byDisc; /* the sum over the whole disc divided by the integral over it, as without any care for borders; red */
+    /* The sum over the whole disc divided by the integral over it, as without any care for borders; red */
+    float byDisc;
 } Estimate;
 
 __kernel void estimate(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,

@@ -2,7 +2,8 @@
 #include "camera.clh"
 #include "film.clh"
 
-/* Adds samples `first` to before `end` of `count`, one after the other, to pixel `id` of `pixels`; component k of a sample is its k-th share. */
+/* Adds samples `first` to before `end` of `count`, one after the other, to pixel `id` of `pixels`; component k of a
+ * sample is its k-th share. */
 __kernel void addSamples(__global const float4* samples, __global float* film, const uint pixels, const uint count,
                          const uint first, const uint end, const uint layout) {
     const uint pixel = get_global_id(0);

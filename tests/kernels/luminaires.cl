@@ -8,7 +8,8 @@ inline EmitterData dataOf(__global const uint* goniograms) {
     return data;
 }
 
-/* Irradiance (3) across the direction to the luminaire's sample, and the place (3) of that sample, at each point (3); numbers: part, u. */
+/* Irradiance (3) across the direction to the luminaire's sample, and the place (3) of that sample, at each point (3);
+ * numbers: part, u. */
 __kernel void irradiances(__global const Emitter* emitter, __global const uint* goniograms,
                           __global const float* points, __global float* result, uint count) {
     const uint i = get_global_id(0);
@@ -21,7 +22,8 @@ __kernel void irradiances(__global const Emitter* emitter, __global const uint* 
     vstore3(from + s.distance * s.direction, 2 * i + 1, result);
 }
 
-/* Position (3), direction (3), flux (3), and the numbers (5) found again, by the numbers (5): part, position, direction. */
+/* Position (3), direction (3), flux (3), and the numbers (5) found again, by the numbers (5): part, position,
+ * direction. */
 __kernel void photons(__global const Emitter* emitter, __global const uint* goniograms, __global const float* numbers,
                       __global float* result, uint count) {
     const uint i = get_global_id(0);

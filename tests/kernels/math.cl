@@ -1,4 +1,5 @@
-/* Elementary functions of kernels/elementary.clh; frames, ray origins and packed vectors of kernels/math.clh; over arrays. */
+/* Elementary functions of kernels/elementary.clh; frames, ray origins and packed vectors of kernels/math.clh; over
+ * arrays. */
 #include "math.clh"
 
 #define FUNCTION_LOG2 0

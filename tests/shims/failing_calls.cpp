@@ -1,5 +1,5 @@
-// Put before the libraries by LD_PRELOAD: one call of OpenCL, of a file of the working folder, or of operator new fails, so that tests
-// see what the program does then. Without an order every call is counted and passed on.
+// Put before the libraries by LD_PRELOAD: one call of OpenCL, of a file of the working folder, or of operator new
+// fails, so that tests see what the program does then. Without an order every call is counted and passed on.
 //   QUASILUX_FAIL_CALL    name of the function, as in `calls` below
 //   QUASILUX_FAIL_AT      which of its calls fails, counted from 1; those after it succeed again. -1: all
 //   QUASILUX_NO_LINKS     if set: the file system knows no second names

@@ -1,4 +1,5 @@
-// Put before libOpenCL by LD_PRELOAD: calls of OpenCL that fail as the environment says, so that tests see what the program does then.
+// Put before libOpenCL by LD_PRELOAD: calls of OpenCL that fail as the environment says, so that tests see what the
+// program does then.
 //   QUASILUX_FAIL_CALL     clEnqueueNDRangeKernel, clGetEventProfilingInfo or clGetDeviceInfo
 //   QUASILUX_FAIL_KERNEL   of the first of these: only launches of this kernel count
 //   QUASILUX_FAIL_AT       the call that fails, and all after it, counted from 1

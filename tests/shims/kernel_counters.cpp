@@ -1,5 +1,5 @@
-// Memory of the counters that scripts/coverage.py puts into kernels: a file, at an address that they know, so that all processes count in it.
-// Linked where QUASILUX_KERNEL_COUNTERS names that file.
+// Memory of the counters that scripts/coverage.py puts into kernels: a file, at an address that they know, so that all
+// processes count in it. Linked where QUASILUX_KERNEL_COUNTERS names that file.
 #include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>

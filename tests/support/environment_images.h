@@ -34,8 +34,8 @@ struct NamedImage {
     const char* name;
     EnvironmentImage image;
 };
-// A coloured gradient, turned; a small sun in a dim sky; light from the poles' pixels alone; from the ring beside a pole alone; one pixel
-// among black ones, mirrored; the fewest pixels.
+// A coloured gradient, turned; a small sun in a dim sky; light from the poles' pixels alone; from the ring beside a
+// pole alone; one pixel among black ones, mirrored; the fewest pixels.
 inline std::vector<NamedImage> images() {
     std::vector<NamedImage> all = {
         {"gradient", mitsubaImage()},

@@ -51,7 +51,8 @@ public:
     int addImage(const std::string& encoded) {
         return add("images", {{"bufferView", view(encoded.data(), encoded.size())}, {"mimeType", "image/png"}});
     }
-    /// A square of side 2 about the origin, seen from +z, with texture coordinates whose v runs down. Index of the mesh.
+    /// A square of side 2 about the origin, seen from +z, with texture coordinates whose v runs down. Index of the
+    /// mesh.
     int addSquare(const nlohmann::json& primitive = nlohmann::json::object()) {
         nlohmann::json whole = {{"attributes",
                                  {{"POSITION", floats({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, "VEC3")},

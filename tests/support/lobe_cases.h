@@ -20,7 +20,8 @@ struct LobeCase {
     shared::Lobe lobe;
 };
 
-/// Lambert, the same under a coat, Phong, GGX and Beckmann from broad to narrow, with reflectance 1 and Fresnel factor 1.
+/// Lambert, the same under a coat, Phong, GGX and Beckmann from broad to narrow, with reflectance 1 and Fresnel factor
+/// 1.
 std::vector<LobeCase> finiteLobes();
 
 /// A lobe of this type with reflectance and transmittance 1 and Fresnel factor 1.

@@ -12,8 +12,8 @@
 
 namespace quasilux::test {
 
-/// Folder of files whose intensities have a closed form: isotropic100 100, lambert1000 1000 cos, spot_cos40 5000 cos^40, asym_cosphi
-/// 500 (2 + cos C) cos, quadrant 2000 (1 - C / 180) cos in the first quadrant, mirrored.
+/// Folder of files whose intensities have a closed form: isotropic100 100, lambert1000 1000 cos, spot_cos40 5000
+/// cos^40, asym_cosphi 500 (2 + cos C) cos, quadrant 2000 (1 - C / 180) cos in the first quadrant, mirrored.
 inline const std::string luminaireFolder = std::string(QUASILUX_SOURCE_DIR) + "/tests/data/luminaires/";
 
 struct IesText {

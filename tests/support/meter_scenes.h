@@ -89,8 +89,8 @@ inline std::string rectangle(const std::string& scale, const std::string& turn, 
                        scale, turn, place, parts);
 }
 
-/// Six inward rectangles of a cube of side 1 about the origin, in the order z0, z1, x0, x1, y0, y1. `parts` of each follow
-/// its transform.
+/// Six inward rectangles of a cube of side 1 about the origin, in the order z0, z1, x0, x1, y0, y1. `parts` of each
+/// follow its transform.
 inline std::string unitRoom(const std::array<std::string, 6>& parts) {
     const char* turns[6] = {"",
                             "<rotate x=\"1\" angle=\"180\"/>",

@@ -20,8 +20,8 @@ MeanAndError meanAndError(const std::vector<double>& values);
 /// Scene of scenes/, with `parameters` replacing its defaults.
 Scene projectScene(const std::string& name, const std::vector<std::pair<std::string, std::string>>& parameters = {});
 
-/// Luminance averaged over each group of pixels. `group[pixel]` is the group, or a negative number for none. `learned`: as Renderer has
-/// it.
+/// Luminance averaged over each group of pixels. `group[pixel]` is the group, or a negative number for none. `learned`:
+/// as Renderer has it.
 std::vector<MeanAndError> renderGroups(const Scene& scene, const RenderSettings& settings,
                                        const std::vector<int>& group, unsigned batches, unsigned passesPerBatch,
                                        std::shared_ptr<const LearnedScene> learned = nullptr);

@@ -28,7 +28,8 @@ dvec3 facetNormal(const shared::Lobe& lobe, double s, double phi) {
     return glm::normalize(dvec3(lobe.alphaU * slope * std::cos(phi), lobe.alphaV * slope * std::sin(phi), 1));
 }
 
-/// Where a facet sends wo to; the zero vector where it does not see it, does not send it, or sends it to the wrong side.
+/// Where a facet sends wo to; the zero vector where it does not see it, does not send it, or sends it to the wrong
+/// side.
 dvec3 sendByFacet(const shared::Lobe& lobe, dvec3 wo, dvec3 h, bool transmits) {
     const double cosH = glm::dot(wo, h), eta = lobe.eta.r;
     if (cosH <= 0) return dvec3(0);

@@ -34,9 +34,9 @@ struct InterfaceShares {
 };
 InterfaceShares interfaceShares(const shared::Lobe& lobe, glm::dvec3 wo);
 
-/// Radiance of a ball of rough glass in surroundings of radiance 1, seen under the cosine `cosine` to its normal; isotropic lobe as
-/// seen from outside. Chords of a ball meet it under the same angle at both ends, so the radiance inside depends on one
-/// cosine only and solves a linear equation in it.
+/// Radiance of a ball of rough glass in surroundings of radiance 1, seen under the cosine `cosine` to its normal;
+/// isotropic lobe as seen from outside. Chords of a ball meet it under the same angle at both ends, so the radiance
+/// inside depends on one cosine only and solves a linear equation in it.
 class BallRadiance {
 public:
     explicit BallRadiance(const shared::Lobe& outside);

@@ -7,8 +7,8 @@
 
 namespace quasilux {
 
-/// The first device, shared by all tests of a program: each context of PoCL reads its library of kernels anew, which takes as long as a
-/// third of a render's kernels.
+/// The first device, shared by all tests of a program: each context of PoCL reads its library of kernels anew, which
+/// takes as long as a third of a render's kernels.
 Device& testDevice(unsigned workGroupSize = 64);
 
 /// Builds tests/kernels/`file`, which may include anything of kernels/.

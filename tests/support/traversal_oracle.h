@@ -15,7 +15,8 @@ using TestHit = MicroHit;
 using EmbreeOracle = EmbreeScene;
 
 /// Where a ray meets a primitive, in double precision. `undecided`: no condition of the hit fails by more than what
-/// single precision can err by, and at least one is within that of failing (docs/method/traversal.md, "When two answers tie").
+/// single precision can err by, and at least one is within that of failing (docs/method/traversal.md, "When two answers
+/// tie").
 struct ExactHit {
     enum class Verdict { miss, undecided, hit };
     Verdict verdict = Verdict::miss;

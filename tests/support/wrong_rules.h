@@ -9,15 +9,15 @@ namespace quasilux::test {
 /// The law, or one of its known wrong readings (kernels/law.clh).
 enum class LawRule { right, quasiSpecularUntilFirst, diffuseAtEveryHit, fullAlongChain };
 
-/// The right handling of media, or one of the known mistakes: flux at collisions not divided by the extinction; refracted
-/// radiance not scaled by 1/eta^2; the phase function's g of the wrong sign where photons are taken; flux in a heterogeneous
-/// medium divided by the mean of its extinction.
+/// The right handling of media, or one of the known mistakes: flux at collisions not divided by the extinction;
+/// refracted radiance not scaled by 1/eta^2; the phase function's g of the wrong sign where photons are taken; flux in
+/// a heterogeneous medium divided by the mean of its extinction.
 enum class MediumRule { right, missingSigmaT, missingEtaSquared, wrongSignOfG, meanSigmaT };
 
 /// The right tracing of photons, or a known mistake: flux that escapes is not counted in the energy balance; scattering
-/// multiplies flux by 1.02; shading normals are taken for the geometry's where photons scatter, or where they are stored; guided
-/// photons do not carry the weight of their leaf, aimed ones not that of their direction; those into which one is split are worth
-/// nearly four times their share.
+/// multiplies flux by 1.02; shading normals are taken for the geometry's where photons scatter, or where they are
+/// stored; guided photons do not carry the weight of their leaf, aimed ones not that of their direction; those into
+/// which one is split are worth nearly four times their share.
 enum class PhotonRule {
     right,
     escapeNotCounted,

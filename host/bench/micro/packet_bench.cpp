@@ -1,4 +1,5 @@
-// Packets of sixteen coherent rays, kernels/micro/bvh_packet.clh, against our single rays and Embree's packets of 8 and 16.
+// Packets of sixteen coherent rays, kernels/micro/bvh_packet.clh, against our single rays and Embree's packets of 8 and
+// 16.
 #include "bench/micro/traversal_parts.h"
 
 #include <fmt/format.h>

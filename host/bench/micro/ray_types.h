@@ -26,8 +26,8 @@ struct MicroHit {
 
 constexpr unsigned packetSize = 16; ///< of kernels/micro/bvh_packet.clh
 
-/// Rays as Embree (8 or 16) and kernels/micro/bvh_packet_box.clh (Ray16) take them, field by field; origin and direction
-/// axis by axis.
+/// Rays as Embree (8 or 16) and kernels/micro/bvh_packet_box.clh (Ray16) take them, field by field; origin and
+/// direction axis by axis.
 template <unsigned size>
 struct alignas(4 * size) RayPacket {
     float origin[3][size], direction[3][size], tMin[size], tMax[size];

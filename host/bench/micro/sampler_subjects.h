@@ -17,8 +17,8 @@ struct SamplerSubject {
 };
 
 std::vector<SamplerSubject<shared::Lobe>> lobeSubjects();
-/// They shine on what lies below z = 0. A mesh's triangle is that of emitterTriangle(), the tables of a map or a luminaire those of
-/// emitterTables().
+/// They shine on what lies below z = 0. A mesh's triangle is that of emitterTriangle(), the tables of a map or a
+/// luminaire those of emitterTables().
 std::vector<SamplerSubject<shared::Emitter>> emitterSubjects();
 shared::EmitterTriangle emitterTriangle();
 /// What an emitter of this type reads beside its record; of most a single word.

@@ -21,8 +21,8 @@ struct TracedLayout {
     std::vector<shared::RegionCount> regions;
 };
 
-/// Arrays of `stride` words; the photons of the regions, `regionEnds` of which says where each ends, stand in blocks that
-/// the regions take in turns.
+/// Arrays of `stride` words; the photons of the regions, `regionEnds` of which says where each ends, stand in blocks
+/// that the regions take in turns.
 TracedLayout layOutPhotons(const std::vector<TracedPhoton>& photons, const std::vector<size_t>& regionEnds,
                            size_t stride, bool storesDepth);
 

@@ -36,8 +36,8 @@ inline bool differ(const MicroHit& ours, const MicroHit& theirs) {
 }
 inline bool differ(unsigned ours, unsigned theirs) { return ours != theirs; }
 
-/// Packets of sixteen rays (kernels/micro/bvh_packet.clh) against single rays and against Embree's packets; what is compared are
-/// the hits of packets and single rays.
+/// Packets of sixteen rays (kernels/micro/bvh_packet.clh) against single rays and against Embree's packets; what is
+/// compared are the hits of packets and single rays.
 MicroRow packetRow(Device& device, unsigned threads, DeviceTree& tree, const EmbreeScene& embree, const RaySet& set,
                    unsigned rounds, const std::string& scene);
 

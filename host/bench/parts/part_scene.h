@@ -1,4 +1,5 @@
-// A scene as the parts of a benchmark get it: loaded, and as another process can load it again (docs/reference/benchmarks.md, "Parts").
+// A scene as the parts of a benchmark get it: loaded, and as another process can load it again
+// (docs/reference/benchmarks.md, "Parts").
 #pragma once
 
 #include "bench/pass_times.h"

@@ -9,7 +9,8 @@
 
 namespace quasilux {
 
-/// Between the beginning and the end of MPI, by all ranks: broadcasts and reductions go on side by side, so each kind has ranks of its own.
+/// Between the beginning and the end of MPI, by all ranks: broadcasts and reductions go on side by side, so each kind
+/// has ranks of its own.
 void openCollectives();
 void closeCollectives();
 
@@ -29,8 +30,8 @@ private:
     MPI_Request request_ = MPI_REQUEST_NULL;
 };
 
-/// Films of all ranks, all batches of passes complete, to rank 0, piece by piece: along MPI's tree, which is the same for as many ranks, and to 48
-/// bits, as film_merge.h adds them.
+/// Films of all ranks, all batches of passes complete, to rank 0, piece by piece: along MPI's tree, which is the same
+/// for as many ranks, and to 48 bits, as film_merge.h adds them.
 class FilmReduction {
 public:
     /// `film`: empty for black.

@@ -3,7 +3,7 @@
 #include "ranks/mpi/wire.h"
 #include "render/film_merge.h"
 #include "render/render_counters.h"
-#include "util/steady_seconds.h"
+#include "util/stopwatch.h"
 
 #include <algorithm>
 
@@ -31,7 +31,7 @@ void RankWorkers::tellAll(const nlohmann::json& head, const std::vector<char>& b
 }
 
 std::optional<WorkerEvent> RankWorkers::wait(double seconds) {
-    const double end = steadySeconds() + seconds;
+    const Stopwatch watch;
     do {
         forgetBroadcasts();
         if (auto event = ofOthers()) return event;
@@ -41,7 +41,7 @@ std::optional<WorkerEvent> RankWorkers::wait(double seconds) {
             return summed;
         }
         if (auto event = ofOwn(secondsOfTurn)) return event;
-    } while (steadySeconds() < end);
+    } while (watch.seconds() < seconds);
     return std::nullopt;
 }
 

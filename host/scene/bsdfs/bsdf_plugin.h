@@ -1,4 +1,5 @@
-// Reading of bsdfs. A new plugin is one file here and one line in the table of bsdf_table.cpp (CONTRIBUTING.md; lobes: docs/method/bsdf.md).
+// Reading of bsdfs. A new plugin is one file here and one line in the table of bsdf_table.cpp (CONTRIBUTING.md; lobes:
+// docs/method/bsdf.md).
 #pragma once
 
 #include "scene/properties.h"
@@ -52,7 +53,8 @@ shared::LobeWeight weightBy(unsigned texture, double offset = 0, double factor =
 /// Lets all light pass straight on: what a `null` bsdf is as part of another.
 LobeDescription passageLobe();
 
-/// (1 - weight) of the first plus weight of the second; `null` ones let pass. Throws InputError at `where` for too many lobes.
+/// (1 - weight) of the first plus weight of the second; `null` ones let pass. Throws InputError at `where` for too many
+/// lobes.
 BsdfLobes blend(BsdfLobes first, BsdfLobes second, const Scalar& weightOfSecond, const SourceLocation& where);
 
 constexpr double lambertHalfWidth = 0.78539816339744831; ///< cos² = 1/2
@@ -84,7 +86,8 @@ struct CoatedBase {
     Reflectance reflectance;
     bool nonlinear = false; ///< light that comes back from the coat is coloured again each time
 
-    /// Its lobe, by what is seen of it through a coat of relative index `eta` that sends the share `sentBack` of diffuse light back from inside.
+    /// Its lobe, by what is seen of it through a coat of relative index `eta` that sends the share `sentBack` of
+    /// diffuse light back from inside.
     LobeDescription lobe(unsigned type, double eta, double sentBack) const;
 };
 /// `diffuse_reflectance` and `nonlinear`.
@@ -99,7 +102,8 @@ struct Roughness {
     double halfWidth() const; ///< of what is reflected, radians
     void applyTo(LobeDescription& lobe) const;
 };
-/// `distribution`, and `alpha` or `alpha_u` and `alpha_v`, as textures too where `byTexture`. `smooth` is the bsdf to use without roughness.
+/// `distribution`, and `alpha` or `alpha_u` and `alpha_v`, as textures too where `byTexture`. `smooth` is the bsdf to
+/// use without roughness.
 Roughness readRoughness(Properties& properties, const std::string& smooth, bool byTexture);
 
 /// eta and k of <bsdf type="conductor|roughconductor">: `material`, or `eta` and `k`. Without Fresnel reflection

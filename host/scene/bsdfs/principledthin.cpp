@@ -1,4 +1,5 @@
-// <bsdf type="principledthin">: Disney's material for thin sheets, such as leaves and paper: the same on both sides (Burley 2015).
+// <bsdf type="principledthin">: Disney's material for thin sheets, such as leaves and paper: the same on both sides
+// (Burley 2015).
 #include "scene/bsdfs/principled_parts.h"
 
 #include <fmt/format.h>

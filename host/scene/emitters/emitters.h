@@ -1,4 +1,5 @@
-// Reading of emitters. A new plugin is one file here and one line in the table of emitters.cpp (docs/reference/scene-language.md).
+// Reading of emitters. A new plugin is one file here and one line in the table of emitters.cpp
+// (docs/reference/scene-language.md).
 #pragma once
 
 #include "scene/properties.h"

@@ -9,7 +9,8 @@ namespace quasilux {
 
 namespace {
 
-// Sums of probabilities are multiples of 2^-24, and each pixel of a row or column is to have some (host/prepare/environment.cpp).
+// Sums of probabilities are multiples of 2^-24, and each pixel of a row or column is to have some
+// (host/prepare/environment.cpp).
 constexpr unsigned longestSide = 32768;
 // Of a matrix from a turn or a mirroring: digits that a file leaves out.
 constexpr double looseness = 1e-3;

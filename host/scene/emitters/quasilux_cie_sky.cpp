@@ -1,4 +1,5 @@
-// <emitter type="quasilux_cie_sky">: one of the CIE's standard skies as surroundings, with or without the sun's own light.
+// <emitter type="quasilux_cie_sky">: one of the CIE's standard skies as surroundings, with or without the sun's own
+// light.
 #include "scene/emitters/cie_sky.h"
 #include "scene/emitters/emitters.h"
 #include "scene/skies/daylight.h"

@@ -1,4 +1,5 @@
-// <emitter type="quasilux_perez_sky">: the all-weather sky of Perez et al. (host/scene/skies/perez_sky.h), by measured radiation or a weather file.
+// <emitter type="quasilux_perez_sky">: the all-weather sky of Perez et al. (host/scene/skies/perez_sky.h), by measured
+// radiation or a weather file.
 #include "scene/emitters/emitters.h"
 #include "scene/skies/daylight.h"
 #include "scene/skies/perez_sky.h"

@@ -15,8 +15,8 @@ constexpr double radians = std::numbers::pi / 180;
 // Narrower, the edge of a cone without a transition would be lost in rounding.
 constexpr double leastTransition = 1e-6;
 
-/// From the axis to the rim of the texture, along local x or y, over its square: the cone reaches from edge to edge. Wider than a half
-/// space it does so behind the point, as in Mitsuba.
+/// From the axis to the rim of the texture, along local x or y, over its square: the cone reaches from edge to edge.
+/// Wider than a half space it does so behind the point, as in Mitsuba.
 glm::vec3 acrossCone(const glm::dmat4& toWorld, int axis, double cutoff) {
     glm::dvec3 local(0);
     local[axis] = 1;

@@ -1,4 +1,5 @@
-// <emitter type="sunsky">: Mitsuba's clear sky and sun (host/scene/skies/hosek_wilkie.h) as one image that surrounds the scene.
+// <emitter type="sunsky">: Mitsuba's clear sky and sun (host/scene/skies/hosek_wilkie.h) as one image that surrounds
+// the scene.
 #include "scene/emitters/emitters.h"
 #include "scene/photometric_units.h"
 #include "scene/skies/hosek_wilkie.h"
@@ -35,7 +36,8 @@ double readSunHalfAngle(Properties& properties) {
     return std::max(aperture * pi / 360, narrowestHalfAngle());
 }
 
-/// In the axes of the sky. As in Mitsuba `sun_direction` is in the world, and by place and time +x is the south, +y the west.
+/// In the axes of the sky. As in Mitsuba `sun_direction` is in the world, and by place and time +x is the south, +y the
+/// west.
 glm::dvec3 readSun(Properties& properties, const glm::dmat3& axes) {
     glm::dvec3 sun;
     if (properties.has("sun_direction")) {
@@ -65,10 +67,12 @@ SunSky readSunSky(Properties& properties, const glm::dmat3& axes) {
     return found;
 }
 
-/// Whether the model's radiance per nanometre becomes that of all light, or nothing (docs/reference/photometry.md#skies).
+/// Whether the model's radiance per nanometre becomes that of all light, or nothing
+/// (docs/reference/photometry.md#skies).
 bool isScaledToWatts(double scale) { return scale == 0 || std::abs(scale / hosekWilkieResponse() - 1) < 0.01; }
 
-/// sRGB does not hold every colour of the sky; what is left out of it is light that the other channels have too much of.
+/// sRGB does not hold every colour of the sky; what is left out of it is light that the other channels have too much
+/// of.
 Rgb withinGamut(const glm::dvec3& radiance) {
     const glm::dvec3 positive = glm::max(radiance, glm::dvec3(0));
     return {static_cast<float>(positive.x), static_cast<float>(positive.y), static_cast<float>(positive.z)};

@@ -19,7 +19,8 @@ struct GltfNumbers {
     glm::dvec3 vector(size_t element) const { return {at(element, 0), at(element, 1), at(element, 2)}; }
 };
 
-/// An accessor of one of these numbers of components; integers that are `normalized` become shares. `where` mentions it. Throws InputError.
+/// An accessor of one of these numbers of components; integers that are `normalized` become shares. `where` mentions
+/// it. Throws InputError.
 GltfNumbers readAccessor(const GltfContext& context, int accessor, std::initializer_list<unsigned> components,
                          const SourceLocation& where);
 

@@ -10,7 +10,8 @@
 
 namespace quasilux {
 
-/// How a pixel is read: colours are sRGB encoded, everything else is linear (section 3.8.3 of the specification). Alpha is linear.
+/// How a pixel is read: colours are sRGB encoded, everything else is linear (section 3.8.3 of the specification). Alpha
+/// is linear.
 enum class PixelCode { srgb, linear };
 
 /// What becomes of a pixel, red, green, blue, alpha.

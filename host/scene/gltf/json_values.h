@@ -10,7 +10,8 @@
 
 namespace quasilux {
 
-/// The members of an object of an extension, or of extras. All functions throw InputError at `where` for a value of another kind.
+/// The members of an object of an extension, or of extras. All functions throw InputError at `where` for a value of
+/// another kind.
 class GltfValues {
 public:
     /// The extension of that name, or nothing: everything is missing then.

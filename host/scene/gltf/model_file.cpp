@@ -108,7 +108,8 @@ void checkRequired(const nlohmann::json& json, const std::string& path, Unknown 
     }
 }
 
-/// What tinygltf asks for, by the rules of all files of scenes. It is a library of no exceptions: the first one waits here.
+/// What tinygltf asks for, by the rules of all files of scenes. It is a library of no exceptions: the first one waits
+/// here.
 struct FileAccess {
     const FileResolver& files;
     SourceLocation where;

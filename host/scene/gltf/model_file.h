@@ -8,8 +8,8 @@
 
 namespace quasilux {
 
-/// Images are as encoded in their files; those within buffers are left there. `forgiven` gets the required extensions that are unknown, where
-/// `unknown` forgives them. Throws InputError.
+/// Images are as encoded in their files; those within buffers are left there. `forgiven` gets the required extensions
+/// that are unknown, where `unknown` forgives them. Throws InputError.
 tinygltf::Model readGltfModel(const std::string& path, const FileResolver& files, Unknown unknown,
                               std::vector<std::string>& forgiven);
 

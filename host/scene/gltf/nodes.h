@@ -12,7 +12,8 @@ struct PlacedNode {
     glm::dmat4 toWorld{1};
 };
 
-/// Those of the file's scene, parents first; of all nodes where it has no scene. Throws InputError, also for nodes that are not a tree.
+/// Those of the file's scene, parents first; of all nodes where it has no scene. Throws InputError, also for nodes that
+/// are not a tree.
 std::vector<PlacedNode> placeNodes(const GltfContext& context);
 
 /// The scene that is shown, or nullptr where the file has none.

@@ -6,7 +6,8 @@
 
 namespace quasilux {
 
-/// `"extras": {"quasilux": {"bdd": 1, "illuminance-grid": {…}, "observer": [{…}, {…}]}}` as <?quasilux …?>. Throws InputError.
+/// `"extras": {"quasilux": {"bdd": 1, "illuminance-grid": {…}, "observer": [{…}, {…}]}}` as <?quasilux …?>. Throws
+/// InputError.
 std::vector<Instruction> instructionsOf(const tinygltf::Value& extras, const SourceLocation& where);
 
 } // namespace quasilux

@@ -122,7 +122,8 @@ void GltfShapes::addShape(const std::string& mesh, const tinygltf::Primitive& pr
     addText(shape, "name", mesh);
     const bool isFlat = !hasNormals(primitive);
     if (isFlat) addFlag(shape, "face_normals", true);
-    // The front is where the corners run counter-clockwise before a mirror (section 3.7.4 of the specification). Normals say it themselves.
+    // The front is where the corners run counter-clockwise before a mirror (section 3.7.4 of the specification).
+    // Normals say it themselves.
     if (isFlat && glm::determinant(glm::dmat3(toWorld)) < 0) addFlag(shape, "flip_normals", true);
     if (toWorld != glm::dmat4(1)) addMatrix(shape, "to_world", toWorld);
     addReference(shape, "", material.bsdf);

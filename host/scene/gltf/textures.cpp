@@ -24,8 +24,8 @@ std::string wrapOf(int wrap, const SourceLocation& where) {
     }
 }
 
-/// Texture coordinates are turned about the origin, counter-clockwise on an image whose v runs down, after they are scaled and before they
-/// are moved.
+/// Texture coordinates are turned about the origin, counter-clockwise on an image whose v runs down, after they are
+/// scaled and before they are moved.
 std::optional<glm::dmat4> transformOf(const tinygltf::TextureInfo& texture, const SourceLocation& where) {
     const GltfValues values(texture.extensions, transformName, where);
     if (!values.isGiven()) return std::nullopt;

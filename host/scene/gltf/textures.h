@@ -19,7 +19,8 @@ class GltfTextures {
 public:
     GltfTextures(GltfContext& context, Element& scene) : context_(context), images_(context), scene_(scene) {}
 
-    /// The texture with `change` made to its pixels; it is put into the scene once. `where`: of the material. Throws InputError.
+    /// The texture with `change` made to its pixels; it is put into the scene once. `where`: of the material. Throws
+    /// InputError.
     GltfParameter make(const tinygltf::TextureInfo& texture, PixelCode code, const std::string& meaning,
                        const PixelChange& change, const SourceLocation& where);
     /// The set of texture coordinates that it is laid out by.

@@ -17,14 +17,16 @@ struct LuminousShape {
         point,
         box,        ///< flat, a rectangle, where height is 0
         uprightRod, ///< a cylinder along the axis; flat, an ellipse or a disc, where height is 0
-        rodAlongC0, ///< a cylinder that lies along C0, with a cross-section sizeC90 × height; a disc that faces C0 where sizeC0 is 0
+        /// a cylinder that lies along C0, with a cross-section sizeC90 × height; a disc that faces C0 where sizeC0 is 0
+        rodAlongC0,
         rodAlongC90, ///< likewise, with a cross-section sizeC0 × height
         ellipsoid
     };
     Kind kind = Kind::point;
     double sizeC0 = 0, sizeC90 = 0, height = 0; ///< along C0–C180, along C90–C270, along the axis
 
-    /// Square metres that it covers seen along the unit vector `direction`; 0 where it is flat and seen edge-on, to a millionth of its sides.
+    /// Square metres that it covers seen along the unit vector `direction`; 0 where it is flat and seen edge-on, to a
+    /// millionth of its sides.
     double projectedArea(const glm::dvec3& direction) const;
     /// "rectangle 1.2 m × 0.6 m".
     std::string text() const;
@@ -43,14 +45,16 @@ struct TiltTable {
     std::vector<double> degrees, factors;
 };
 
-/// Candela over a sphere of directions about the luminaire. In its own frame the photometric axis (gamma = 0) is +z, C0 is +x and C90 is
-/// -y: C runs counter-clockwise for who looks along the light, as LM-63 and CIE 121 have it of a luminaire seen from above.
+/// Candela over a sphere of directions about the luminaire. In its own frame the photometric axis (gamma = 0) is +z, C0
+/// is +x and C90 is
+/// -y: C runs counter-clockwise for who looks along the light, as LM-63 and CIE 121 have it of a luminaire seen from
+///   above.
 struct Goniogram {
     std::string path, format, luminaire;
     std::vector<std::string> warnings; ///< "file:line: …"
 
-    /// Degrees from the grid's pole, from 0 to 180, and about it, from 0 to 360; none less than the one before. Two that are equal are
-    /// the two sides of a jump.
+    /// Degrees from the grid's pole, from 0 to 180, and about it, from 0 to 360; none less than the one before. Two
+    /// that are equal are the two sides of a jump.
     std::vector<double> polar, azimuth;
     std::vector<double> candela; ///< polar angles of an azimuth side by side
     glm::dmat3 axes{1.0}; ///< the grid's azimuth 0, its azimuth 90 and its pole in the luminaire's frame, orthonormal
@@ -90,8 +94,8 @@ inline constexpr size_t firstLampSet = 1;
 /// Throws InputError at `where` if this file may not be read.
 using FileCheck = std::function<void(const std::string& path, const SourceLocation& where)>;
 
-/// By its ending, .ies or .ldt. Throws InputError at file:line; `where`: of the mention, for files that cannot be read. `mayRead` is asked
-/// about files that this one names.
+/// By its ending, .ies or .ldt. Throws InputError at file:line; `where`: of the mention, for files that cannot be read.
+/// `mayRead` is asked about files that this one names.
 Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet = firstLampSet,
                         const FileCheck& mayRead = {});
 

@@ -39,9 +39,10 @@ std::string_view withoutBlanks(std::string_view text) {
                                            : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// The rows of LM-63-1995 that the edition of 2002 gives another meaning, or none, after I. Ashdown, "Parsing the IESNA LM-63 photometric
-/// data file" (1998), where (width, length, height) are (-d, 0, -d) a sphere, (0, l, -d) and (w, 0, -d) cylinders that lie, (-w, l, h) and
-/// (w, -l, h) ellipses, and with -h ellipsoids. False for all others: circles, upright cylinders and boxes are the same in both tables.
+/// The rows of LM-63-1995 that the edition of 2002 gives another meaning, or none, after I. Ashdown, "Parsing the IESNA
+/// LM-63 photometric data file" (1998), where (width, length, height) are (-d, 0, -d) a sphere, (0, l, -d) and (w, 0,
+/// -d) cylinders that lie, (-w, l, h) and (w, -l, h) ellipses, and with -h ellipsoids. False for all others: circles,
+/// upright cylinders and boxes are the same in both tables.
 bool setShapeUntil1995(LuminousShape& shape, double width, double length, double height) {
     using Kind = LuminousShape::Kind;
     if (width * length < 0) { // one of them is negative: an ellipse
@@ -272,8 +273,9 @@ private:
         setSphere(out_, angles.vertical, std::move(planes), true);
     }
 
-    // Type A: half planes about a vertical pole, by horizontal angle. Type B: about a horizontal one, by vertical angle. In a
-    // luminaire that looks along its axis +z, +y is up and +x to its left, so horizontal angles run towards -x.
+    // Type A: half planes about a vertical pole, by horizontal angle. Type B: about a horizontal one, by vertical
+    // angle. In a luminaire that looks along its axis +z, +y is up and +x to its left, so horizontal angles run towards
+    // -x.
     void setTypeAOrB(bool isTypeA, IesAngles angles, std::vector<HalfPlane> planes) {
         if (angles.horizontal.front() == 0) mirrorHorizontally(angles, planes);
         const std::vector<double>&polar = isTypeA ? angles.vertical : angles.horizontal,

@@ -1,5 +1,5 @@
-// <medium type="heterogeneous">: extinction, and if wanted albedo, vary in space. It is grey: a path's free flight follows
-// one density.
+// <medium type="heterogeneous">: extinction, and if wanted albedo, vary in space. It is grey: a path's free flight
+// follows one density.
 #include "scene/media/medium_plugin.h"
 #include "scene/volumes/volume_plugin.h"
 

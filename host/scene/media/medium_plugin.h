@@ -1,4 +1,5 @@
-// Reading of media. A new plugin is one file here and one line in the table of medium_table.cpp (docs/reference/scene-language.md).
+// Reading of media. A new plugin is one file here and one line in the table of medium_table.cpp
+// (docs/reference/scene-language.md).
 #pragma once
 
 #include "scene/properties.h"

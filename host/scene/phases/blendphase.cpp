@@ -1,5 +1,5 @@
-// <phase type="blendphase">: two phase functions, the second one with the share `weight`. Blends within blends become one
-// list of weighted functions.
+// <phase type="blendphase">: two phase functions, the second one with the share `weight`. Blends within blends become
+// one list of weighted functions.
 #include "scene/phases/phase_plugin.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// Reading of phase functions. A new plugin is one file here and one line in the table of phase_table.cpp (docs/method/media.md).
+// Reading of phase functions. A new plugin is one file here and one line in the table of phase_table.cpp
+// (docs/method/media.md).
 #pragma once
 
 #include "scene/properties.h"

@@ -1,4 +1,5 @@
-// <sensor type="batch">: sensors that share one film, beside each other on it. Each of them is rendered as an image of its own.
+// <sensor type="batch">: sensors that share one film, beside each other on it. Each of them is rendered as an image of
+// its own.
 #include "scene/sensors/sensors.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// Reading of the sensor and its film. A new plugin is one file here and one line in the table of sensors.cpp (docs/reference/scene-language.md).
+// Reading of the sensor and its film. A new plugin is one file here and one line in the table of sensors.cpp
+// (docs/reference/scene-language.md).
 #pragma once
 
 #include "scene/properties.h"

@@ -32,12 +32,14 @@ struct Segment {
     Place second(double u) const { return 2.0 * coefficient[2] + 6 * u * coefficient[3]; }
 };
 
-/// Pieces that the segment is cut into, so that chords keep within the tolerance and turn by no more than 0.1 from one to the next.
+/// Pieces that the segment is cut into, so that chords keep within the tolerance and turn by no more than 0.1 from one
+/// to the next.
 unsigned piecesOf(const Segment& segment, double largestRadius) {
     constexpr double largestTurn = 0.1;
     constexpr unsigned samples = 16;
     if (!(largestRadius > 0)) return 1;
-    // The second derivative is linear in u, so that one of its ends is the largest. A chord over h is off by h² / 8 of it.
+    // The second derivative is linear in u, so that one of its ends is the largest. A chord over h is off by h² / 8 of
+    // it.
     const double bend = std::max(glm::length(segment.second(0)), glm::length(segment.second(1)));
     double turn = 0;
     for (unsigned k = 0; k < samples; ++k) {

@@ -1,5 +1,5 @@
-// <shape type="shapegroup|instance|merge">: shapes made of shapes. Instances have triangles of their own, or those of their group
-// (instance_levels.cpp).
+// <shape type="shapegroup|instance|merge">: shapes made of shapes. Instances have triangles of their own, or those of
+// their group (instance_levels.cpp).
 #include "scene/shapes/instance_levels.h"
 #include "scene/shapes/shape_plugin.h"
 

@@ -1,4 +1,5 @@
-// Which groups of shapes are kept once for all of their instances, as a level of the tree of their own, and which are flattened.
+// Which groups of shapes are kept once for all of their instances, as a level of the tree of their own, and which are
+// flattened.
 #pragma once
 
 #include "scene/load_context.h"
@@ -14,7 +15,8 @@ std::vector<ShapeDescription> readGroupAt(const Element& group, const glm::dmat4
 
 /// Decides for all groups that countPlaces() found.
 void chooseLevels(LoadContext& context);
-/// Adds an instance of the group at `toWorld` (in coordinates of the file) to the scene. False where it is to be flattened.
+/// Adds an instance of the group at `toWorld` (in coordinates of the file) to the scene. False where it is to be
+/// flattened.
 bool keepAsInstance(const Element& group, const glm::dmat4& toWorld, LoadContext& context);
 /// Puts the groups behind all other shapes, when these have been read.
 void appendGroups(LoadContext& context);

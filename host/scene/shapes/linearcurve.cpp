@@ -1,4 +1,5 @@
-// <shape type="linearcurve">: cones between balls, one at each control point, which they touch. Round at the joints and ends.
+// <shape type="linearcurve">: cones between balls, one at each control point, which they touch. Round at the joints and
+// ends.
 #include "scene/shapes/curve_file.h"
 #include "scene/shapes/shape_plugin.h"
 #include "scene/shapes/tube.h"

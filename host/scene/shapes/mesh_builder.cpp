@@ -60,7 +60,8 @@ std::vector<Normals> computeNormals(const MeshSource& source, const std::vector<
     return normals;
 }
 
-/// The same of a mesh that an instance places: as those of its group, in whose space they are means, carried by the inverse transpose.
+/// The same of a mesh that an instance places: as those of its group, in whose space they are means, carried by the
+/// inverse transpose.
 std::vector<Normals> computeNormals(const MeshSource& source, const std::vector<glm::dvec3>& world,
                                     const glm::dmat4& placement) {
     const glm::dmat4 back = glm::inverse(placement);

@@ -8,11 +8,13 @@
 
 namespace quasilux {
 
-/// Sectors that round shapes of radius 1 are cut into, and the radius of their corners: the polygon has the circle's area.
+/// Sectors that round shapes of radius 1 are cut into, and the radius of their corners: the polygon has the circle's
+/// area.
 inline constexpr unsigned roundSectors = 256;
 double roundRadius(unsigned sectors);
 
-/// Axes across the unit `n` (Duff et al. 2017, "Building an orthonormal basis, revisited"), which Mitsuba counts the angle from.
+/// Axes across the unit `n` (Duff et al. 2017, "Building an orthonormal basis, revisited"), which Mitsuba counts the
+/// angle from.
 std::pair<glm::dvec3, glm::dvec3> axesAcross(const glm::dvec3& n);
 
 /// A mesh in its own space.
@@ -38,8 +40,8 @@ Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::u
 /// Meshes of files, with the corner normals of Mitsuba 3: those of the file; where it has none at all, means over the
 /// faces at a vertex, weighted by angle; flat where `faceNormals`. Flat faces and computed normals follow the winding
 /// after the transform; normals of the file go by the inverse transpose and the winding is made to agree with them.
-/// Texture coordinates are kept where every corner has some. `placement`: the part of `toWorld` that is an instance's, under which all normals
-/// go by the inverse transpose.
+/// Texture coordinates are kept where every corner has some. `placement`: the part of `toWorld` that is an instance's,
+/// under which all normals go by the inverse transpose.
 Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNormals, bool faceNormals,
               const SourceLocation& where, const std::optional<glm::dmat4>& placement = {});
 

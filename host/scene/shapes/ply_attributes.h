@@ -6,9 +6,10 @@
 
 namespace quasilux {
 
-/// The attributes of one element, by Mitsuba 3's names: colours r, g, b or red, green, blue are "color"; neighbouring properties
-/// of one prefix and the endings _x _y _z, _0 _1 _2 or _1 _2 _3, or only the first, are that prefix; with _r _g _b "_color" is
-/// added to it. Each begins with `kind`, "vertex_" or "face_". Properties that do not go together so are passed over.
+/// The attributes of one element, by Mitsuba 3's names: colours r, g, b or red, green, blue are "color"; neighbouring
+/// properties of one prefix and the endings _x _y _z, _0 _1 _2 or _1 _2 _3, or only the first, are that prefix; with _r
+/// _g _b "_color" is added to it. Each begins with `kind`, "vertex_" or "face_". Properties that do not go together so
+/// are passed over.
 class PlyAttributes {
 public:
     PlyAttributes(const PlyElement& element, const std::string& kind);

@@ -1,5 +1,5 @@
-// <shape type="serialized">: Mitsuba's own format of meshes, versions 3 and 4: a header, then zlib's stream; several meshes
-// in a file, whose offsets stand at its end.
+// <shape type="serialized">: Mitsuba's own format of meshes, versions 3 and 4: a header, then zlib's stream; several
+// meshes in a file, whose offsets stand at its end.
 #include "scene/shapes/mesh_builder.h"
 #include "scene/shapes/shape_plugin.h"
 #include "scene/xml/xml_document.h"

@@ -20,7 +20,8 @@ struct PlacedShape {
     ShapeDescription shape;
     const Element* sensor = nullptr; ///< not read yet
 };
-/// The shapes that a <shape> directly in the scene stands for: itself, those of an instance or a merge, none for a shapegroup.
+/// The shapes that a <shape> directly in the scene stands for: itself, those of an instance or a merge, none for a
+/// shapegroup.
 std::vector<PlacedShape> readShapes(const Element& element, LoadContext& context);
 /// Reads the shapes of a group that no instance places, for their errors.
 void checkUnusedGroup(const Element& group, LoadContext& context);

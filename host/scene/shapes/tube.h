@@ -5,8 +5,9 @@
 
 namespace quasilux {
 
-/// Sectors of a tube. Its polygons have the circle's circumference, so that a tube looks as broad as it is, on an average over the sides that
-/// it is seen from: corners lie 0.16 % of the radius beyond the circle, the middles of sides 0.32 % within it.
+/// Sectors of a tube. Its polygons have the circle's circumference, so that a tube looks as broad as it is, on an
+/// average over the sides that it is seen from: corners lie 0.16 % of the radius beyond the circle, the middles of
+/// sides 0.32 % within it.
 inline constexpr unsigned tubeSectors = 32;
 /// How far a chord may lie from the curve that it stands for, as a share of the radius.
 inline constexpr double tubeTolerance = 1 / 300.0;
@@ -14,8 +15,9 @@ inline constexpr double tubeTolerance = 1 / 300.0;
 struct Ring {
     glm::dvec3 centre{}, axis{0, 0, 1}; ///< the latter unit, forwards
     double radius = 0;
-    /// The surface's normal is (along - radius n·turn) n - slope axis, where n is the unit vector from the centre to the corner: `along`, `turn`
-    /// and `slope` are the derivatives by one parameter of the place along the axis, of the axis, and of the radius.
+    /// The surface's normal is (along - radius n·turn) n - slope axis, where n is the unit vector from the centre to
+    /// the corner: `along`, `turn` and `slope` are the derivatives by one parameter of the place along the axis, of the
+    /// axis, and of the radius.
     double along = 1, slope = 0;
     glm::dvec3 turn{0};
 };

@@ -1,4 +1,5 @@
-// What the skies in photometric units share: sky and ground as surroundings, the sun as parallel light (docs/reference/photometry.md).
+// What the skies in photometric units share: sky and ground as surroundings, the sun as parallel light
+// (docs/reference/photometry.md).
 #pragma once
 
 #include "scene/properties.h"

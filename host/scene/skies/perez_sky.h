@@ -1,5 +1,6 @@
-// The all-weather sky: R. Perez, R. Seals & J. Michalsky, Solar Energy 50(3), 1993, 235-245, with the erratum in 51(5), 423; luminous efficacies and
-// the terms clearness and brightness by R. Perez et al., Solar Energy 44(5), 1990, 271-289.
+// The all-weather sky: R. Perez, R. Seals & J. Michalsky, Solar Energy 50(3), 1993, 235-245, with the erratum in 51(5),
+// 423; luminous efficacies and the terms clearness and brightness by R. Perez et al., Solar Energy 44(5), 1990,
+// 271-289.
 #pragma once
 
 #include <array>
@@ -33,8 +34,8 @@ private:
     std::array<double, 5> shape_; ///< a, b: gradation from the horizon; c, d, e: about the sun
 };
 
-/// The radiation whose illuminances by these efficacies are the stated ones, lx; `about`: dew point and nearness of the sun. Where efficacies jump
-/// between categories so that there is none, one beside the jump.
+/// The radiation whose illuminances by these efficacies are the stated ones, lx; `about`: dew point and nearness of the
+/// sun. Where efficacies jump between categories so that there is none, one beside the jump.
 Radiation radiationOfIlluminances(double directNormal, double diffuseHorizontal, Radiation about,
                                   const glm::dvec3& sun);
 

@@ -1,4 +1,5 @@
-// Parameters of emitters that say where the sun stands: latitude, longitude, timezone, year, month, day, hour, minute, second.
+// Parameters of emitters that say where the sun stands: latitude, longitude, timezone, year, month, day, hour, minute,
+// second.
 #pragma once
 
 #include "scene/properties.h"
@@ -12,7 +13,8 @@ std::string givenPlaceOrTime(Properties& properties);
 /// Throws the InputError that one of them, `given`, stands beside a sun_direction.
 [[noreturn]] void refuseBesideDirection(Properties& properties, const std::string& given);
 
-/// Missing ones are as in Mitsuba's sunsky: Tokyo on 10 July 2010 at 15:00. Throws InputError where a value is no such thing.
+/// Missing ones are as in Mitsuba's sunsky: Tokyo on 10 July 2010 at 15:00. Throws InputError where a value is no such
+/// thing.
 SunPosition readSunPosition(Properties& properties);
 
 /// The sun above a map.
@@ -20,8 +22,8 @@ struct SunOfMap {
     glm::dvec3 towards{0, 0, 1}; ///< unit; +x is the east, +y the north, +z up
     double nearness = 1;         ///< irradiance outside the atmosphere over its mean of the year
 };
-/// By `sun_direction`, or by place and time, of which nothing but minute and second may be missing; refraction as at 10 degrees Celsius and
-/// 1010 hPa. Overhead where neither is given. Throws InputError where it is below the horizon.
+/// By `sun_direction`, or by place and time, of which nothing but minute and second may be missing; refraction as at 10
+/// degrees Celsius and 1010 hPa. Overhead where neither is given. Throws InputError where it is below the horizon.
 SunOfMap readSunOfMap(Properties& properties);
 /// Likewise, of a time and place that are known.
 SunOfMap sunOfMap(const PlaceOnEarth& place, const LocalTime& time);

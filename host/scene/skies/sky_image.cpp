@@ -31,8 +31,8 @@ std::vector<double> solidAnglesOfRows(unsigned height) {
 
 namespace {
 
-/// Of the rows, the integral over the upper half of what is 1 on a row and falls linearly to 0 at those beside it, times the cosine from the
-/// zenith. Sums to pi.
+/// Of the rows, the integral over the upper half of what is 1 on a row and falls linearly to 0 at those beside it,
+/// times the cosine from the zenith. Sums to pi.
 std::vector<double> groundWeightsOfRows(unsigned height) {
     const double step = pi / (height - 1);
     std::vector<double> weights(height);
@@ -63,7 +63,8 @@ glm::dvec3 irradianceOfGround(const EnvironmentImage& image) {
     return sum;
 }
 
-// Rows from the zenith down, columns as kernels/emitters/envmap.clh has them: from -z over +x of the image, whose y is up.
+// Rows from the zenith down, columns as kernels/emitters/envmap.clh has them: from -z over +x of the image, whose y is
+// up.
 glm::dvec3 directionOfSkyPixel(unsigned column, unsigned row, unsigned height) {
     const double polar = pi * row / (height - 1), turn = pi * (column + 0.5) / (height - 1);
     const double across = std::sin(polar);

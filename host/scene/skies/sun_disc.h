@@ -21,8 +21,8 @@ double narrowestHalfAngle();
 /// Rows of a sky's image on which the disc is at least four pixels wide, from 721 (a quarter of a degree each) to 1441.
 unsigned skyHeightFor(double halfAngle);
 
-/// Adds the disc to the sky. Its irradiance across the beam is exact in each channel, what of it lies below the horizon left out; its edge
-/// is as sharp as the pixels.
+/// Adds the disc to the sky. Its irradiance across the beam is exact in each channel, what of it lies below the horizon
+/// left out; its edge is as sharp as the pixels.
 void addSunDisc(EnvironmentImage& sky, const SunDisc& disc);
 
 } // namespace quasilux

@@ -29,8 +29,8 @@ struct Equatorial {
     double siderealTime;                // at Greenwich, degrees
 };
 
-/// Meeus 1998, chapters 12, 22 and 25, with the perturbations by Venus, Jupiter and the Moon of his Astronomical Formulae for Calculators
-/// (1982), chapter 18.
+/// Meeus 1998, chapters 12, 22 and 25, with the perturbations by Venus, Jupiter and the Moon of his Astronomical
+/// Formulae for Calculators (1982), chapter 18.
 Equatorial sunAt(double day) {
     const double t = (day + clockError - epoch2000) / daysOfCentury, since1900 = t + 1;
     const double anomaly = 357.52911 + t * (35999.05029 - t * 0.0001537), node = 125.04 - 1934.136 * t;

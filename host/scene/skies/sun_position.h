@@ -1,4 +1,5 @@
-// Where the sun stands, by place, date and time: within 0.01 degrees of NREL's solar position algorithm (Reda & Andreas 2004) from 1950 to 2100.
+// Where the sun stands, by place, date and time: within 0.01 degrees of NREL's solar position algorithm (Reda & Andreas
+// 2004) from 1950 to 2100.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,11 +23,12 @@ struct SunPosition {
 
 SunPosition sunPosition(const PlaceOnEarth& place, const LocalTime& time);
 
-/// Irradiance by the sun outside the atmosphere over its mean of the year: the inverse square of its distance (Spencer 1971), to 1e-3.
+/// Irradiance by the sun outside the atmosphere over its mean of the year: the inverse square of its distance (Spencer
+/// 1971), to 1e-3.
 double sunNearness(const LocalTime& time);
 
-/// By how much air lifts the sun, radians: pressure in hPa, temperature in degrees Celsius (there, eq. 42). 0 where the sun is wholly below the
-/// horizon.
+/// By how much air lifts the sun, radians: pressure in hPa, temperature in degrees Celsius (there, eq. 42). 0 where the
+/// sun is wholly below the horizon.
 double refraction(double elevation, double pressure, double temperature);
 
 /// Unit direction; x points east, y north, z up.

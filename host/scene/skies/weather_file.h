@@ -15,8 +15,8 @@ struct WeatherHour {
     Radiation radiation;
 };
 
-/// `content` is that of the file `path`. `hour` ends the hour, 1 to 24, as in the file. Throws InputError at a line of the file where that is
-/// broken, and at `where` where it has no such hour.
+/// `content` is that of the file `path`. `hour` ends the hour, 1 to 24, as in the file. Throws InputError at a line of
+/// the file where that is broken, and at `where` where it has no such hour.
 WeatherHour readWeatherHour(const std::string& path, const std::string& content, int month, int day, int hour,
                             const SourceLocation& where);
 

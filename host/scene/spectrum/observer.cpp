@@ -9,8 +9,8 @@ namespace {
 
 constexpr double observerStep = 5; // nm
 
-// CIE 15: colour matching functions of the 2° standard observer of 1931, and illuminant D65, from 360 nm on, as tabulated in the Python
-// package colour-science 0.4.7 (BSD licence); D65 from 785 nm on by the same standard.
+// CIE 15: colour matching functions of the 2° standard observer of 1931, and illuminant D65, from 360 nm on, as
+// tabulated in the Python package colour-science 0.4.7 (BSD licence); D65 from 785 nm on by the same standard.
 constexpr ObserverSample observerTable[] = {
     {0.0001299, 3.917e-06, 0.0006061, 46.6383},
     {0.0002321, 6.965e-06, 0.001086, 49.3637},

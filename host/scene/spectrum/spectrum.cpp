@@ -39,8 +39,8 @@ Integrals integrate(const std::function<double(double)>& values, ColorUse use) {
     return sum;
 }
 
-/// What has luminance 1, summed over the steps: equal energy where it is emitted, otherwise D65 as Mitsuba takes it (10568 by its
-/// constants; the table comes to 10567).
+/// What has luminance 1, summed over the steps: equal energy where it is emitted, otherwise D65 as Mitsuba takes it
+/// (10568 by its constants; the table comes to 10567).
 double whiteLuminance(ColorUse use) {
     constexpr double equalEnergy = 106.75025939941406, d65 = 10568;
     return (use == ColorUse::emission ? equalEnergy : d65) * spectrumSteps / (longestWavelength - shortestWavelength);

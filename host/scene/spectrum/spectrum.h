@@ -21,7 +21,8 @@ struct Spectrum {
 /// "400:0.78, 500:0.3, …". Throws InputError for anything else.
 Spectrum parseSpectrum(const std::string& text, const SourceLocation& where, const std::string& what);
 
-/// Text file of lines "wavelength value"; # begins a comment line. Throws InputError at its line, or at `where` if it cannot be read.
+/// Text file of lines "wavelength value"; # begins a comment line. Throws InputError at its line, or at `where` if it
+/// cannot be read.
 Spectrum readSpectrumFile(const std::string& path, const SourceLocation& where);
 
 /// That of an element by its attribute `value` or, where it has one, `filename`; `what` is for messages.
@@ -30,8 +31,8 @@ Spectrum spectrumOf(const Element& element, const std::string& what, LoadContext
 /// Throws InputError at `where` unless there are two wavelengths or more, increasing, and as many values.
 void checkSpectrum(const Spectrum& spectrum, const SourceLocation& where, const std::string& what);
 
-/// Linear sRGB of what has `values` at each wavelength: emitted as it is, otherwise under D65, so that 1 is white. As in Mitsuba's RGB
-/// modes, negative channels become 0, and of bounded ones those above 1 become 1, with a warning.
+/// Linear sRGB of what has `values` at each wavelength: emitted as it is, otherwise under D65, so that 1 is white. As
+/// in Mitsuba's RGB modes, negative channels become 0, and of bounded ones those above 1 become 1, with a warning.
 Rgb colorOfSpectrum(const std::function<double(double)>& values, ColorUse use, const SourceLocation& where,
                     LoadContext& context);
 Rgb colorOfSpectrum(const Spectrum& spectrum, ColorUse use, const SourceLocation& where, LoadContext& context);

@@ -58,7 +58,8 @@ std::unique_ptr<OIIO::ImageInput> openPlain(const std::string& path, const OIIO:
               where);
 }
 
-/// Decodes sRGB. Of files of bytes there are 256 values, which are decoded once: powers are most of the time that a large image takes.
+/// Decodes sRGB. Of files of bytes there are 256 values, which are decoded once: powers are most of the time that a
+/// large image takes.
 class Decoder {
 public:
     explicit Decoder(bool ofBytes) : ofBytes_(ofBytes) { known_.fill(-1); }

@@ -1,4 +1,5 @@
-// <texture type="mesh_attribute">: what a mesh file says of its vertices or faces. Each shape has its own (texture_use.h).
+// <texture type="mesh_attribute">: what a mesh file says of its vertices or faces. Each shape has its own
+// (texture_use.h).
 #include "scene/textures/texture_plugin.h"
 
 #include <fmt/format.h>

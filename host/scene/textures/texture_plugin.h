@@ -41,8 +41,8 @@ struct EmissionColor {
     std::optional<unsigned> texture; ///< index into Scene::textures
 };
 
-/// The parameter `name`, a colour or a texture; `missing` where it is not given. What is black all over is refused, and of an emitter that
-/// is no shape what is looked up by place.
+/// The parameter `name`, a colour or a texture; `missing` where it is not given. What is black all over is refused, and
+/// of an emitter that is no shape what is looked up by place.
 EmissionColor readEmission(Properties& properties, const std::string& name, Rgb missing, bool ofShape);
 
 /// A number as the scene gives it, or a texture of numbers.
@@ -58,12 +58,13 @@ unsigned useColorTexture(const Element& element, LoadContext& context);
 /// And of the numbers, as readShare takes them.
 unsigned useScalarTexture(const Element& element, LoadContext& context);
 
-/// Mean of numbers as the lookup of a texture at random places has it; of an attribute of meshes, not known yet, `missing`.
+/// Mean of numbers as the lookup of a texture at random places has it; of an attribute of meshes, not known yet,
+/// `missing`.
 float meanOfNumbers(const TextureDescription& texture, const Scene& scene, float missing);
 
 /// The parameter `name`, a number or a texture within [0, 1], such as a weight; `missing` where it is not given. Of the
-/// colours of a texture it takes, as Mitsuba, the luminance (bitmap) or the mean of the channels (others); a checkerboard's
-/// squares change places then, as in Mitsuba 3.9.
+/// colours of a texture it takes, as Mitsuba, the luminance (bitmap) or the mean of the channels (others); a
+/// checkerboard's squares change places then, as in Mitsuba 3.9.
 Scalar readShare(Properties& properties, const std::string& name, float missing);
 
 /// Reads an image file. Files of integers are taken as sRGB encoded unless `raw`; one channel is grey, alpha is left

@@ -16,7 +16,8 @@ bool needTexCoords(const Scene& scene, const std::vector<unsigned>& textures);
 /// What its bsdf and emitter show, nested ones too, each once.
 std::vector<unsigned> texturesOf(const Scene& scene, const ShapeDescription& shape);
 
-/// Of a shape's attributes leaves those that its bsdf and emitter show. Throws InputError at the shape where it lacks one, or where one does not fit.
+/// Of a shape's attributes leaves those that its bsdf and emitter show. Throws InputError at the shape where it lacks
+/// one, or where one does not fit.
 void keepShownAttributes(ShapeDescription& shape, LoadContext& context);
 
 } // namespace quasilux

@@ -1,4 +1,5 @@
-// <volume type="constvolume">: one value. As the extinction of a medium it fills the box of the unit cube under to_world.
+// <volume type="constvolume">: one value. As the extinction of a medium it fills the box of the unit cube under
+// to_world.
 #include "scene/volumes/volume_plugin.h"
 
 namespace quasilux {

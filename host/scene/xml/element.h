@@ -22,7 +22,8 @@ struct Instruction {
     std::string kind = {}; ///< empty: settings
 };
 
-/// Instances of groups that stand before them, which say no more than where: a scene may have millions, so they are no elements.
+/// Instances of groups that stand before them, which say no more than where: a scene may have millions, so they are no
+/// elements.
 struct PlainInstances {
     struct One {
         size_t before = 0;       ///< children of the scene that precede it

@@ -11,7 +11,8 @@ class PlainInstanceReader {
 public:
     /// An element that the scene will have.
     void note(const Element& element);
-    /// Keeps `element` in scene.instances, if it is such an instance of a group that was noted. False where it is not, or has errors.
+    /// Keeps `element` in scene.instances, if it is such an instance of a group that was noted. False where it is not,
+    /// or has errors.
     bool keep(const Element& element, Element& scene) const;
 
 private:

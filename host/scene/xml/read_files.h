@@ -12,8 +12,8 @@ class ReadFiles {
 public:
     /// As the file is now, which is about to be read, or was looked for in vain.
     void note(const std::string& path);
-    /// Whether any is another one now. One that is gone may be in the middle of being replaced: it is waited for. Looks at most ten
-    /// times a second.
+    /// Whether any is another one now. One that is gone may be in the middle of being replaced: it is waited for. Looks
+    /// at most ten times a second.
     bool haveChanged();
     size_t count() const { return states_.size(); }
 

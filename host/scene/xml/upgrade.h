@@ -11,7 +11,8 @@ int majorVersion(const std::string& version);
 /// Tag and parameter name of an element of version 0 or 1: `lookAt` and `toWorld` become `lookat` and `to_world`.
 void upgradeNames(Element& element);
 
-/// Texture parameters of that time become a `to_uv`: uoffset, voffset, uscale, vscale. To be called with the children in place.
+/// Texture parameters of that time become a `to_uv`: uoffset, voffset, uscale, vscale. To be called with the children
+/// in place.
 void upgradeTextureCoordinates(Element& element);
 
 } // namespace quasilux

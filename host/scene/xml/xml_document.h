@@ -1,4 +1,5 @@
-// Reads scene files: XML with positions, `<include>`, `<default>` and `$parameters` (docs/reference/scene-language.md, "Document").
+// Reads scene files: XML with positions, `<include>`, `<default>` and `$parameters` (docs/reference/scene-language.md,
+// "Document").
 #pragma once
 
 #include "scene/embedded_parts.h"
@@ -21,8 +22,8 @@ struct SceneDocument {
     std::shared_ptr<const EmbeddedParts> embedded = {}; ///< null: the scene holds none
 };
 
-/// Throws InputError for a missing file, malformed XML, include loops, unknown names unless they are forgiven, and unused
-/// `parameters`.
+/// Throws InputError for a missing file, malformed XML, include loops, unknown names unless they are forgiven, and
+/// unused `parameters`.
 SceneDocument readSceneDocument(const std::string& path, const SceneParameters& parameters,
                                 Unknown unknown = Unknown::refused, std::shared_ptr<LoadGuard> guard = nullptr);
 
