@@ -23,6 +23,9 @@ struct PassSums {
 /// Takes them off the renderer, which forgets its passes. Throws DeviceError where they cannot be read, or are not finite.
 PassSums takeSums(Device& device, Renderer& renderer);
 
+/// Of all but films, which ranks of a job add on their way.
+void addAllButFilm(PassSums& all, const PassSums& part);
+
 /// Films are added to 48 bits (film_merge.h).
 void add(PassSums& all, const PassSums& part);
 
