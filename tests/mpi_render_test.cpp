@@ -1,4 +1,4 @@
-// Renders as jobs of several ranks, with mpirun (docs/reference/reliability.md, "Machines"). A program without MPI refuses to be one.
+// Renders as jobs of several ranks, with mpirun (docs/reference/reliability.md, "Machines"). A program without MPI refuses to be one (job_alone_test).
 #include "support/lit_plate.h"
 #include "support/program_runner.h"
 
