@@ -1,6 +1,6 @@
 /* What the rays of a pixel meet first, as integrator 'aov' of Mitsuba shows it: distances, places, normals,
  * reflectance. Means over samples, seen through the same filter as the image; where a ray meets nothing, it adds
- * nothing. From: camera rays. To: AOV_FLOATS for each pixel. Option: HAS_UV_LAYERS. */
+ * nothing. From: camera rays. To: AOV_FLOATS for each pixel of the part that the launch traces. Option: HAS_UV_LAYERS. */
 #include "aov_types.h"
 #include "camera.clh"
 #include "tinted_lobe.clh"
@@ -88,9 +88,10 @@ inline int meetsSurface(Ray ray, Hit hit, __global const BvhNode* nodes, __globa
 __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                         __global const uint* tables, __global float* aovs, const CameraParams params,
                         const uint samples) {
-    const uint pixel = get_global_id(0);
+    const uint place = get_global_id(0);
+    if (place >= params.pixels) return;
+    const uint pixel = params.firstPixel + place;
     const Camera* camera = &params.camera;
-    if (pixel >= camera->width * camera->height) return;
     const ulong seed = (ulong)params.seedHigh << 32 | params.seedLow;
     float sums[AOV_FLOATS];
     for (uint k = 0; k < AOV_FLOATS; ++k) sums[k] = 0;
@@ -109,5 +110,5 @@ __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveB
 #endif
         if (meetsSurface(ray, hit, nodes, blocks, tables, &params.scene)) sums[AOV_ALPHA] += place.weight;
     }
-    for (uint k = 0; k < AOV_FLOATS; ++k) aovs[(size_t)pixel * AOV_FLOATS + k] = sums[k] / samples;
+    for (uint k = 0; k < AOV_FLOATS; ++k) aovs[(size_t)place * AOV_FLOATS + k] = sums[k] / samples;
 }

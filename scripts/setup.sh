@@ -2,7 +2,7 @@
 # Installs what quasilux needs on Debian 12, all of it from Debian's packages, and the further ones named: setup.sh [--program | --python] [--mpi] [PACKAGE...].
 # --program: only what it takes to build and run it; without it also what tests and reports need, which is twice as much.
 # --python: what it takes to build the program and, by `pip install .`, the Python package.
-# --mpi: also Open MPI, and build/mpi is set up for a release build with it: cmake --build --preset mpi.
+# --mpi: also Open MPI, which tests have anyway, and build/mpi is set up for a release build with it: cmake --build --preset mpi.
 # Needs root or sudo; does nothing where everything is there already.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -25,7 +25,7 @@ opencl=(pocl-opencl-icd ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers)
 libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-dev libtinygltf-dev nlohmann-json3-dev libfmt-dev
     libxxhash-dev zlib1g-dev libcpp-httplib-dev fonts-dejavu-core)
 tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools oclgrind chromium python3-websocket
-    python3-dev pybind11-dev mypy assimp-testmodels)
+    python3-dev pybind11-dev mypy assimp-testmodels libopenmpi-dev openmpi-bin)
 reports=(python3 python3-numpy python3-openimageio python3-matplotlib)
 packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}")
 ((onlyProgram)) || packages+=("${tests[@]}" "${reports[@]}")

@@ -1,5 +1,8 @@
 // Layers of integrator 'aov' and alpha, of scenes where each value is known; channels and meanings are Mitsuba 3.9's.
 #include "render/aovs.h"
+
+#include "aov_types.h"
+#include "render/pass_params.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
 
@@ -164,6 +167,89 @@ TEST(Aovs, AlphaPassesNullSurfacesAndIsOneBeforeSurroundings) {
     EXPECT_EQ(channelsOf(sceneOf(twoShapes, "<emitter type=\"constant\"/>")).at("A").at(11), 1);
     EXPECT_EQ(channelsOf(sceneOf(rectangle("", "<bsdf type=\"conductor\"/>"))).at("a.R").at(9), 0)
         << "no diffuse light";
+}
+
+void resize(Sensor& sensor, unsigned width, unsigned height) {
+    sensor.width = sensor.filmWidth = width;
+    sensor.height = sensor.filmHeight = height;
+}
+
+/// 96 x 64 pixels; and what its layers take on a device.
+struct Rendered {
+    std::vector<AovImage> layers;
+    std::map<std::string, uint64_t> buffers;
+};
+Rendered renderLarge(Device& device, uint64_t seed = 1) {
+    Scene scene = sceneOf(twoShapes);
+    resize(scene.sensor, 96, 64);
+    scene.aovs.push_back({"uv", AovQuantity::uv});
+    RenderSettings settings;
+    settings.seed = seed;
+    Rendered rendered;
+    const AllocationNotes noting(device, rendered.buffers);
+    rendered.layers = renderAovs(device, scene, settings, 16);
+    EXPECT_EQ(rendered.buffers, planAovs(scene, flattenFor(scene, settings), device.info()));
+    return rendered;
+}
+
+bool haveTheSameBits(const Rendered& a, const Rendered& b) {
+    return std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
+                      [](const AovImage& x, const AovImage& y) { return x.values == y.values; });
+}
+
+TEST(Aovs, InTilesHaveTheSameBits) {
+    Device small(-1, testDevice().workGroupSize(), 0, 0, 1'000'000);
+    const Rendered whole = renderLarge(testDevice()), tiles = renderLarge(small);
+    EXPECT_EQ(whole.buffers.at("aovs"), 96u * 64 * AOV_ALL_FLOATS * sizeof(float));
+    EXPECT_LT(tiles.buffers.at("aovs"), 130'000u) << "no row ends where a tile does";
+    ASSERT_EQ(whole.layers.size(), 9u);
+    EXPECT_TRUE(haveTheSameBits(tiles, whole));
+    EXPECT_FALSE(haveTheSameBits(renderLarge(small, 2), whole)) << "negative control: another seed";
+}
+
+/// One that allows 1 GiB in a buffer, and is no CPU.
+DeviceInfo deviceOf(uint64_t memory) {
+    DeviceInfo device;
+    device.globalMemory = memory;
+    device.maximumAllocation = 1u << 30;
+    device.computeUnits = 2;
+    return device;
+}
+
+// Film, image and alpha, with room for the process itself.
+TEST(Aovs, AlphaOfALargeFilmFitsInEightGigabytes) {
+    Scene scene = sceneOf(twoShapes);
+    scene.aovs.clear();
+    resize(scene.sensor, 8192, 8192);
+    RenderSettings settings;
+    settings.film = {false, false};
+    settings.photonsPerPass = 1'000'000;
+    const DeviceScene flat = flattenFor(scene, settings);
+    const DeviceInfo device = deviceOf(8'000'000'000);
+    const BufferSizes passes = planPass(flat, settings, 1'000'000, device), layers = planAovs(scene, flat, device);
+    EXPECT_NO_THROW(checkFits(passes, device, flat, settings));
+    EXPECT_NO_THROW(checkFits(layers, device, flat, settings));
+    constexpr uint64_t pixels = uint64_t(8192) * 8192, ofAlpha = pixels * sizeof(float), ofProcess = 400'000'000;
+    EXPECT_LT(ofProcess + sumOf(passes) + developBytes(flat, settings) + ofAlpha, 8'000'000'000u);
+    EXPECT_LT(ofProcess + sumOf(layers) + imageBytes(flat, settings) + ofAlpha, 3'000'000'000u);
+    settings.film = {};
+    EXPECT_GT(sumOf(planPass(flat, settings, 1'000'000, device)), 8'000'000'000u) << "control";
+}
+
+// What they take on the host beside the image is forecast, and comes when the film is gone.
+TEST(Aovs, ForecastHasTheLayers) {
+    Scene scene = sceneOf(twoShapes);
+    resize(scene.sensor, 2048, 2048);
+    const RenderSettings settings;
+    const DeviceScene flat = flattenFor(scene, settings);
+    const DeviceInfo gpu = deviceOf(8'000'000'000);
+    const auto bytes = [&] { return double(withLayers({1, 1}, scene, flat, settings, gpu).hostPeakBytes); };
+    const double all = bytes();
+    EXPECT_EQ(withLayers({1, 1}, scene, flat, settings, gpu).deviceBytes, sumOf(planAovs(scene, flat, gpu)));
+    EXPECT_EQ(withLayers({uint64_t(1) << 40, 1}, scene, flat, settings, gpu).deviceBytes, uint64_t(1) << 40);
+    scene.aovs.resize(1);                                 // albedo
+    const double ofTwelveFloats = 12.0 * 4 * 2048 * 2048; // less: this process hardly changes between the two
+    EXPECT_NEAR(all - bytes(), ofTwelveFloats, 0.05 * ofTwelveFloats);
 }
 
 TEST(Aovs, AreNotTracedUnlessAskedFor) {

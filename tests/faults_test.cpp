@@ -76,16 +76,36 @@ protected:
         return runWith(QUASILUX_FAILING_CALLS, arguments, variables);
     }
 
+    using Counts = std::map<std::string, unsigned>;
+
     /// Of a run without a fault.
-    std::map<std::string, unsigned> countCalls(const Arguments& arguments) const {
-        const auto file = root / "counts";
-        const Outcome outcome = runFailing(arguments, {{"QUASILUX_COUNT_CALLS", file.string()}});
+    Counts countCalls(const Arguments& arguments) const {
+        const Outcome outcome = runFailing(arguments, {{"QUASILUX_COUNT_CALLS", countFile.string()}});
         EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
-        std::map<std::string, unsigned> counts;
-        std::ifstream stream(file);
+        return readCounts();
+    }
+    Counts readCounts() const {
+        Counts counts;
+        std::ifstream stream(countFile);
         std::string name;
         for (unsigned count = 0; stream >> name >> count;) counts[name] = count;
         return counts;
+    }
+
+    /// Objects of OpenCL that are there when a run ends, by kind. A call that has failed has made none, or given none back.
+    static std::map<std::string, int64_t> objectsLeft(const Counts& counts, const std::string& failed = "") {
+        std::map<std::string, int64_t> left;
+        for (const auto& [object, maker] : {std::pair("Context", "clCreateContext"),
+                                            {"CommandQueue", "clCreateCommandQueue"},
+                                            {"MemObject", "clCreateBuffer"},
+                                            {"Program", "clCreateProgramWithSource"},
+                                            {"Kernel", "clCreateKernel"},
+                                            {"Event", "clEnqueueNDRangeKernel"}}) {
+            const std::string retain = std::string("clRetain") + object, release = std::string("clRelease") + object;
+            left[object] = int64_t(counts.at(maker)) + counts.at(retain) - counts.at(release);
+            if (failed == maker || failed == retain) --left[object];
+        }
+        return left;
     }
 
     /// Everything in the folder is whole; the image is that of as many passes as the render says.
@@ -127,10 +147,20 @@ protected:
         return has("a\\.(exr|png|json|ckpt)|begun\\.ckpt|scene\\.xml|plate\\.obj");
     }
 
+    /// What a run gives back without a fault, it gives back with one, or tries to.
+    void expectNothingLeft(const std::string& call) const {
+        const auto counts = readCounts();
+        ASSERT_FALSE(counts.empty());
+        for (const auto& [object, left] : objectsLeft(counts, call)) EXPECT_LE(left, leftWithout_.at(object)) << object;
+    }
+
     void expectGoodEnd(const std::string& call, unsigned at, const Arguments& arguments) {
         SCOPED_TRACE(call + ", call " + std::to_string(at));
-        const Outcome outcome =
-            runFailing(arguments, {{"QUASILUX_FAIL_CALL", call}, {"QUASILUX_FAIL_AT", std::to_string(at)}});
+        fs::remove(countFile);
+        const Outcome outcome = runFailing(arguments, {{"QUASILUX_FAIL_CALL", call},
+                                                       {"QUASILUX_FAIL_AT", std::to_string(at)},
+                                                       {"QUASILUX_COUNT_CALLS", countFile.string()}});
+        expectNothingLeft(call);
         // 0: what failed was not needed, or was tried again. 2: a file that cannot be read is bad input.
         EXPECT_THAT(outcome.exitCode, testing::AnyOf(0, 1, 2)) << outcome.errors;
         if (outcome.exitCode != 0) {
@@ -157,11 +187,14 @@ protected:
 
     std::map<unsigned, std::vector<float>> images_; ///< by the number of passes
     std::map<int, unsigned> ends_;                  ///< by exit code
+    std::map<std::string, int64_t> leftWithout_;    ///< objectsLeft() without a fault
+    const fs::path countFile = root / "counts";
 };
 
 TEST_F(FaultsTest, NoneLosesWhatIsThere) {
     const auto counts = countCalls(allOutputs());
     clean();
+    leftWithout_ = objectsLeft(counts);
     ASSERT_GT(counts.at("clEnqueueNDRangeKernel"), passes);
     for (const auto& [call, count] : counts)
         for (const unsigned at : chosen(count)) expectGoodEnd(call, at, allOutputs());
@@ -199,6 +232,7 @@ TEST_F(FaultsTest, NoneSpoilsAResumedRender) {
     resumed.insert(resumed.end(), {"--resume", "../begun.ckpt"});
     const auto counts = countCalls(resumed);
     clean();
+    leftWithout_ = objectsLeft(counts);
     for (const char* call : {"read", "fopen", "new", "clEnqueueWriteBuffer"})
         for (const unsigned at : chosen(counts.at(call))) expectGoodEnd(call, at, resumed);
 }
@@ -206,11 +240,10 @@ TEST_F(FaultsTest, NoneSpoilsAResumedRender) {
 TEST_F(FaultsTest, WhatDoesNotFitIsNotCompiled) {
     Arguments tiny = render(1, "a.exr");
     tiny.insert(tiny.end(), {"--device-memory", "10000"});
-    const auto file = root / "counts";
-    const Outcome outcome = runFailing(tiny, {{"QUASILUX_COUNT_CALLS", file.string()}});
+    const Outcome outcome = runFailing(tiny, {{"QUASILUX_COUNT_CALLS", countFile.string()}});
     EXPECT_EQ(outcome.exitCode, 2);
     EXPECT_THAT(outcome.errors, testing::HasSubstr("MiB"));
-    EXPECT_THAT(readText(file), testing::HasSubstr("clBuildProgram 0\n"));
+    EXPECT_EQ(readCounts().at("clBuildProgram"), 0u);
     EXPECT_GT(countCalls(render(1, "a.exr")).at("clBuildProgram"), 0u); // control
 }
 
@@ -221,13 +254,10 @@ TEST_F(FaultsTest, PassesTakeNoMoreObjects) {
     for (const char* made : {"clCreateBuffer", "clCreateKernel", "clCreateProgramWithSource", "clCreateCommandQueue",
                              "clCreateContext", "open", "fopen"})
         EXPECT_EQ(many.at(made), few.at(made)) << made;
-    const auto left = [](const std::map<std::string, unsigned>& counts, const char* object, const char* maker) {
-        const auto of = [&](const std::string& call) { return int64_t(counts.at(call)); };
-        return of(maker) + of(std::string("clRetain") + object) - of(std::string("clRelease") + object);
-    };
-    EXPECT_EQ(left(many, "Event", "clEnqueueNDRangeKernel"), left(few, "Event", "clEnqueueNDRangeKernel"));
-    EXPECT_EQ(left(many, "MemObject", "clCreateBuffer"), left(few, "MemObject", "clCreateBuffer"));
-    EXPECT_EQ(left(many, "Kernel", "clCreateKernel"), left(few, "Kernel", "clCreateKernel"));
+    EXPECT_EQ(objectsLeft(many), objectsLeft(few));
+    Counts lost = many;
+    --lost["clReleaseKernel"];
+    EXPECT_NE(objectsLeft(lost), objectsLeft(few)) << "negative control: a kernel that is not given back";
 }
 
 // The program calls nothing of OpenCL that cannot be made to fail.

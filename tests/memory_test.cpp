@@ -1,5 +1,6 @@
 // Memory is forecast before it is taken, of the device and of the process, and a render that does not fit does not
 // start.
+#include "support/lit_plate.h"
 #include "support/program_runner.h"
 
 #include <algorithm>
@@ -82,6 +83,34 @@ TEST_F(MemoryTest, IsToldBeforeItIsTaken) {
         EXPECT_TRUE(isClose(expected.device, real.device)) << expected.device << " forecast, taken " << real.device;
         EXPECT_TRUE(isClose(expected.host, real.host)) << expected.host << " forecast, taken " << real.host;
     }
+}
+
+// Layers of what is met first come when the passes' buffers are gone; here they are more than the film.
+TEST_F(MemoryTest, OfLayersIsTold) {
+    const std::string quantities[] = {"albedo", "depth",  "position", "geo_normal", "sh_normal", "uv",    "dp_du",
+                                      "dp_dv",  "duv_dx", "duv_dy",   "albedo",     "position",  "dp_du", "sh_normal"};
+    std::string layers;
+    for (size_t k = 0; k < std::size(quantities); ++k)
+        layers += fmt::format("{}a{}:{}", k ? "," : "", k, quantities[k]);
+    std::string text = test::litPlate(900);
+    const std::string film = "<film type=\"hdrfilm\">";
+    std::ofstream(folder / "plain.xml") << text;
+    text.insert(text.find(film) + film.size(), R"(<string name="pixel_format" value="rgba"/>)");
+    text.insert(text.find("<sensor"), R"(<integrator type="aov"><string name="aovs" value=")" + layers +
+                                          R"("/><integrator type="path"/></integrator>)");
+    std::ofstream(folder / "layers.xml") << text;
+    const Arguments options{"--without", "components,bias", "--photons", "20000"};
+    const auto of = [&](const std::string& file) {
+        Arguments arguments = options;
+        arguments.insert(arguments.begin(), file);
+        return arguments;
+    };
+    taken(of("layers.xml")); // kernels come from the cache from now on
+    const Bytes real = taken(of("layers.xml"));
+    const double expected = forecast(of("layers.xml")).host;
+    EXPECT_TRUE(isClose(expected, real.host)) << expected << " forecast, taken " << real.host;
+    const double plain = forecast(of("plain.xml")).host;
+    EXPECT_FALSE(isClose(plain, real.host)) << "negative control: " << plain << " without layers";
 }
 
 // Negative control: the forecast of a film, or of photons, that differ by a fifth is distinguished from the right one.

@@ -1,5 +1,5 @@
 // Renders as jobs of several ranks, with mpirun (docs/reference/reliability.md, "Machines"). A program without MPI
-// refuses to be one.
+// refuses to be one (job_alone_test).
 #include "support/lit_plate.h"
 #include "support/program_runner.h"
 

@@ -15,6 +15,11 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+TEST(PassRanges, ThatTouchAreOne) {
+    EXPECT_THAT(joined({{8, 12}, {0, 4}, {20, 20}, {4, 8}, {16, 20}}), ElementsAre(PassRange{0, 12}, PassRange{16, 20}));
+    EXPECT_THAT(joined({}), IsEmpty());
+}
+
 TEST(DeviceList, NamesDevicesAndParts) {
     const auto texts = [](const std::string& list, size_t devices) {
         std::vector<std::string> all;

@@ -18,6 +18,7 @@
 #include "ranks/job.h"
 #include "util/error.h"
 #include "util/messages.h"
+#include "util/process_memory.h"
 #include "util/stopwatch.h"
 #include "view/live_view.h"
 #include "view/tev_client.h"
@@ -291,8 +292,10 @@ int SensorRender::finish() {
     record.interrupted |= done_.isStopped;
     WrittenFiles written;
     if (render.failure) written.addFailure(render.failure);
-    const auto curve = writeFiles(options_.named(namePartsOf(record.settings.seed, image.passes)), image,
-                                  layers(written), record, written);
+    const auto aovs = layers(written);
+    record.peakHostBytes = peakResidentBytes(); // of these, too
+    const auto curve =
+        writeFiles(options_.named(namePartsOf(record.settings.seed, image.passes)), image, aovs, record, written);
     progress_.clear();
     summarise(record, written, curve);
     std::vector<std::string> warnings =

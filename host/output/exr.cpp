@@ -26,6 +26,7 @@ Layer colors(const std::string& prefix, const std::vector<float>& rgb) {
 /// Of each pixel the products of `rows` with its colour.
 std::vector<float> combined(const std::vector<std::array<float, 3>>& rows, const std::vector<float>& rgb) {
     std::vector<float> values;
+    values.reserve(rgb.size() / 3 * rows.size());
     for (size_t at = 0; at + 2 < rgb.size(); at += 3)
         for (const auto& row : rows) values.push_back(row[0] * rgb[at] + row[1] * rgb[at + 1] + row[2] * rgb[at + 2]);
     return values;

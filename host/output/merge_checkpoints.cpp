@@ -47,7 +47,7 @@ std::vector<PassRange> unionOf(const std::vector<PartFile>& parts) {
         for (const PassRange& range : part.checkpoint.passes) all.push_back({range, part.reader->path()});
     std::sort(all.begin(), all.end(),
               [](const NamedRange& a, const NamedRange& b) { return a.range.first < b.range.first; });
-    std::vector<PassRange> merged;
+    std::vector<PassRange> ranges;
     for (size_t k = 0; k < all.size(); ++k) {
         const PassRange& range = all[k].range;
         if (k > 0 && range.first < all[k - 1].range.end) {
@@ -55,12 +55,9 @@ std::vector<PassRange> unionOf(const std::vector<PartFile>& parts) {
             throw InputError(fmt::format("{} and {} both have passes {}: each pass may be there once", all[k - 1].path,
                                          all[k].path, text({common})));
         }
-        if (!merged.empty() && merged.back().end == range.first)
-            merged.back().end = range.end;
-        else
-            merged.push_back(range);
+        ranges.push_back(range);
     }
-    return merged;
+    return joined(std::move(ranges));
 }
 
 } // namespace

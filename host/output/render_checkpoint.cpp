@@ -135,4 +135,16 @@ std::string text(const std::vector<PassRange>& passes) {
     return out.empty() ? "none" : out;
 }
 
+std::vector<PassRange> joined(std::vector<PassRange> ranges) {
+    std::sort(ranges.begin(), ranges.end(), [](const PassRange& a, const PassRange& b) { return a.first < b.first; });
+    std::vector<PassRange> all;
+    for (const PassRange& range : ranges) {
+        if (!all.empty() && all.back().end == range.first)
+            all.back().end = range.end;
+        else if (range.first < range.end)
+            all.push_back(range);
+    }
+    return all;
+}
+
 } // namespace quasilux

@@ -63,5 +63,7 @@ std::string differenceOfImage(const Checkpoint& there, const Checkpoint& here);
 
 /// "0 to 99, 200 to 299", "none".
 std::string text(const std::vector<PassRange>& passes);
+/// In order, those that touch as one, none empty; they have no pass in common.
+std::vector<PassRange> joined(std::vector<PassRange> ranges);
 
 } // namespace quasilux

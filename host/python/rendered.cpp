@@ -4,6 +4,7 @@
 #include "cli/render_warnings.h"
 #include "cli/started_render.h"
 #include "util/error.h"
+#include "util/process_memory.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +55,7 @@ std::shared_ptr<const Rendered> render(const RenderOptions& options, const Scene
     rendered->record.unobstructedIlluminance = daylight;
     // What a failing device has rendered before is kept.
     if (!render.failure) rendered->layers = renderLayers(device, scene, render);
+    rendered->record.peakHostBytes = peakResidentBytes();
     rendered->warnings = std::move(warnings);
     for (const auto& warning : started.warnings()) rendered->warnings.push_back(warning);
     const RenderRecord& record = rendered->record;

@@ -5,6 +5,7 @@
 #include "render/geometry_buffers.h"
 #include "render/method.h"
 #include "render/pass_params.h"
+#include "util/process_memory.h"
 
 #include <algorithm>
 
@@ -46,53 +47,112 @@ Channels channelsOf(AovQuantity quantity) {
     }
 }
 
-// Of all pixels, `floats` each.
-struct Sums {
-    std::vector<float> values;
-    size_t floats = 0;
-};
-
-// One layer out of all sums; positions are those of the file.
-AovImage layerOf(const Sums& all, const Channels& channels, const glm::dvec3& origin) {
-    AovImage layer;
-    const std::vector<float>& sums = all.values;
-    const bool isPosition = channels.first == AOV_POSITION;
-    for (size_t at = 0; at < sums.size(); at += all.floats)
-        for (unsigned c = 0; c < channels.count; ++c) {
-            const double moved = isPosition ? double(sums[at + AOV_COVERAGE]) * origin[static_cast<int>(c)] : 0;
-            layer.values.push_back(static_cast<float>(sums[at + channels.first + c] + moved));
-        }
-    return layer;
+// Pixels that are traced at once, of so many floats each: all launches alike, as runtimes compile small ones apart.
+size_t tileOf(size_t pixels, unsigned floats, const DeviceInfo& device) {
+    constexpr uint64_t mostBytes = 16u << 20, shareOfAllocation = 8;
+    const uint64_t bytes = std::min(mostBytes, device.maximumAllocation / shareOfAllocation);
+    const size_t most = std::max<size_t>(bytes / (floats * sizeof(float)), 1), tiles = (pixels + most - 1) / most;
+    return (pixels + tiles - 1) / tiles;
 }
+
+constexpr const char* label = "aovs";
+
+bool hasLayers(const Scene& scene) {
+    return scene.sensor.meter == MeterKind::none && (!scene.aovs.empty() || scene.sensor.pixelFormat.alpha);
+}
+
+unsigned floatsOf(const Scene& scene) { return hasUvLayers(scene) ? AOV_ALL_FLOATS : AOV_PLAIN_FLOATS; }
+
+size_t pixelsOf(const DeviceScene& flat) { return size_t(flat.camera.width) * flat.camera.height; }
+
+// The layers that are asked for, alpha first, filled pixel by pixel.
+class Layers {
+public:
+    Layers(const Scene& scene, size_t pixels)
+        : origin_(scene.origin), isBeforeSurroundings_(scene.surroundings.has_value()) {
+        if (scene.sensor.pixelFormat.alpha) add({AOV_ALPHA, 1, "A"}, "", pixels);
+        for (const AovLayer& wanted : scene.aovs) add(channelsOf(wanted.quantity), wanted.name + ".", pixels);
+    }
+
+    // Sums of the pixels that follow, `floats` each.
+    void append(const std::vector<float>& sums, size_t floats) {
+        for (size_t k = 0; k < images_.size(); ++k)
+            for (size_t at = 0; at < sums.size(); at += floats) appendPixel(k, &sums[at]);
+    }
+
+    std::vector<AovImage> take() { return std::move(images_); }
+
+private:
+    void add(const Channels& channels, const std::string& prefix, size_t pixels) {
+        AovImage image;
+        for (unsigned c = 0; c < channels.count; ++c) image.channels.push_back(prefix + channels.names[c]);
+        image.values.reserve(pixels * channels.count);
+        images_.push_back(std::move(image));
+        channels_.push_back(channels);
+    }
+
+    // Positions are those of the file.
+    void appendPixel(size_t layer, const float* sums) {
+        const Channels& channels = channels_[layer];
+        std::vector<float>& values = images_[layer].values;
+        if (channels.first == AOV_ALPHA && isBeforeSurroundings_) return values.push_back(1);
+        for (unsigned c = 0; c < channels.count; ++c) {
+            const double moved =
+                channels.first == AOV_POSITION ? double(sums[AOV_COVERAGE]) * origin_[static_cast<int>(c)] : 0;
+            values.push_back(static_cast<float>(sums[channels.first + c] + moved));
+        }
+    }
+
+    glm::dvec3 origin_;
+    bool isBeforeSurroundings_;
+    std::vector<AovImage> images_;
+    std::vector<Channels> channels_;
+};
 
 } // namespace
 
+BufferSizes planAovs(const Scene& scene, const DeviceScene& flat, const DeviceInfo& device) {
+    if (!hasLayers(scene)) return {};
+    BufferSizes sizes = planGeometry(flat);
+    sizes[label] = tileOf(pixelsOf(flat), floatsOf(scene), device) * floatsOf(scene) * sizeof(float);
+    return sizes;
+}
+
+MemoryForecast withLayers(MemoryForecast forecast, const Scene& scene, const DeviceScene& flat,
+                          const RenderSettings& settings, const DeviceInfo& device) {
+    const PixelFormat& format = scene.sensor.pixelFormat;
+    uint64_t floats = (format.luminance ? 1 : 0) + (format.xyz ? 3 : 0) + (format.alpha ? 1 : 0);
+    for (const AovLayer& wanted : scene.aovs) floats += channelsOf(wanted.quantity).count;
+    if (floats == 0) return forecast;
+    const BufferSizes sizes = planAovs(scene, flat, device);
+    uint64_t bytes = residentBytes() + imageBytes(flat, settings) + pixelsOf(flat) * floats * sizeof(float);
+    if (device.isCpu) { // the film is in this process until then, and its memory is used anew
+        const BufferSizes passes = planScene(flat, settings, device);
+        bytes -= std::min(bytes, sumOf(passes) - std::min(sumOf(passes), sumOf(sizes)));
+    }
+    forecast.deviceBytes = std::max(forecast.deviceBytes, sumOf(sizes));
+    forecast.hostPeakBytes = std::max(forecast.hostPeakBytes, bytes);
+    return forecast;
+}
+
 std::vector<AovImage> renderAovs(Device& device, const Scene& scene, const RenderSettings& settings, unsigned samples) {
-    if (scene.sensor.meter != MeterKind::none || (scene.aovs.empty() && !scene.sensor.pixelFormat.alpha)) return {};
+    if (!hasLayers(scene)) return {};
     const DeviceScene flat = flattenFor(scene, settings);
-    const bool goByUv = hasUvLayers(scene);
-    const size_t floats = goByUv ? AOV_ALL_FLOATS : AOV_PLAIN_FLOATS;
-    Program program(device, "aovs.cl", kernelOptions(flat, settings) + (goByUv ? " -DHAS_UV_LAYERS" : ""));
+    Program program(device, "aovs.cl", kernelOptions(flat, settings) + (hasUvLayers(scene) ? " -DHAS_UV_LAYERS" : ""));
     const GeometryBuffers geometry(device, flat);
-    const size_t pixels = size_t(flat.camera.width) * flat.camera.height;
-    Buffer<float> buffer(device, pixels * floats, "aovs");
-    program.kernel("traceAovs")
-        .launch(pixels, geometry.nodes, geometry.blocks, geometry.tables, buffer, cameraParams(flat, settings, QL_NONE),
-                samples);
-    const Sums sums{buffer.read(), floats};
-    std::vector<AovImage> layers;
-    if (scene.sensor.pixelFormat.alpha) {
-        layers.push_back(layerOf(sums, {AOV_ALPHA, 1, "A"}, {}));
-        layers.back().channels = {"A"};
-        if (scene.surroundings) std::fill(layers.back().values.begin(), layers.back().values.end(), 1.f);
+    const size_t pixels = pixelsOf(flat), floats = floatsOf(scene),
+                 tile = tileOf(pixels, floatsOf(scene), device.info());
+    Buffer<float> sums(device, tile * floats, label);
+    Kernel trace = program.kernel("traceAovs");
+    shared::CameraParams params = cameraParams(flat, settings, QL_NONE);
+    Layers layers(scene, pixels);
+    for (size_t first = 0; first < pixels; first += tile) {
+        params.firstPixel = static_cast<unsigned>(first);
+        params.pixels = static_cast<unsigned>(std::min(tile, pixels - first));
+        trace.launch(params.pixels, geometry.nodes, geometry.blocks, geometry.tables, sums, params, samples);
+        layers.append(sums.read(0, params.pixels * floats), floats);
     }
-    for (const AovLayer& wanted : scene.aovs) {
-        const Channels channels = channelsOf(wanted.quantity);
-        layers.push_back(layerOf(sums, channels, scene.origin));
-        for (unsigned c = 0; c < channels.count; ++c)
-            layers.back().channels.push_back(wanted.name + "." + channels.names[c]);
-    }
-    return layers;
+    return layers.take();
 }
 
 } // namespace quasilux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/device.h"
+#include "render/memory_plan.h"
 #include "render/settings.h"
 
 namespace quasilux {
@@ -10,6 +11,12 @@ struct AovImage {
     std::vector<std::string> channels; ///< names, such as "nn.X"
     std::vector<float> values;         ///< pixel by pixel, one for each channel
 };
+
+/// Buffers while layers are made, which is after those of passes are gone; none where the scene asks for no layers.
+BufferSizes planAovs(const Scene& scene, const DeviceScene& flat, const DeviceInfo& device);
+/// `forecast` of a render's passes, which have their buffers now; with them, and colours in other terms (PixelFormat).
+MemoryForecast withLayers(MemoryForecast forecast, const Scene& scene, const DeviceScene& flat,
+                          const RenderSettings& settings, const DeviceInfo& device);
 
 /// The layers that the scene asks for, alpha where its film wants it ("A"); means over `samples` for each pixel.
 std::vector<AovImage> renderAovs(Device& device, const Scene& scene, const RenderSettings& settings, unsigned samples);

@@ -58,10 +58,14 @@ uint64_t sumOf(const BufferSizes& sizes) {
     return sum;
 }
 
+BufferSizes planGeometry(const DeviceScene& scene) {
+    return {{"tree nodes", bytesOf(scene.bvh.nodes)},
+            {"primitives", bytesOf(scene.bvh.blocks)},
+            {"scene tables", bytesOf(scene.tables)}};
+}
+
 BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, const DeviceInfo& device) {
-    BufferSizes sizes{{"tree nodes", bytesOf(scene.bvh.nodes)},
-                      {"primitives", bytesOf(scene.bvh.blocks)},
-                      {"scene tables", bytesOf(scene.tables)}};
+    BufferSizes sizes = planGeometry(scene);
     sizes.merge(Film::plan(pixelsOf(scene), filmLayout(scene.features, settings),
                            largestFilmBuffer(scene.features, settings, device)));
     return sizes;
@@ -88,13 +92,17 @@ BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, u
     return sizes;
 }
 
-uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings) {
+uint64_t imageBytes(const DeviceScene& scene, const RenderSettings& settings) {
     const FilmLayout layout = filmLayout(scene.features, settings);
     const uint64_t ofBias = layout.bias ? 2 : 0, ofClass = layout.components ? 1 + ofBias : 0;
     const uint64_t layers = 2 + ofBias + (layout.components ? FILM_COMPONENTS : 0) + LIGHT_CLASSES * ofClass;
+    return pixelsOf(scene) * 3 * layers * sizeof(float);
+}
+
+uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings) {
     constexpr uint64_t ofEstimate =
         3 * sizeof(float) + sizeof(double); // error_estimate.cpp: weights, squares of one layer
-    return pixelsOf(scene) * (3 * layers * sizeof(float) + ofEstimate);
+    return imageBytes(scene, settings) + pixelsOf(scene) * ofEstimate;
 }
 
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,

@@ -22,6 +22,9 @@ struct MemoryForecast {
     uint64_t hostPeakBytes = 0; ///< of the process; buffers of a CPU device included
 };
 
+/// The scene alone (GeometryBuffers).
+BufferSizes planGeometry(const DeviceScene& scene);
+
 /// Buffers that depend on the scene and the film alone.
 BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, const DeviceInfo& device);
 
@@ -29,7 +32,10 @@ BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, 
 BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, uint64_t photons,
                      const DeviceInfo& device);
 
-/// Bytes on the host while the film is developed: its copy and the layers of the image.
+/// Bytes of the image on the host.
+uint64_t imageBytes(const DeviceScene& scene, const RenderSettings& settings);
+
+/// The same while its error is estimated.
 uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings);
 
 /// Throws InputError that says by how much the buffers exceed the device's memory, and what to do.

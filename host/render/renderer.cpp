@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "render/adaptive_radius.h"
+#include "render/aovs.h"
 #include "render/learned_scene.h"
 #include "render/method.h"
 #include "render/noise_probe.h"
@@ -84,7 +85,7 @@ struct Renderer::Stages {
         context.emplace(PassContext{device, *program, *geometry, flat, settings, *radii, field, *film, buffers,
                                     compiledClasses(flat.features, settings), camera, photon});
         passes = makePass(*context);
-        report.forecast = passes->forecast();
+        report.forecast = withLayers(passes->forecast(), scene, flat, settings, device.info());
     }
 
     Device& device;
@@ -116,7 +117,8 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     if (!expected.empty()) requireSame(expected, checksums);
     if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
     const double prepareSeconds = watch.seconds();
-    checkFits(planScene(flat, settings, device.info()), device.info(), flat, settings);
+    for (const BufferSizes& sizes : {planScene(flat, settings, device.info()), planAovs(scene, flat, device.info())})
+        checkFits(sizes, device.info(), flat, settings);
     stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), std::move(known));
     stages_->report.checksums = std::move(checksums);
     stages_->counters.prepareSeconds = prepareSeconds;

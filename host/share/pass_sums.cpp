@@ -56,6 +56,19 @@ PassSums takeSums(Device& device, Renderer& renderer) {
     return sums;
 }
 
+void addAllButFilm(PassSums& all, const PassSums& part) {
+    if (part.counters.passes == 0) return;
+    if (all.counters.passes == 0) {
+        all.shape = part.shape;
+        all.counts = part.counts;
+        all.counters = part.counters;
+    } else {
+        all.counts = mergedCounts(all.counts, part.counts);
+        addCounts(all.counters, part.counters);
+    }
+    addTimings(all.timings, part.timings);
+}
+
 void add(PassSums& all, const PassSums& part) {
     if (part.isEmpty()) return;
     if (all.isEmpty()) {
@@ -64,9 +77,7 @@ void add(PassSums& all, const PassSums& part) {
     }
     if (all.film.size() != part.film.size()) throw std::logic_error("films of different sizes cannot be added");
     mergeFilmSums(all.film.data(), all.counts, part.film.data(), part.counts, all.pixels(), all.shape.layout);
-    all.counts = mergedCounts(all.counts, part.counts);
-    addCounts(all.counters, part.counters);
-    addTimings(all.timings, part.timings);
+    addAllButFilm(all, part);
 }
 
 FilmImage PassSums::develop() const {

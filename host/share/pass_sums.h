@@ -24,6 +24,9 @@ struct PassSums {
 /// finite.
 PassSums takeSums(Device& device, Renderer& renderer);
 
+/// Of all but films, which ranks of a job add on their way.
+void addAllButFilm(PassSums& all, const PassSums& part);
+
 /// Films are added to 48 bits (film_merge.h).
 void add(PassSums& all, const PassSums& part);
 

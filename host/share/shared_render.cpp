@@ -13,19 +13,6 @@ namespace {
 
 constexpr double secondsToWait = 0.02; // for what workers say, until a signal is looked for again
 
-/// In order, those that touch as one.
-std::vector<PassRange> joined(std::vector<PassRange> ranges) {
-    std::sort(ranges.begin(), ranges.end(), [](const PassRange& a, const PassRange& b) { return a.first < b.first; });
-    std::vector<PassRange> all;
-    for (const PassRange& range : ranges) {
-        if (!all.empty() && all.back().end == range.first)
-            all.back().end = range.end;
-        else if (range.first < range.end)
-            all.push_back(range);
-    }
-    return all;
-}
-
 } // namespace
 
 SharedRender::SharedRender(PassWorkers& workers, SharedStart start, const StopRule& stop, SharedHooks hooks,

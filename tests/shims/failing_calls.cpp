@@ -65,6 +65,7 @@ constexpr const char* calls[] = {"clGetPlatformIDs",
                                  "open",
                                  "fopen",
                                  "read",
+                                 "fread",
                                  "write",
                                  "fwrite",
                                  "ftruncate",
@@ -327,6 +328,15 @@ ssize_t read(int descriptor, void* into, size_t bytes) {
     if (isOurs(descriptor) && fails(indexOf("read"))) return failWith(EIO);
     static auto* call = real<decltype(read)>("read");
     return call(descriptor, into, bytes);
+}
+
+// As a disk with a bad block: ferror() knows.
+size_t fread(void* into, size_t size, size_t count, FILE* file) {
+    static auto* call = real<decltype(fread)>("fread");
+    if (!isOurs(fileno(file)) || !fails(indexOf("fread"))) return call(into, size, count, file);
+    file->_flags |= 0x20; // _IO_ERR_SEEN of glibc
+    errno = EIO;
+    return 0;
 }
 
 ssize_t write(int descriptor, const void* from, size_t bytes) {

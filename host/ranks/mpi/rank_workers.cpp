@@ -1,8 +1,6 @@
 #include "ranks/mpi/rank_workers.h"
 
 #include "ranks/mpi/wire.h"
-#include "render/film_merge.h"
-#include "render/render_counters.h"
 #include "util/stopwatch.h"
 
 #include <algorithm>
@@ -102,16 +100,7 @@ bool RankWorkers::sumsAreThere() { return reduction_->isDone() && summing_.empty
 
 PassSums RankWorkers::takeSums() {
     PassSums all;
-    for (const PassSums& part : parts_) {
-        if (part.counters.passes == 0) continue;
-        all.counts = all.counters.passes == 0 ? part.counts : mergedCounts(all.counts, part.counts);
-        const bool isFirst = all.counters.passes == 0;
-        if (isFirst)
-            all.counters = part.counters;
-        else
-            addCounts(all.counters, part.counters);
-        addTimings(all.timings, part.timings);
-    }
+    for (const PassSums& part : parts_) addAllButFilm(all, part);
     if (all.counters.passes > 0) {
         all.shape = shape_;
         all.film = reduction_->takeFilm();
