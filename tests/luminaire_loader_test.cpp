@@ -106,10 +106,10 @@ TEST(LuminaireReader, SaysWhatIsWrong) {
         {with("<integer name=\"lamp_set\" value=\"0\"/>"), {"scene.xml:5:", "expected a number from 1"}},
         {with("<integer name=\"lamp_set\" value=\"2\"/>"), {"scene.xml:5:", "IES LM-63 files have one"}},
         {with("<float name=\"colour_temperature\" value=\"100\"/>"), {"scene.xml:5:", "expected 500 to 40000 kelvin"}},
-        {with("<rgb name=\"tint\" value=\"0\"/>"), {"scene.xml:5:", "parameter 'tint'", "is black"}},
         {with("<float name=\"colour_temperature\" value=\"3000\"/><rgb name=\"tint\" value=\"1\"/>"),
          {"scene.xml:5:", "both tint and colour_temperature"}},
-        {with("<rgb name=\"tint\" value=\"0\"/>"), {"scene.xml:5:", "positive channel"}},
+        {with("<rgb name=\"tint\" value=\"0\"/>"),
+         {"scene.xml:5:", "parameter 'tint' of emitter 'quasilux_ies' is black"}},
         {with("<transform name=\"to_world\"><scale x=\"2\"/></transform>"),
          {"scene.xml:5:", "scales directions differently"}},
         {with("<float name=\"lumen\" value=\"1\"/>"), {"scene.xml:5:", "Did you mean 'lumens'"}}};
