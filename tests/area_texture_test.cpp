@@ -224,9 +224,6 @@ TEST(TexturedShapes, SayWhatIsWrong) {
         {"<shape type=\"obj\" id=\"m\"><string name=\"filename\" value=\"m.obj\"/>" + checkers +
              "</texture></emitter></shape>",
          "scene.xml:4:1: shape 'm' has no texture coordinates, or not at every corner, but its emitter has a texture"},
-        {"<shape type=\"rectangle\">" + checkers +
-             "<float name=\"color0\" value=\"0\"/><float name=\"color1\" value=\"0\"/></texture></emitter></shape>",
-         "scene.xml:5:1: the texture 'radiance' of emitter 'area' is black"},
         {"<shape type=\"obj\" id=\"m\"><string name=\"filename\" value=\"m.obj\"/><emitter type=\"area\">\n<texture "
          "type=\"mesh_attribute\" name=\"radiance\"><string name=\"name\" "
          "value=\"vertex_color\"/></texture></emitter></shape>",

@@ -44,6 +44,10 @@ std::vector<Plugin> pluginsOf(const std::string& text) {
     return plugins;
 }
 
+constexpr const char* supported = "supported";
+constexpr const char* withoutEffect = "accepted without effect";
+const std::string withWarning = "accepted with a warning: ", refused = "refused: ";
+
 const std::string film = R"(<film type="hdrfilm"><rfilter type="box"/></film>)";
 
 /// The objects of a scene that has `element`, a plugin of this kind, in a place where it belongs. Lines of its own:
@@ -65,6 +69,8 @@ std::string sceneAround(const Plugin& plugin, const std::string& element) {
         return camera + light +
                "<shape type=\"ply\"><string name=\"filename\" value=\"colors.ply\"/>\n<bsdf type=\"diffuse\">" +
                element + "</bsdf></shape>";
+    if (plugin.name == "blackbody")
+        return camera + "<shape type=\"rectangle\">\n<emitter type=\"area\">" + element + "</emitter></shape>";
     if (plugin.kind == "texture") return shape("<bsdf type=\"diffuse\">" + element + "</bsdf>");
     if (plugin.kind == "medium") return shape("<bsdf type=\"null\"/>" + element);
     if (plugin.kind == "phase") return inMedium("type=\"homogeneous\">" + element);
@@ -83,10 +89,11 @@ std::string sceneAround(const Plugin& plugin, const std::string& element) {
 std::string elementOf(const Plugin& plugin, const std::string& given) {
     static const std::map<std::string, std::string> names{
         {"texture", "reflectance"}, {"medium", "interior"}, {"volume", "sigma_t"}};
-    const auto name = names.find(plugin.kind);
-    return "<" + plugin.kind + " type=\"" + plugin.name + "\"" +
-           (name == names.end() ? "" : " name=\"" + name->second + "\"") + ">" + plugin.needed + given + "</" +
-           plugin.kind + ">";
+    const auto found = names.find(plugin.kind);
+    std::string name = found == names.end() ? "" : found->second;
+    if (plugin.name == "blackbody") name = "radiance"; // as a reflectance it is far above 1
+    return "<" + plugin.kind + " type=\"" + plugin.name + "\"" + (name.empty() ? "" : " name=\"" + name + "\"") + ">" +
+           plugin.needed + given + "</" + plugin.kind + ">";
 }
 
 class Compatibility : public testing::Test {
@@ -103,20 +110,25 @@ protected:
         files_.write("grid.vol", volume());
     }
 
-    /// What the loader says: "" where it takes it, "no effect", or why not.
-    std::string outcome(const Plugin& plugin, const std::string& given) const {
+    /// What the page says of it; warnings that are among `known` do not count.
+    std::string outcome(const Plugin& plugin, const std::string& given, const std::string& known = "") const {
         const std::string path =
             files_.write("scene.xml", "<scene version=\"3.0.0\">\n" + sceneAround(plugin, elementOf(plugin, given)) +
                                           "\n</scene>\n");
         try {
             const Scene scene = loadScene(path);
-            for (const std::string& warning : scene.warnings)
-                if (warning.find("is used by no") == std::string::npos) return "no effect";
-            return scene.withoutEffect.empty() ? "" : "no effect";
+            if (!scene.withoutEffect.empty()) return withoutEffect;
+            for (const std::string& warning : scene.warnings) {
+                const std::string text = withWarning + plain(warning);
+                if (warning.find("is used by no") == std::string::npos &&
+                    warning.find("a further <sensor>") == std::string::npos && text != known)
+                    return text;
+            }
+            return supported;
         } catch (const InputError& error) {
             std::string message = error.what();
             EXPECT_EQ(message.find("no such file"), std::string::npos) << message;
-            return plain(message);
+            return refused + plain(message);
         }
     }
 
@@ -148,11 +160,6 @@ private:
     test::SceneFiles files_;
 };
 
-std::string cell(const std::string& outcome) {
-    if (outcome.empty()) return "supported";
-    return outcome == "no effect" ? "accepted without effect" : "refused: " + outcome;
-}
-
 std::string Compatibility::page() const {
     std::ostringstream page;
     page << "# Compatibility with Mitsuba 3.9\n\n"
@@ -169,11 +176,10 @@ std::string Compatibility::page() const {
             page << "\n## " << kind << "\n\n| plugin | parameter | |\n|---|---|---|\n";
         }
         const std::string itself = outcome(plugin, "");
-        page << "| **`" << plugin.name << "`** | | " << cell(itself) << " |\n";
-        if (!itself.empty() && itself != "no effect") continue;
+        page << "| **`" << plugin.name << "`** | | " << itself << " |\n";
+        if (itself.starts_with(refused)) continue;
         for (const Parameter& parameter : plugin.parameters)
-            page << "| | `" << parameter.name << "` | "
-                 << cell(itself.empty() ? outcome(plugin, parameter.given) : itself) << " |\n";
+            page << "| | `" << parameter.name << "` | " << outcome(plugin, parameter.given, itself) << " |\n";
     }
     return page.str();
 }
@@ -189,11 +195,15 @@ TEST_F(Compatibility, ThePageIsWhatTheLoaderSays) {
 
 TEST_F(Compatibility, ProbesTellSupportedFromAcceptedAndRefused) {
     const Plugin path{"integrator", "path", "", {}};
-    EXPECT_EQ(outcome(path, R"(<integer name="max_depth" value="4"/>)"), "");
-    EXPECT_EQ(outcome(path, R"(<integer name="rr_depth" value="4"/>)"), "no effect");
-    EXPECT_NE(outcome(path, R"(<integer name="no_such_depth" value="4"/>)"), "");
+    EXPECT_EQ(outcome(path, R"(<integer name="max_depth" value="4"/>)"), supported);
+    EXPECT_EQ(outcome(path, R"(<integer name="rr_depth" value="4"/>)"), withoutEffect);
+    EXPECT_EQ(outcome(path, R"(<integer name="no_such_depth" value="4"/>)").rfind(refused, 0), 0u);
     const Plugin unknown{"bsdf", "no_such_bsdf", "", {}};
-    EXPECT_EQ(outcome(unknown, "").substr(0, 34), "unknown bsdf plugin 'no_such_bsdf'");
+    EXPECT_EQ(outcome(unknown, "").substr(0, 43), "refused: unknown bsdf plugin 'no_such_bsdf'");
+    const Plugin moment{"integrator", "moment", "", {}};
+    const std::string warned = outcome(moment, "");
+    EXPECT_EQ(warned.rfind(withWarning, 0), 0u);
+    EXPECT_EQ(outcome(moment, R"(<boolean name="hide_emitters" value="true"/>)", warned), supported);
 }
 
 } // namespace

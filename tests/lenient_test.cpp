@@ -80,11 +80,54 @@ TEST(Lenient, UnknownParametersObjectsAndElementsAreIgnored) {
     EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("takes no texture as 'exponent'")));
 }
 
-TEST(Lenient, WhatIsKnownAndWrongRemainsAnError) {
+std::string bsdf(const std::string& content) { return "<shape type=\"rectangle\">\n" + content + "</shape>"; }
+
+// Some values of every kind that has a nearest one.
+TEST(Lenient, ValuesOutOfRangeBecomeTheNearest) {
+    const auto reflectance = [](const std::string& value) {
+        return loadLeniently(bsdf("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" + value + "\"/></bsdf>"))
+            .bsdfs.at(0)
+            .front.at(0)
+            .device.reflectance;
+    };
+    EXPECT_EQ(reflectance("0.5,1.5,-1").r, 0.5f);
+    EXPECT_EQ(reflectance("0.5,1.5,-1").g, 1);
+    EXPECT_EQ(reflectance("0.5,1.5,-1").b, 0);
+    const Scene rough =
+        loadLeniently(bsdf("<bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"phong\"/></bsdf>"));
+    EXPECT_EQ(rough.bsdfs.at(0).front.at(0).device.type, unsigned(LOBE_BECKMANN));
+    const Scene metallic =
+        loadLeniently(bsdf("<bsdf type=\"principled\">\n<float name=\"metallic\" value=\"1.5\"/></bsdf>"));
+    EXPECT_THAT(metallic.warnings,
+                ElementsAre(HasSubstr("1 thing is unknown or out of range"),
+                            HasSubstr("scene.xml:6:1: parameter 'metallic' of bsdf 'principled' is 1.5; it must lie "
+                                      "within [0, 1]. It is taken as 1.")));
+    EXPECT_EQ(
+        loadLeniently("<emitter type=\"sunsky\"><float name=\"turbidity\" value=\"30\"/></emitter>").warnings.size(),
+        2u);
+    EXPECT_EQ(loadLeniently("<shape type=\"sphere\"><medium type=\"homogeneous\" name=\"interior\"><float "
+                            "name=\"scale\" value=\"-2\"/></medium></shape>")
+                  .media.at(0)
+                  .sigmaT.g,
+              0);
+}
+
+TEST(Lenient, OtherIntegratorsAndSamplersStandForPath) {
+    const Scene scene = loadLeniently("<integrator type=\"ptracer\"/>");
+    EXPECT_EQ(scene.maxDepth, -1);
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("1 thing is unknown"),
+                                            HasSubstr("scene.xml:4:1: integrator 'ptracer' is not supported: use "
+                                                      "'path'")));
+    loadLeniently("<sensor type=\"perspective\"><sampler type=\"dice\"/></sensor>");
+}
+
+TEST(Lenient, WhatIsKnownAndHasNoNearestValueRemainsAnError) {
     SceneFiles files;
-    const std::string scene =
-        files.write("scene.xml", sceneWith("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"));
-    EXPECT_THROW(loadScene(scene, {}, {{}, Unknown::forgiven}), InputError);
+    for (const char* wrong :
+         {"<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>",
+          "<shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/></shape>", "<sensor type=\"pinhole\"/>"})
+        EXPECT_THROW(loadScene(files.write("scene.xml", sceneWith(wrong)), {}, {{}, Unknown::forgiven}), InputError)
+            << wrong;
 }
 
 TEST(Lenient, AKnownSceneIsTheSame) {

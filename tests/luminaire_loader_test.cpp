@@ -108,7 +108,8 @@ TEST(LuminaireReader, SaysWhatIsWrong) {
         {with("<float name=\"colour_temperature\" value=\"100\"/>"), {"scene.xml:5:", "expected 500 to 40000 kelvin"}},
         {with("<float name=\"colour_temperature\" value=\"3000\"/><rgb name=\"tint\" value=\"1\"/>"),
          {"scene.xml:5:", "both tint and colour_temperature"}},
-        {with("<rgb name=\"tint\" value=\"0\"/>"), {"scene.xml:5:", "positive channel"}},
+        {with("<rgb name=\"tint\" value=\"0\"/>"),
+         {"scene.xml:5:", "parameter 'tint' of emitter 'quasilux_ies' is black"}},
         {with("<transform name=\"to_world\"><scale x=\"2\"/></transform>"),
          {"scene.xml:5:", "scales directions differently"}},
         {with("<float name=\"lumen\" value=\"1\"/>"), {"scene.xml:5:", "Did you mean 'lumens'"}}};

@@ -215,10 +215,6 @@ const BadMedium badMedia[] = {
     {"BlendOfOne",
      "<phase type=\"blendphase\"><float name=\"weight\" value=\"0.5\"/><phase type=\"hg\"/></phase>",
      {"scene.xml:5:1: phase 'blendphase' has 1 phase functions; expected 2"}},
-    {"BlendWeight",
-     "<phase type=\"blendphase\">\n<float name=\"weight\" value=\"1.5\"/><phase type=\"hg\"/><phase "
-     "type=\"hg\"/></phase>",
-     {"scene.xml:6:1: parameter 'weight' of phase 'blendphase' is 1.5; expected 0 to 1"}},
     {"BlendByVolume",
      "<phase type=\"blendphase\">\n<volume name=\"weight\" type=\"constvolume\"/><phase type=\"hg\"/><phase "
      "type=\"hg\"/></phase>",

@@ -179,7 +179,8 @@ TEST(PrincipledThin, SaysWhatIsWrong) {
     test::SceneFiles files;
     const std::pair<std::string, const char*> bad[] = {
         {"\n<float name=\"diff_trans\" value=\"2.5\"/>", "scene.xml:5:1: parameter 'diff_trans' is 2.5; expected 0"},
-        {"\n<float name=\"eta\" value=\"0.9\"/>", "scene.xml:5:1: parameter 'eta' is 0.9"},
+        {"\n<float name=\"eta\" value=\"0.9\"/>",
+         "scene.xml:5:1: parameter 'eta' of bsdf 'principledthin' is 0.9; it must be at least 1"},
         {"\n<float name=\"metallic\" value=\"0.9\"/>",
          "scene.xml:5:1: unknown parameter 'metallic' of bsdf 'principledthin'"},
         {"\n<texture type=\"checkerboard\" name=\"eta\"/>",

@@ -150,8 +150,8 @@ TEST(ProjectorReader, SaysWhatIsWrong) {
         {projectorWith("<float name=\"fov\" value=\"180\"/>"), {"scene.xml:5:1", "between 0 and 180"}},
         {projectorWith("<float name=\"fov\" value=\"80\"/><string name=\"focal_length\" value=\"35mm\"/>"),
          {"scene.xml:5:", "emitter 'projector' has both fov and focal_length"}},
-        {projectorWith("<float name=\"scale\" value=\"0\"/>"), {"scene.xml:5:1", "scale"}},
-        {projectorWith("<rgb name=\"irradiance\" value=\"0\"/>"), {"scene.xml:5:1", "positive channel"}},
+        {projectorWith("<float name=\"scale\" value=\"-1\"/>"), {"scene.xml:5:1", "scale"}},
+        {projectorWith("<rgb name=\"irradiance\" value=\"-1\"/>"), {"scene.xml:5:1", "no channel may be negative"}},
         {projectorWith("<transform name=\"to_world\"><scale x=\"2\"/></transform>"),
          {"scene.xml:5:1", "emitter 'projector'", "scales directions differently"}},
         {projectorWith("<float name=\"intensity\" value=\"1\"/>"), {"scene.xml:5:1", "unknown parameter 'intensity'"}}};

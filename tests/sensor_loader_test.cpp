@@ -100,6 +100,14 @@ TEST(Sensors, TheFirstOfSeveralIsTakenWithAWarning) {
     EXPECT_THAT(scene.warnings[0], testing::HasSubstr("scene.xml:4:1: a further <sensor>"));
 }
 
+TEST(Sensors, ManyFurtherOnesAreOneWarning) {
+    std::string more;
+    for (int k = 0; k < 5; ++k) more += "<sensor type=\"perspective\"/>\n";
+    EXPECT_THAT(loadBody(more).warnings,
+                testing::ElementsAre(testing::AllOf(testing::HasSubstr("scene.xml:4:1: 5 further sensors"),
+                                                    testing::HasSubstr("--sensor 1 to 5 renders another"))));
+}
+
 TEST(Sensors, OneOfSeveralIsChosenByNumberOrId) {
     SceneFiles files;
     const std::string path = files.write("scene.xml", R"(<scene version="3.0.0">
@@ -111,7 +119,7 @@ TEST(Sensors, OneOfSeveralIsChosenByNumberOrId) {
     const auto fov = [&](const std::string& sensor) {
         const Scene scene = loadScene(path, {}, {sensor});
         EXPECT_EQ(scene.sensorCount, 4u);
-        EXPECT_EQ(scene.warnings.size(), sensor.empty() ? 3u : 0u);
+        EXPECT_EQ(scene.warnings.size(), sensor.empty() ? 1u : 0u);
         return scene.sensor.fovX / degree;
     };
     EXPECT_NEAR(fov(""), 10, 1e-9);

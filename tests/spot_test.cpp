@@ -289,10 +289,6 @@ TEST(SpotReader, SaysWhatIsWrong) {
         {spot("<float name=\"beam_width\" value=\"-1\"/>"), {"scene.xml:5:1", "beam_width"}},
         {spot("<transform name=\"to_world\"><scale x=\"2\"/></transform>"),
          {"scene.xml:5:1", "scales directions differently"}},
-        {spot("<texture type=\"checkerboard\" name=\"texture\"><rgb name=\"color0\" value=\"0\"/><rgb name=\"color1\" "
-              "value=\"0\"/></texture>"),
-         {"scene.xml:5:1", "the texture 'texture' of emitter 'spot' is black"}},
-        {spot("<rgb name=\"texture\" value=\"0\"/>"), {"scene.xml:5:1", "parameter 'texture'", "positive channel"}},
         {spot("<texture type=\"mesh_attribute\" name=\"texture\"><string name=\"name\" "
               "value=\"vertex_color\"/></texture>"),
          {"scene.xml:5:1", "the texture 'texture' of emitter 'spot' gives what is emitted from one point",

@@ -109,10 +109,9 @@ void declareBench(CLI::App& app, BenchOptions& options) {
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false)
         ->check(definition());
-    command.add_flag(
-        "--lenient", options.lenient,
-        "What the scenes say and is not known is left out or replaced, with a warning at each (default: off, "
-        "an error)");
+    command.add_flag("--lenient", options.lenient,
+                     "What the scenes say and is not known is left out, or something plain stands in for it, and "
+                     "values out of range become the nearest within, with a warning at each (default: off, an error)");
     declareResults(command, options);
 }
 

@@ -165,9 +165,10 @@ void declareScene(CLI::App& command, SceneOptions& options, const std::string& m
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false)
         ->check(definition());
-    command.add_flag("--lenient", options.lenient,
-                     "Plugins, parameters and elements of the scene that are not known are left out or replaced by the "
-                     "nearest that are, with a warning at each (default: off, an error)");
+    command.add_flag(
+        "--lenient", options.lenient,
+        "What the scene says and is not known is left out, or something plain stands in for it, and values "
+        "out of range become the nearest within, with a warning at each (default: off, an error)");
     auto* untrusted = command.add_flag(
         "--untrusted", options.untrusted,
         "The scene is not trusted: it may read no files outside of its folder, and has limits (default: off)");

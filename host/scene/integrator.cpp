@@ -117,9 +117,10 @@ constexpr IntegratorPlugin integratorPlugins[] = {
 Names integratorPluginNames() { return namesOf(integratorPlugins); }
 
 IntegratorChoice readIntegrator(const Element& element, LoadContext& context) {
-    const IntegratorPlugin& plugin = findPlugin(integratorPlugins, element);
+    const IntegratorPlugin* plugin = findPlugin(integratorPlugins, element, context, "taken as 'path'");
+    if (!plugin) return {};
     Properties properties(element, context);
-    const IntegratorChoice choice = plugin.read(properties);
+    const IntegratorChoice choice = plugin->read(properties);
     properties.finish();
     return choice;
 }

@@ -33,7 +33,7 @@ public:
     const Element& resolve(const Element& element) const;
 
     void warn(const SourceLocation& where, const std::string& message);
-    /// Throws InputError with this message, or notes it and what is done instead where the unknown is forgiven.
+    /// Throws InputError with this message, or notes it and what is done instead where the unknown, or out of range, is forgiven.
     void refuseUnknown(const SourceLocation& where, const std::string& message, const std::string& instead);
 
     /// Throws InputError where `element`, which is to be read within the objects of `open`, contains itself, lies too
@@ -62,6 +62,7 @@ public:
     std::map<std::tuple<std::string, size_t, double, bool>, unsigned>
         luminaireTypes; ///< into Scene::luminaireTypes, by path, set of lamps, unit, and whether the shape shines
     std::set<const Element*> usedEmitters; ///< that a shape has
+    unsigned emittersOff = 0;              ///< and left out
     std::set<const Element*> usedGroups;   ///< shapegroups that an instance places
     std::optional<glm::dmat4> placement;   ///< of the instance whose shapes are being read
     std::unordered_map<const Element*, GroupUse> groupUse;

@@ -191,28 +191,38 @@ void readSensors(const std::vector<PlacedSensor>& sensors, const LoadChoice& cho
     if (sensors.empty())
         throw InputError({context.scene.path}, "the scene has no <sensor>; add <sensor type=\"perspective\">.");
     const size_t chosen = chooseSensor(sensors, wanted, context);
+    std::vector<const Element*> further;
     for (size_t i = 0; i < sensors.size(); ++i) {
         const Sensor sensor = readSensor(sensors[i], context);
         if (i == chosen)
             context.scene.sensor = sensor;
         else if (wanted.empty())
-            context.warn(
-                sensors[i].element->where,
-                fmt::format("a further <sensor>; only the first one is rendered (--sensor {} renders this one, "
-                            "--sensor all each of them).",
-                            i));
+            further.push_back(sensors[i].element);
     }
+    if (further.empty()) return;
+    const std::string others = further.size() == 1 ? "1" : fmt::format("1 to {}", further.size());
+    context.warn(further.front()->where,
+                 fmt::format("{}; only the first one is rendered (--sensor {} renders {}, --sensor all each of them).",
+                             further.size() == 1
+                                 ? "a further <sensor>"
+                                 : fmt::format("{} further sensors, of which this is the first", further.size()),
+                             others, further.size() == 1 ? "this one" : "another"));
 }
 
-void checkEmitters(const Scene& scene) {
+void checkEmitters(const LoadContext& context) {
+    const Scene& scene = context.scene;
     const bool emits = std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                    [](const auto& shape) { return shape.emitter.has_value(); });
-    if (!emits && scene.pointEmitters.empty() && scene.directionalEmitters.empty() && !scene.surroundings)
-        throw InputError(
-            {scene.path},
-            "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
-            "<emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or <emitter "
-            "type=\"envmap\">.");
+    if (emits || !scene.pointEmitters.empty() || !scene.directionalEmitters.empty() || scene.surroundings) return;
+    if (context.emittersOff > 0)
+        throw InputError({scene.path}, "every emitter of the scene is off, so its image is black; give one of them a "
+                                       "radiance, intensity, irradiance or scale above 0.");
+    throw InputError(
+        {scene.path},
+        "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
+        "<emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or <emitter "
+        "type=\"envmap\">." +
+            std::string(scene.aovs.empty() ? "" : " It changes no layer of the integrator 'aov'."));
 }
 
 /// Lux that are asked for of a sky that has none.
@@ -234,12 +244,12 @@ void keepEachOnce(std::vector<std::string>& messages) {
     std::erase_if(messages, [&](const std::string& one) { return !seen.insert(one).second; });
 }
 
-/// The last warnings: what was unknown, and how much of it.
+/// The last warnings: what was unknown or out of range, and how much of it.
 void listForgiven(LoadContext& context) {
     if (context.forgiven.empty()) return;
     std::vector<std::string>& warnings = context.scene.warnings;
     warnings.push_back(fmt::format(
-        "{} unknown in the scene, so that its image is not the one that is meant:",
+        "{} unknown or out of range in the scene, so that its image may not be the one that is meant:",
         context.forgiven.size() == 1 ? "1 thing is" : fmt::format("{} things are", context.forgiven.size())));
     warnings.insert(warnings.end(), context.forgiven.begin(), context.forgiven.end());
 }
@@ -301,7 +311,7 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
         scene.maxDepth = integrator.maxDepth;
         scene.hideEmitters = integrator.hidesEmitters;
     }
-    checkEmitters(scene);
+    checkEmitters(context);
     checkUnitsOfSky(context);
     for (auto* messages : {&scene.warnings, &scene.withoutEffect, &context.forgiven}) keepEachOnce(*messages);
     listForgiven(context);

@@ -11,15 +11,21 @@
 
 namespace quasilux {
 
+/// What to use instead of a plugin that Mitsuba has; of others that they are unknown.
+inline std::string aboutUnknownPlugin(const Element& element) {
+    const std::string& plugin = element.get("type");
+    const std::string_view instead = insteadOfUnsupported(element.tag, plugin);
+    return instead.empty() ? fmt::format("unknown {} plugin '{}'.", element.tag, plugin)
+                           : fmt::format("{} '{}' is not supported: {}.", element.tag, plugin, instead);
+}
+
 /// Throws InputError with what to use instead of a plugin that Mitsuba has, or else with the nearest of the `known`
 /// ones.
 [[noreturn]] inline void throwUnknownPlugin(const Element& element, const Names& known) {
     const std::string& plugin = element.get("type");
-    const std::string_view instead = insteadOfUnsupported(element.tag, plugin);
+    const bool isOfMitsuba = !insteadOfUnsupported(element.tag, plugin).empty();
     throw InputError(element.where,
-                     instead.empty()
-                         ? fmt::format("unknown {} plugin '{}'.{}", element.tag, plugin, knownNames(plugin, known))
-                         : fmt::format("{} '{}' is not supported: {}.", element.tag, plugin, instead));
+                     aboutUnknownPlugin(element) + (isOfMitsuba ? std::string() : knownNames(plugin, known)));
 }
 
 /// All of the table, and `others`, which are known besides.
@@ -48,8 +54,7 @@ const Plugin* findPlugin(const Plugin (&plugins)[count], const Element& element,
     } catch (const InputError&) {
         if (context.unknown == Unknown::refused) throw;
     }
-    context.refuseUnknown(element.where, fmt::format("unknown {} plugin '{}'.", element.tag, element.get("type")),
-                          instead);
+    context.refuseUnknown(element.where, aboutUnknownPlugin(element), instead);
     return nullptr;
 }
 

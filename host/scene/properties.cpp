@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 
 namespace quasilux {
 
@@ -75,28 +76,35 @@ double Properties::textureNumber(const std::string& name, double missing) {
 
 double Properties::numberAbove(const std::string& name, double missing, double lowest, bool open) {
     const double value = number(name, missing);
-    if (value < lowest || (open && value == lowest))
-        throw InputError(where(name), fmt::format("parameter '{}' of {} is {}; it must be {} {}.", name, describe(),
-                                                  value, open ? "greater than" : "at least", lowest));
-    return value;
+    if (value > lowest || (!open && value == lowest)) return value;
+    const std::string message = fmt::format("parameter '{}' of {} is {}; it must be {} {}.", name, describe(), value,
+                                            open ? "greater than" : "at least", lowest);
+    if (open) throw InputError(where(name), message); // no value is the nearest
+    context_.refuseUnknown(where(name), message, fmt::format("taken as {}", lowest));
+    return lowest;
 }
 
 double Properties::share(const std::string& name, double missing) {
     const double value = textureNumber(name, missing);
-    if (value < 0 || value > 1)
-        throw InputError(where(name), fmt::format("parameter '{}' of {} is {}; it must lie within [0, 1].", name,
-                                                  describe(), value));
-    return value;
+    if (value >= 0 && value <= 1) return value;
+    const double taken = std::clamp(value, 0.0, 1.0);
+    context_.refuseUnknown(
+        where(name), fmt::format("parameter '{}' of {} is {}; it must lie within [0, 1].", name, describe(), value),
+        fmt::format("taken as {}", taken));
+    return taken;
 }
 
-InputError Properties::outside(const std::string& name, double value, double lowest, double highest) {
-    return {where(name), fmt::format("parameter '{}' is {}; expected {} to {}.", name, value, lowest, highest)};
+double Properties::nearest(const std::string& name, double value, double lowest, double highest) {
+    if (value >= lowest && value <= highest) return value;
+    const double taken = std::clamp(value, lowest, highest);
+    context_.refuseUnknown(where(name),
+                           fmt::format("parameter '{}' is {}; expected {} to {}.", name, value, lowest, highest),
+                           fmt::format("taken as {}", taken));
+    return taken;
 }
 
 double Properties::numberWithin(const std::string& name, double missing, double lowest, double highest) {
-    const double value = number(name, missing);
-    if (!(value >= lowest && value <= highest)) throw outside(name, value, lowest, highest);
-    return value;
+    return nearest(name, number(name, missing), lowest, highest);
 }
 
 int64_t Properties::integer(const std::string& name, int64_t missing) {
@@ -106,9 +114,7 @@ int64_t Properties::integer(const std::string& name, int64_t missing) {
 }
 
 int Properties::integerWithin(const std::string& name, int missing, int lowest, int highest) {
-    const int64_t value = integer(name, missing);
-    if (value < lowest || value > highest) throw outside(name, static_cast<double>(value), lowest, highest);
-    return static_cast<int>(value);
+    return static_cast<int>(nearest(name, static_cast<double>(integer(name, missing)), lowest, highest));
 }
 
 bool Properties::boolean(const std::string& name, bool missing) {
@@ -127,11 +133,21 @@ std::string Properties::string(const std::string& name, const std::string& missi
 }
 
 std::string Properties::choice(const std::string& name, const std::string& missing, const Names& known) {
-    std::string value = string(name, missing);
-    if (std::find(known.begin(), known.end(), value) == known.end())
-        throw InputError(where(name), fmt::format("parameter '{}' of {}: unknown value '{}'.{}", name, describe(),
-                                                  value, quasilux::knownNames(value, known)));
-    return value;
+    return among(known, name, string(name, missing), missing);
+}
+
+std::string Properties::choiceOfAnyCase(const std::string& name, const std::string& missing, const Names& known) {
+    return among(known, name, lowerCase(string(name, missing)), missing);
+}
+
+std::string Properties::among(const Names& known, const std::string& name, const std::string& value,
+                              const std::string& missing) {
+    if (std::find(known.begin(), known.end(), value) != known.end()) return value;
+    context_.refuseUnknown(where(name),
+                           fmt::format("parameter '{}' of {}: unknown value '{}'.{}", name, describe(), value,
+                                       quasilux::knownNames(value, known)),
+                           fmt::format("taken as '{}'", missing));
+    return missing;
 }
 
 glm::dvec3 Properties::vector(const std::string& name, const glm::dvec3& missing) {
@@ -165,19 +181,23 @@ std::optional<Rgb> Properties::color(const std::string& name, ColorUse use) {
 
 Rgb Properties::reflectance(const std::string& name, float missing) {
     const Rgb color = positiveColor(name, {missing, missing, missing}, ColorUse::reflectance);
-    if (largest(color) > 1)
-        throw InputError(where(name),
-                         fmt::format("parameter '{}' of {} is ({}, {}, {}); every channel must lie within [0, 1].",
-                                     name, describe(), color.r, color.g, color.b));
-    return color;
+    return withinRange(name, color, 1, "every channel must lie within [0, 1]");
+}
+
+Rgb Properties::withinRange(const std::string& name, Rgb color, float highest, const std::string& message) {
+    if (smallest(color) >= 0 && largest(color) <= highest) return color;
+    const auto taken = [&](float channel) { return std::clamp(channel, 0.0f, highest); };
+    const Rgb nearestColor = {taken(color.r), taken(color.g), taken(color.b)};
+    context_.refuseUnknown(
+        where(name),
+        fmt::format("parameter '{}' of {} is ({}, {}, {}); {}.", name, describe(), color.r, color.g, color.b, message),
+        fmt::format("taken as ({}, {}, {})", nearestColor.r, nearestColor.g, nearestColor.b));
+    return nearestColor;
 }
 
 Rgb Properties::positiveColor(const std::string& name, Rgb missing, ColorUse use) {
-    const Rgb color = this->color(name, use).value_or(missing);
-    if (smallest(color) < 0)
-        throw InputError(where(name), fmt::format("parameter '{}' of {} is ({}, {}, {}); no channel may be negative.",
-                                                  name, describe(), color.r, color.g, color.b));
-    return color;
+    return withinRange(name, color(name, use).value_or(missing), std::numeric_limits<float>::infinity(),
+                       "no channel may be negative");
 }
 
 Rgb Properties::unboundedColor(const std::string& name, Rgb missing) {
@@ -185,13 +205,7 @@ Rgb Properties::unboundedColor(const std::string& name, Rgb missing) {
 }
 
 Rgb Properties::emission(const std::string& name, Rgb missing) {
-    const Rgb color = this->color(name, ColorUse::emission).value_or(missing);
-    if (smallest(color) < 0 || isBlack(color))
-        throw InputError(where(name),
-                         fmt::format("parameter '{}' of {} is ({}, {}, {}); an emitter needs a positive channel "
-                                     "and none that is negative. Remove the emitter if it is off.",
-                                     name, describe(), color.r, color.g, color.b));
-    return color;
+    return positiveColor(name, missing, ColorUse::emission);
 }
 
 std::vector<const Element*> Properties::objects(const std::string& tag) {

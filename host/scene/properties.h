@@ -12,7 +12,8 @@
 namespace quasilux {
 
 /// Every query marks a parameter as known; finish() refuses the ones nobody asked for. All throw InputError at the
-/// parameter's place for a wrong type or a value that cannot be read.
+/// parameter's place for a wrong type or a value that cannot be read; of values out of range, where that is forgiven, the nearest
+/// is taken, if there is one.
 class Properties {
 public:
     Properties(const Element& element, LoadContext& context);
@@ -41,6 +42,8 @@ public:
     std::string string(const std::string& name, const std::string& missing);
     /// One of `known`, or InputError with the nearest name.
     std::string choice(const std::string& name, const std::string& missing, const Names& known);
+    /// The same where capital letters do not matter to Mitsuba.
+    std::string choiceOfAnyCase(const std::string& name, const std::string& missing, const Names& known);
     glm::dvec3 vector(const std::string& name, const glm::dvec3& missing);
     /// As `vector`, of length 1. A vector of no length is refused.
     glm::dvec3 direction(const std::string& name, const glm::dvec3& missing);
@@ -52,7 +55,7 @@ public:
     Rgb positiveColor(const std::string& name, Rgb missing, ColorUse use = ColorUse::unbounded);
     /// With any channels.
     Rgb unboundedColor(const std::string& name, Rgb missing);
-    /// Radiance or intensity: no channel negative, at least one positive.
+    /// Radiance or intensity: no channel negative. An emitter of which all are 0 is off.
     Rgb emission(const std::string& name, Rgb missing);
 
     /// Nested objects (or referenced ones) with this tag, in document order.
@@ -81,7 +84,10 @@ public:
     void finish() const;
 
 private:
-    InputError outside(const std::string& name, double value, double lowest, double highest);
+    std::string among(const Names& known, const std::string& name, const std::string& value,
+                      const std::string& missing);
+    double nearest(const std::string& name, double value, double lowest, double highest);
+    Rgb withinRange(const std::string& name, Rgb color, float highest, const std::string& message);
     const Element* find(const std::string& name, const Names& tags);
     const Element* constantTexture(const std::string& name);
     std::optional<Rgb> color(const std::string& name, ColorUse use);

@@ -325,8 +325,8 @@ struct Scene {
     }
 };
 
-/// Plugins, parameters and elements that are not known: an InputError, or a warning and the nearest thing that is
-/// known.
+/// Plugins, parameters and elements that are not known, and values out of range: an InputError, or a warning, and they
+/// are left out or something plain stands in for them (docs/reference/scene-language.md#what-is-not-known).
 enum class Unknown { refused, forgiven };
 
 /// How a file is read.

@@ -42,7 +42,8 @@ def load(
 
     parameters: values of the ``<default>`` elements of the file, by name.
     sensor: the one to render, by its number from 0 or its id; None: the first one.
-    lenient: what is not known is replaced by the nearest thing that is, with a warning each, instead of an error.
+    lenient: what is not known is left out or something plain stands in for it, and values out of range become the nearest within, with a
+        warning each, instead of an error.
     folder: of dicts, where the files that they name lie.
 
     Raises SceneError. Warns by SceneWarning of what has no effect.

@@ -70,7 +70,7 @@ BsdfLobes blend(BsdfLobes first, BsdfLobes second, const Scalar& weightOfSecond,
 
 /// <bsdf type="blendbsdf">: (1 - weight) of the first nested bsdf plus weight of the second.
 BsdfLobes readBlend(Properties& properties) {
-    const Scalar weight = readShare(properties, "weight", 0.5f);
+    const Scalar weight = readWeight(properties, "weight", 0.5f);
     const std::vector<const Element*> nested = properties.objects("bsdf");
     if (nested.size() != 2)
         throw InputError(properties.element().where,
@@ -81,7 +81,7 @@ BsdfLobes readBlend(Properties& properties) {
 
 /// <bsdf type="mask">: opacity of the nested bsdf; the rest of the light passes.
 BsdfLobes readMask(Properties& properties) {
-    const Scalar opacity = readShare(properties, "opacity", 0.5f);
+    const Scalar opacity = readWeight(properties, "opacity", 0.5f);
     const std::vector<const Element*> nested = properties.objects("bsdf");
     if (nested.size() != 1)
         throw InputError(properties.element().where,

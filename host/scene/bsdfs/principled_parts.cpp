@@ -132,12 +132,7 @@ Principled readSharedParameters(Properties& properties) {
     return p;
 }
 
-double readPrincipledIndex(Properties& properties) {
-    const double eta = properties.number("eta", 1.5);
-    if (eta < 1)
-        throw InputError(properties.where("eta"), fmt::format("parameter 'eta' is {}; it must be at least 1.", eta));
-    return eta;
-}
+double readPrincipledIndex(Properties& properties) { return properties.numberAbove("eta", 1.5, 1, false); }
 
 Rgb grey(double value) {
     const auto single = static_cast<float>(value);

@@ -29,7 +29,7 @@ constexpr Material materials[] = {
 double readRefractiveIndex(Properties& properties, const std::string& name, const std::string& missing) {
     const Element* parameter = properties.find(name);
     if (parameter && parameter->tag != "string") return properties.numberAbove(name, 1, 0, true);
-    const std::string material = properties.string(name, missing);
+    const std::string material = lowerCase(properties.string(name, missing)); // as Mitsuba does
     Names known;
     for (const Material& entry : materials) {
         if (entry.name == material) return entry.index;

@@ -68,7 +68,7 @@ Roughness readRoughness(Properties& properties, const std::string& smooth, bool 
     const Scalar u = readAlphaOrTexture(properties, "alpha_u", alpha.value, smooth, byTexture);
     const Scalar v = readAlphaOrTexture(properties, "alpha_v", alpha.value, smooth, byTexture);
     Roughness roughness;
-    roughness.ggx = properties.choice("distribution", "beckmann", {"beckmann", "ggx"}) == "ggx";
+    roughness.ggx = properties.choiceOfAnyCase("distribution", "beckmann", {"beckmann", "ggx"}) == "ggx";
     roughness.alphaU = static_cast<float>(u.value);
     roughness.alphaV = static_cast<float>(v.value);
     roughness.alphaTextureU = anisotropic ? u.texture : alpha.texture;

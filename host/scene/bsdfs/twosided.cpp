@@ -20,6 +20,7 @@ BsdfLobes readSide(const Element& nested, LoadContext& context) {
 } // namespace
 
 BsdfLobes readTwoSided(Properties& properties) {
+    properties.accept({"allow_transmission"}); // bsdfs that transmit are refused; others need no leave
     const std::vector<const Element*> nested = properties.objects("bsdf");
     if (nested.empty() || nested.size() > 2)
         throw InputError(

@@ -36,6 +36,38 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"sunsky", readSunSky},
 };
 
+/// As in Mitsuba a lamp that is off is no error; here it is not even asked for light.
+void warnOff(const Element& element, LoadContext& context) {
+    ++context.emittersOff;
+    context.warn(element.where,
+                 fmt::format("emitter '{}' is off: all that it emits is 0. It is left out.", idOf(element)));
+}
+
+/// How many of each kind there are.
+struct EmitterCounts {
+    explicit EmitterCounts(const Scene& scene)
+        : points(scene.pointEmitters.size()), directionals(scene.directionalEmitters.size()),
+          hasSurroundings(scene.surroundings.has_value()) {}
+
+    size_t points, directionals;
+    bool hasSurroundings;
+};
+
+/// Takes the emitter that was read since `before` out of the scene again where it is off.
+bool takeOutIfOff(Scene& scene, const EmitterCounts& before) {
+    const EmitterCounts now(scene);
+    if (now.points > before.points && isBlack(scene.pointEmitters.back().intensity))
+        scene.pointEmitters.pop_back();
+    else if (now.directionals > before.directionals && isBlack(scene.directionalEmitters.back().irradiance))
+        scene.directionalEmitters.pop_back();
+    else if (now.hasSurroundings && !before.hasSurroundings && !scene.surroundings->image &&
+             isBlack(scene.surroundings->radiance))
+        scene.surroundings.reset();
+    else
+        return false;
+    return true;
+}
+
 [[noreturn]] void throwNotHere(const Element& element) {
     const std::string& plugin = element.get("type");
     for (const ShapeEmitterPlugin& entry : shapeEmitters)
@@ -64,7 +96,7 @@ bool leavesOutEmitter(const Element& element, LoadContext& context) {
         std::any_of(std::begin(shapeEmitters), std::end(shapeEmitters), isNamed) ||
         std::any_of(std::begin(sceneEmitters), std::end(sceneEmitters), isNamed))
         return false;
-    context.refuseUnknown(element.where, fmt::format("unknown emitter plugin '{}'.", element.get("type")), "left out");
+    context.refuseUnknown(element.where, aboutUnknownPlugin(element), "left out");
     return true;
 }
 
@@ -82,7 +114,7 @@ Surroundings& addSurroundings(Properties& properties) {
     return *surroundings;
 }
 
-AreaEmitter readShapeEmitter(const Element& element, LoadContext& context) {
+std::optional<AreaEmitter> readShapeEmitter(const Element& element, LoadContext& context) {
     for (const ShapeEmitterPlugin& plugin : shapeEmitters) {
         if (plugin.name != element.get("type")) continue;
         context.usedEmitters.insert(&element);
@@ -90,7 +122,9 @@ AreaEmitter readShapeEmitter(const Element& element, LoadContext& context) {
         AreaEmitter emitter = plugin.read(properties);
         properties.accept({"sampling_weight"}); // which emitter is chosen is learned
         properties.finish();
-        return emitter;
+        if (!isBlack(emitter.radiance)) return emitter;
+        warnOff(element, context);
+        return std::nullopt;
     }
     throwNotHere(element);
 }
@@ -99,9 +133,11 @@ void readSceneEmitter(const Element& element, LoadContext& context) {
     for (const SceneEmitterPlugin& plugin : sceneEmitters) {
         if (plugin.name != element.get("type")) continue;
         Properties properties(element, context);
+        const EmitterCounts before(context.scene);
         plugin.read(properties);
         properties.accept({"sampling_weight"}); // which emitter is chosen is learned
         properties.finish();
+        if (takeOutIfOff(context.scene, before)) warnOff(element, context);
         return;
     }
     throwNotHere(element);

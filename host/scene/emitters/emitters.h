@@ -10,9 +10,10 @@ namespace quasilux {
 bool leavesOutEmitter(const Element& element, LoadContext& context);
 /// Whether its plugin is one for shapes: directly in the scene it is there to be referenced.
 bool isShapeEmitter(const Element& element);
-/// The emitter nested in a shape. Throws InputError unless it is an `area` or `directionalarea` emitter.
-AreaEmitter readShapeEmitter(const Element& element, LoadContext& context);
-/// An emitter of its own, directly in the scene; it is added to context.scene.
+/// The emitter nested in a shape; nothing, with a warning, where it is off. Throws InputError unless it is an `area` or
+/// `directionalarea` emitter.
+std::optional<AreaEmitter> readShapeEmitter(const Element& element, LoadContext& context);
+/// An emitter of its own, directly in the scene; it is added to context.scene, or left out with a warning where it is off.
 void readSceneEmitter(const Element& element, LoadContext& context);
 
 /// The scene's surroundings, still without radiance. Throws InputError where it has some already.

@@ -38,7 +38,7 @@ void readEnvmap(Properties& properties) {
     if (name.empty())
         throw InputError(where,
                          fmt::format("{} needs <string name=\"filename\" value=\"…\"/>.", properties.describe()));
-    const auto scale = static_cast<float>(properties.numberAbove("scale", 1, 0, true));
+    const auto scale = static_cast<float>(properties.numberAbove("scale", 1, 0, false));
     properties.accept({"mis_compensation"});
     EnvironmentImage image;
     image.axes = axesOfSurroundings(properties);
@@ -59,8 +59,7 @@ void readEnvmap(Properties& properties) {
         pixel = pixel * scale;
         isBlack = isBlack && quasilux::isBlack(pixel);
     }
-    if (isBlack)
-        throw InputError(where, fmt::format("the image '{}' is black, so it emits nothing; remove the emitter.", path));
+    if (isBlack) return; // off, as surroundings without an image and radiance
     image.width = read.width;
     image.height = read.height;
     surroundings.image = std::move(image);

@@ -23,6 +23,11 @@ Rgb colorOfBlackBody(double kelvin, const SourceLocation& where, LoadContext& co
 
 Rgb readLightColour(Properties& properties) {
     Rgb tint = properties.emission("tint", {1, 1, 1});
+    if (isBlack(tint))
+        throw InputError(
+            properties.where("tint"),
+            fmt::format("parameter 'tint' of {} is black; it says a colour only. Remove the emitter if it is off.",
+                        properties.describe()));
     if (properties.has("colour_temperature")) {
         const SourceLocation where = properties.where("colour_temperature");
         if (properties.has("tint"))

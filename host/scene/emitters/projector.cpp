@@ -22,7 +22,7 @@ double aspectOf(const EmissionColor& picture, const Scene& scene) {
 
 void readProjector(Properties& properties) {
     const glm::dmat4 toWorld = roundPlacement(properties);
-    const double scale = properties.numberAbove("scale", 1, 0, true);
+    const double scale = properties.numberAbove("scale", 1, 0, false);
     const EmissionColor picture = readEmission(properties, "irradiance", {1, 1, 1}, false);
     const double aspect = aspectOf(picture, properties.context().scene);
     const double halfWidth = std::tan(readFieldOfView(properties, aspect) / 2); // at depth 1

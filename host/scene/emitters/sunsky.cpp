@@ -58,9 +58,6 @@ SunSky readSunSky(Properties& properties, const glm::dmat3& axes) {
     found.albedo = properties.reflectance("albedo", 0.3F);
     found.sunScale = properties.numberAbove("sun_scale", 1, 0, false);
     found.skyScale = properties.numberAbove("sky_scale", 1, 0, false);
-    if (found.sunScale == 0 && found.skyScale == 0)
-        throw InputError(properties.where("sky_scale"),
-                         "sun_scale and sky_scale are both 0, so the emitter emits nothing; remove it.");
     found.sunHalfAngle = readSunHalfAngle(properties);
     found.complexSun = properties.boolean("complex_sun", false);
     found.sun = readSun(properties, axes);
@@ -103,6 +100,7 @@ void readSunSky(Properties& properties) {
     Surroundings& surroundings = addSurroundings(properties);
     const glm::dmat3 axes = axesOfSurroundings(properties);
     const SunSky given = readSunSky(properties, axes);
+    if (given.sunScale == 0 && given.skyScale == 0) return; // off, as surroundings without an image and radiance
     const double factor = isPhotometric(properties) ? luminousEfficacy * hosekWilkieResponse() : 1;
     surroundings.isPerNanometre =
         !isPhotometric(properties) && !(isScaledToWatts(given.sunScale) && isScaledToWatts(given.skyScale));

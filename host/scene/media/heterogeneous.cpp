@@ -12,8 +12,8 @@ namespace quasilux {
 
 namespace {
 
-constexpr const char* greyOnly = "the extinction of a heterogeneous medium has one channel here; give one channel, and "
-                                 "colour by 'albedo', which may have three";
+constexpr const char* greyOnly = "parameter 'sigma_t': the extinction of a heterogeneous medium has one channel here; "
+                                 "give one channel, such as the mean, and colour by 'albedo', which may have three";
 
 // A plain value is a constvolume: it fills the unit cube.
 unsigned extinctionVolume(Properties& properties) {

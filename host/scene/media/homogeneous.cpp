@@ -17,7 +17,8 @@ std::optional<Rgb> constantOf(Properties& properties, const std::string& name) {
     const size_t channels = volume.device.channels;
     if (volume.values.size() != channels)
         throw InputError(element->where, fmt::format("'{}' of {} is the same everywhere; a medium in which it varies "
-                                                     "is of type \"heterogeneous\".",
+                                                     "is of type \"heterogeneous\", whose sigma_t may be a constvolume "
+                                                     "about the shape.",
                                                      name, properties.describe()));
     return Rgb{volume.values[0], volume.values[channels / 2], volume.values[channels - 1]};
 }

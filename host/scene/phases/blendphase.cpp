@@ -1,6 +1,7 @@
 // <phase type="blendphase">: two phase functions, the second one with the share `weight`. Blends within blends become
 // one list of weighted functions.
 #include "scene/phases/phase_plugin.h"
+#include "scene/textures/texture_plugin.h"
 
 #include <fmt/format.h>
 
@@ -32,10 +33,7 @@ void readBlend(Properties& properties, MediumDescription& medium) {
                          fmt::format("{} needs <float name=\"weight\" value=\"…\"/>, the share of its second phase "
                                      "function.",
                                      properties.describe()));
-    const double weight = properties.number("weight", 0.5);
-    if (!(weight >= 0 && weight <= 1))
-        throw InputError(properties.where("weight"), fmt::format("parameter 'weight' of {} is {}; expected 0 to 1.",
-                                                                 properties.describe(), weight));
+    const double weight = clampedWeight(properties, "weight", properties.number("weight", 0.5));
     const std::vector<const Element*> nested = properties.objects("phase");
     if (nested.size() != 2)
         throw InputError(properties.element().where,

@@ -34,7 +34,7 @@ double horizontalAngle(double angle, std::string axis, double aspect) {
 
 double readFieldOfView(Properties& properties, double aspect) {
     const bool byAngle = properties.has("fov"), byLength = properties.has("focal_length");
-    const std::string axis = properties.choice("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"});
+    const std::string axis = properties.choiceOfAnyCase("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"});
     if (byAngle && byLength)
         throw InputError(properties.where("focal_length"),
                          fmt::format("{} has both fov and focal_length; keep one.", properties.describe()));

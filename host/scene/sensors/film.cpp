@@ -35,24 +35,9 @@ CropRange readCrop(Properties& properties, const std::string& axis, const std::s
                                  begin, begin + count - 1, size, all, offsetName, sizeName));
 }
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
-/// As Mitsuba takes it: capital letters do not matter.
-std::string readChoice(Properties& properties, const std::string& name, const std::string& missing,
-                       const Names& known) {
-    std::string value = lower(properties.string(name, missing));
-    if (std::find(known.begin(), known.end(), value) == known.end())
-        throw InputError(properties.where(name), fmt::format("parameter '{}' of {}: unknown value '{}'.{}", name,
-                                                             properties.describe(), value, knownNames(value, known)));
-    return value;
-}
-
 PixelFormat readPixelFormat(Properties& properties) {
-    const std::string name =
-        readChoice(properties, "pixel_format", "rgb", {"luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"});
+    const std::string name = properties.choiceOfAnyCase("pixel_format", "rgb",
+                                                        {"luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"});
     PixelFormat format;
     format.luminance = name == "luminance" || name == "luminance_alpha";
     format.xyz = name == "xyz" || name == "xyza";
@@ -63,14 +48,14 @@ PixelFormat readPixelFormat(Properties& properties) {
 void readFileFormats(Properties& properties, LoadContext& context) {
     const bool isToneMapped = properties.plugin() == ldrName;
     const Names known = isToneMapped ? Names{"png", "jpeg"} : Names{"openexr", "exr", "rgbe", "pfm"};
-    const std::string file = readChoice(properties, "file_format", std::string(known.front()), known);
+    const std::string file = properties.choiceOfAnyCase("file_format", std::string(known.front()), known);
     if (isToneMapped)
         context.warn(properties.element().where, "film 'ldrfilm' of Mitsuba 0.x: the image is an OpenEXR file that is "
                                                  "not tone mapped; 'quasilux render --png' makes a picture of it.");
     else if (file == "rgbe" || file == "pfm")
         context.warn(properties.where("file_format"),
                      fmt::format("file_format '{}': images are written as OpenEXR.", file));
-    readChoice(properties, "component_format", "float16", {"float16", "float32", "uint32"});
+    properties.choiceOfAnyCase("component_format", "float16", {"float16", "float32", "uint32"});
     properties.accept({"component_format"});
 }
 

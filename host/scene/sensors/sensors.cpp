@@ -85,8 +85,10 @@ void readSampler(const Element& element, LoadContext& context) {
         return std::find(names.begin(), names.end(), properties.plugin()) != names.end();
     };
     if (!isIn(samplers) && !isIn(formerSamplers))
-        throw InputError(element.where, fmt::format("unknown sampler plugin '{}'.{}", properties.plugin(),
-                                                    knownNames(properties.plugin(), samplers)));
+        context.refuseUnknown(element.where,
+                              fmt::format("unknown sampler plugin '{}'.{}", properties.plugin(),
+                                          knownNames(properties.plugin(), samplers)),
+                              "ignored");
     properties.acceptAll();
 }
 

@@ -99,7 +99,7 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
         checkTexCoords(shape, "bsdf");
     if (emitter) shape.emitter = readShapeEmitter(*emitter, context);
     keepShownAttributes(shape, context);
-    if (emitter) {
+    if (shape.emitter) {
         if (shape.emitter->texture && needTexCoords(context.scene, {*shape.emitter->texture}))
             checkTexCoords(shape, "emitter");
         if (shape.emitter->alongNormal) checkFlat(shape);

@@ -2,6 +2,7 @@
 #include "scene/textures/texture_plugin.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace quasilux {
 
@@ -69,6 +70,20 @@ float meanOfNumbers(const TextureDescription& texture, const Scene& scene, float
 
 unsigned useScalarTexture(const Element& element, LoadContext& context) {
     return scalarTexture(useColorTexture(element, context), context);
+}
+
+Scalar readWeight(Properties& properties, const std::string& name, float missing) {
+    if (properties.texture(name)) return readShare(properties, name, missing);
+    return {clampedWeight(properties, name, properties.textureNumber(name, missing)), std::nullopt};
+}
+
+double clampedWeight(Properties& properties, const std::string& name, double value) {
+    const double taken = std::clamp(value, 0.0, 1.0);
+    if (taken != value)
+        properties.context().warn(properties.where(name),
+                                  fmt::format("parameter '{}' of {} is {}; it is taken as {}, as by Mitsuba.", name,
+                                              properties.describe(), value, taken));
+    return taken;
 }
 
 Scalar readShare(Properties& properties, const std::string& name, float missing) {

@@ -41,8 +41,8 @@ struct EmissionColor {
     std::optional<unsigned> texture; ///< index into Scene::textures
 };
 
-/// The parameter `name`, a colour or a texture; `missing` where it is not given. What is black all over is refused, and
-/// of an emitter that is no shape what is looked up by place.
+/// The parameter `name`, a colour or a texture; `missing` where it is not given; a texture that is black all over is
+/// black. Of an emitter that is no shape, what is looked up by place is refused.
 EmissionColor readEmission(Properties& properties, const std::string& name, Rgb missing, bool ofShape);
 
 /// A number as the scene gives it, or a texture of numbers.
@@ -66,6 +66,10 @@ float meanOfNumbers(const TextureDescription& texture, const Scene& scene, float
 /// colours of a texture it takes, as Mitsuba, the luminance (bitmap) or the mean of the channels (others); a
 /// checkerboard's squares change places then, as in Mitsuba 3.9.
 Scalar readShare(Properties& properties, const std::string& name, float missing);
+/// `value` of the parameter within [0, 1].
+double clampedWeight(Properties& properties, const std::string& name, double value);
+/// The same as readShare; a number out of range becomes the nearest with a warning, as Mitsuba clamps what it blends by.
+Scalar readWeight(Properties& properties, const std::string& name, float missing);
 
 /// Reads an image file. Files of integers are taken as sRGB encoded unless `raw`; one channel is grey, alpha is left
 /// out. Throws InputError at `where` where the file cannot be read, or has negative or non-finite values.

@@ -97,10 +97,7 @@ EmissionColor readEmission(Properties& properties, const std::string& name, Rgb 
                              fmt::format("the texture '{}' of {} gives what is emitted from one point, which has no "
                                          "attributes and no place in a volume; use a 'bitmap' or a 'checkerboard'.",
                                          name, properties.describe()));
-    if (isBlack(largestValue(read)))
-        throw InputError(texture->where,
-                         fmt::format("the texture '{}' of {} is black, so it emits nothing; remove the emitter.", name,
-                                     properties.describe()));
+    if (isBlack(largestValue(read))) return {{0, 0, 0}, std::nullopt};
     return {{1, 1, 1}, static_cast<unsigned>(index)};
 }
 

@@ -3,9 +3,16 @@
 
 #include "util/nearest.h"
 
+#include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 
 namespace quasilux {
+
+std::string lowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
 
 std::string joinNames(const Names& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 

@@ -12,6 +12,9 @@ using Names = std::vector<std::string_view>;
 /// " Did you mean 'x'? Known: x, y, z." with the first part left out where nothing is near.
 std::string knownNames(std::string_view name, const Names& known);
 
+/// With small letters.
+std::string lowerCase(std::string text);
+
 /// "x, y, z"
 std::string joinNames(const Names& names);
 

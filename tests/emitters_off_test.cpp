@@ -1,0 +1,98 @@
+// Emitters that emit nothing are left out with a warning, as scenes from the web have them; Mitsuba's image is the same.
+#include "support/scene_files.h"
+
+#include <gmock/gmock.h>
+
+namespace quasilux {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+size_t emittersOf(const Scene& scene) {
+    size_t count = scene.pointEmitters.size() + scene.directionalEmitters.size() + (scene.surroundings ? 1 : 0);
+    for (const ShapeDescription& shape : scene.shapes) count += shape.emitter.has_value();
+    return count;
+}
+
+std::string of(const std::string& plugin, const std::string& content) {
+    return "<emitter type=\"" + plugin + "\">" + content + "</emitter>";
+}
+std::string inShape(const std::string& emitter) { return "<shape type=\"rectangle\">" + emitter + "</shape>"; }
+
+constexpr const char* blackTexture =
+    R"(type="checkerboard"><rgb name="color0" value="0"/><rgb name="color1" value="0"/></texture>)";
+
+const std::string offEmitters[] = {
+    of("point", R"(<rgb name="intensity" value="0"/>)"),
+    of("point", R"(<spectrum name="intensity" value="0"/>)"),
+    of("spot", R"(<float name="intensity" value="0"/>)"),
+    of("spot", std::string("<texture name=\"texture\" ") + blackTexture),
+    of("projector", R"(<float name="scale" value="0"/>)"),
+    of("projector", R"(<rgb name="irradiance" value="0"/>)"),
+    of("directional", R"(<rgb name="irradiance" value="0,0,0"/>)"),
+    of("constant", R"(<rgb name="radiance" value="0"/>)"),
+    of("envmap", R"(<string name="filename" value="sky.ppm"/><float name="scale" value="0"/>)"),
+    of("envmap", R"(<string name="filename" value="black.ppm"/>)"),
+    of("sunsky", R"(<float name="sun_scale" value="0"/><float name="sky_scale" value="0"/>)"),
+    inShape(of("area", R"(<rgb name="radiance" value="0"/>)")),
+    inShape(of("area", std::string("<texture name=\"radiance\" ") + blackTexture)),
+    inShape(of("directionalarea", R"(<rgb name="radiance" value="0"/>)")),
+};
+
+/// A file of 2 x 2 grey pixels.
+void writePixels(const test::SceneFiles& files, const char* name, char value) {
+    files.write(name, "P6\n2 2\n255\n" + std::string(12, value));
+}
+
+class OffEmitter : public testing::TestWithParam<std::string> {
+protected:
+    OffEmitter() {
+        writePixels(files, "sky.ppm", 100);
+        writePixels(files, "black.ppm", 0);
+    }
+
+    test::SceneFiles files;
+};
+
+TEST_P(OffEmitter, IsLeftOutWithAWarning) {
+    const Scene scene = loadScene(files.write("scene.xml", test::sceneWith(GetParam())));
+    EXPECT_EQ(emittersOf(scene), 1u) << "the point of the scene around it";
+    EXPECT_THAT(scene.warnings,
+                ElementsAre(testing::AllOf(HasSubstr("scene.xml:4:"), HasSubstr("is off: all that it emits is 0"))));
+}
+
+TEST_P(OffEmitter, IsNotEnoughForAScene) {
+    const std::string path =
+        files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + GetParam() + "</scene>");
+    EXPECT_THAT(test::errorOf(path), HasSubstr("every emitter of the scene is off"));
+}
+INSTANTIATE_TEST_SUITE_P(Kinds, OffEmitter, testing::ValuesIn(offEmitters));
+
+TEST(EmittersOff, OneChannelIsEnoughToBeOn) {
+    const Scene scene = test::loadBody(of("point", R"(<rgb name="intensity" value="0,0,1"/>)"));
+    EXPECT_EQ(emittersOf(scene), 2u);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(EmittersOff, AShapeWithoutBsdfStaysBlack) {
+    const Scene scene = test::loadBody(inShape(of("area", R"(<rgb name="radiance" value="0"/>)")));
+    EXPECT_TRUE(scene.bsdfs.at(static_cast<size_t>(scene.shapes.at(0).bsdf)).front.empty()) << "as in Mitsuba";
+}
+
+TEST(EmittersOff, SurroundingsMayFollowOnesThatAreOff) {
+    const Scene scene = test::loadBody(of("constant", R"(<rgb name="radiance" value="0"/>)") +
+                                       of("constant", R"(<rgb name="radiance" value="2"/>)"));
+    EXPECT_EQ(scene.surroundings.value().radiance.g, 2);
+}
+
+TEST(EmittersOff, NegativeOnesAreRefused) {
+    test::SceneFiles files;
+    EXPECT_THAT(
+        test::errorOf(
+            files.write("scene.xml", test::sceneWith(of("point", "\n<rgb name=\"intensity\" value=\"0,-1,0\"/>")))),
+        HasSubstr("scene.xml:5:1: parameter 'intensity' of emitter 'point' is (0, -1, 0); no channel may be negative"));
+}
+
+} // namespace
+} // namespace quasilux
