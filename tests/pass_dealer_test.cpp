@@ -16,7 +16,8 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 TEST(PassRanges, ThatTouchAreOne) {
-    EXPECT_THAT(joined({{8, 12}, {0, 4}, {20, 20}, {4, 8}, {16, 20}}), ElementsAre(PassRange{0, 12}, PassRange{16, 20}));
+    EXPECT_THAT(joined({{8, 12}, {0, 4}, {20, 20}, {4, 8}, {16, 20}}),
+                ElementsAre(PassRange{0, 12}, PassRange{16, 20}));
     EXPECT_THAT(joined({}), IsEmpty());
 }
 

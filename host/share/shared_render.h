@@ -32,7 +32,7 @@ struct SharedHooks {
 /// What it begins with: sums and radii of passes before, as one worker has them to begin with.
 struct SharedStart {
     PassSums sums;
-    PassRange passes; ///< the first pass of all, and the one that comes next
+    PassRange passes;  ///< the first pass of all, and the one that comes next
     MemoryState radii; ///< of the passes before; workers say themselves whether these are the last ones
     double seconds = 0;
 };
