@@ -37,12 +37,13 @@ public:
         return parseNumber(line, where(), what);
     }
 
-    /// 0 where the line is blank.
-    double numberOrBlank(const std::string& what) {
+    /// A number that nothing depends on; the line may be blank.
+    void skipNumber(const std::string& what) {
         const bool isBlank = next_ < lines_.size() && lines_[next_].find_first_not_of(" \t") == std::string_view::npos;
-        if (!isBlank) return number(what);
-        ++next_;
-        return 0;
+        if (isBlank)
+            ++next_;
+        else
+            number(what);
     }
 
     unsigned integer(const std::string& what, unsigned lowest, unsigned highest) {
@@ -225,7 +226,7 @@ Goniogram readEulumdat(const std::string& path, const std::string& content, cons
     lines.numberFrom("light output ratio LORL", 0);
     const double factor = lines.numberFrom("conversion factor for luminous intensities", 0);
     if (factor == 0) lines.fail("conversion factor for luminous intensities: 0; expected a number above 0.");
-    lines.numberOrBlank("tilt of the luminaire during measurement");
+    lines.skipNumber("tilt of the luminaire during measurement");
     readLampSets(lines, goniogram);
     if (lampSet < 1 || lampSet > goniogram.lampSets.size())
         throw InputError(where, fmt::format("there is no set of lamps number {} in '{}'; expected 1 to {}.", lampSet,
