@@ -69,6 +69,15 @@ analysisIsClean() {
             >"$log" 2>&1 || { grep -v 'warnings\? generated' "$log"; return 1; }
 }
 
+# Builds the site of the documents, with its links; left out where MkDocs cannot be installed, as without a network.
+siteIsWhole() {
+    local code=0
+    bash scripts/docs.sh >$logs/site.log 2>&1 || code=$?
+    ((code == 0)) && return
+    tail -n 20 $logs/site.log
+    ((code == 3)) && echo "site: left out"
+}
+
 # Ends the script with the number of checks and tests that failed.
 summary() {
     ((failed == 0)) || printf '== FAILED: %s\n' "${failures[@]}"
@@ -141,6 +150,7 @@ cmake --build --preset ci
 check "layout of the sources (clang-format)" formatIsRight
 check "static analysis (clang-tidy)" analysisIsClean
 check "types of the Python package (mypy)" /usr/bin/python3 -m mypy
+check "site of the documents (MkDocs)" siteIsWhole
 
 phase "kernels under Oclgrind"
 check "memory and data races of the kernels (Oclgrind)" bash scripts/oclgrind.sh build/ci/quasilux
