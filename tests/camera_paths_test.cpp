@@ -1,6 +1,7 @@
 // Several camera paths of a pixel in a pass (RenderSettings::cameraPaths): the same paths as with one in as many
 // passes, of which one gathers photons for all, and how many are best.
 #include "auto/prediction.h"
+#include "render/learned_scene.h"
 #include "support/even_pilot.h"
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
@@ -67,6 +68,19 @@ PilotMeasure pilotOf(double photonSeconds, double cameraSeconds, double photonNo
     pilot.secondsOfPhotons = photonSeconds;
     pilot.noiseOfPhotons = photonNoise / (photonNoise + cameraNoise);
     return pilot;
+}
+
+// Eight samples of a pixel in a pass, at most four of a path; one where no photons are gathered, or no emitter is to be
+// chosen (docs/notes/camera-paths.md#samples-of-emitters-and-nets-of-later-events).
+TEST(CameraPaths, TakeFewerSamplesOfEmittersTheMoreTheyAre) {
+    LearnedScene learned;
+    EXPECT_EQ(directSamplesOf(learned, 1, 1), 1u);
+    learned.tables.lights.resize(2);
+    const std::vector<std::pair<unsigned, unsigned>> expected{{1, 4}, {2, 4}, {4, 2}, {8, 1}, {64, 1}};
+    for (const auto& [paths, samples] : expected) {
+        EXPECT_EQ(directSamplesOf(learned, 1, paths), samples) << paths;
+        EXPECT_EQ(directSamplesOf(learned, 0, paths), 1u) << paths;
+    }
 }
 
 TEST(CameraPaths, BestNumberIsTheSquareRootOfBothRatios) {
