@@ -85,13 +85,13 @@ TEST_F(MemoryTest, IsToldBeforeItIsTaken) {
     }
 }
 
-// Layers of what is met first come when the passes' buffers are gone; here they are more than the film.
+// Layers of what is met first come when the passes' buffers are gone; here they are more than these.
 TEST_F(MemoryTest, OfLayersIsTold) {
     const std::string quantities[] = {"albedo", "depth",  "position", "geo_normal", "sh_normal", "uv",    "dp_du",
                                       "dp_dv",  "duv_dx", "duv_dy",   "albedo",     "position",  "dp_du", "sh_normal"};
     std::string layers;
-    for (size_t k = 0; k < std::size(quantities); ++k)
-        layers += fmt::format("{}a{}:{}", k ? "," : "", k, quantities[k]);
+    for (size_t k = 0; k < 2 * std::size(quantities); ++k)
+        layers += fmt::format("{}a{}:{}", k ? "," : "", k, quantities[k % std::size(quantities)]);
     std::string text = test::litPlate(900);
     const std::string film = "<film type=\"hdrfilm\">";
     std::ofstream(folder / "plain.xml") << text;
@@ -99,7 +99,7 @@ TEST_F(MemoryTest, OfLayersIsTold) {
     text.insert(text.find("<sensor"), R"(<integrator type="aov"><string name="aovs" value=")" + layers +
                                           R"("/><integrator type="path"/></integrator>)");
     std::ofstream(folder / "layers.xml") << text;
-    const Arguments options{"--without", "components,bias", "--photons", "20000"};
+    const Arguments options{"--without", "components,bias", "--photons", "50000"};
     const auto of = [&](const std::string& file) {
         Arguments arguments = options;
         arguments.insert(arguments.begin(), file);
