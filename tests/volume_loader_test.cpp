@@ -100,9 +100,10 @@ TEST_F(Volumes, OneThatTwoMediaShareIsReadOnce) {
 
 TEST_F(Volumes, ColouredExtinctionIsRefused) {
     EXPECT_THAT(error(R"(<rgb name="sigma_t" value="1,2,3"/>)"),
-                HasSubstr("scene.xml:5:1: the extinction of a heterogeneous"));
+                HasSubstr("scene.xml:5:1: parameter 'sigma_t': the extinction of a heterogeneous"));
     write("rgb.vol", volFile({1, 1, 1}, 3, {1, 1, 1}));
-    EXPECT_THAT(error(grid("sigma_t", "rgb.vol")), HasSubstr("scene.xml:5:1: the extinction of a heterogeneous"));
+    EXPECT_THAT(error(grid("sigma_t", "rgb.vol")),
+                HasSubstr("scene.xml:5:1: parameter 'sigma_t': the extinction of a heterogeneous"));
 }
 
 TEST_F(Volumes, AlbedoAboveOneIsRefused) {
