@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Everyday scenes of many kinds, in metres, z up, which quasilux and Mitsuba 3 both render. usage: everyday_scenes.py FOLDER [SCENE...]
+"""Everyday scenes of many kinds, in metres, z up, which quasilux and Mitsuba 3 both render.
 
 They are made to find what a renderer is poor at: light through blinds and curtains, lamps in shades and under cupboards, a door ajar,
 streets by day and night. scripts/real_scenes.sh compares any of them with Mitsuba.
 """
+import argparse
 import pathlib
 import random
-import sys
 
 BLACK = '<bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>'
 PANE = '<bsdf type="thindielectric"/>'
@@ -286,10 +286,14 @@ def write(folder, name):
 
 
 def main():
-    if len(sys.argv) < 2 or not set(sys.argv[2:]) <= set(SCENES):
-        sys.exit(f"usage: everyday_scenes.py FOLDER [SCENE...], scenes: {' '.join(SCENES)}")
-    for name in sys.argv[2:] or SCENES:
-        print(write(pathlib.Path(sys.argv[1]), name))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help=f"all, or some of {', '.join(SCENES)}")
+    arguments = parser.parse_args()
+    if unknown := set(arguments.scenes) - set(SCENES):
+        parser.error(f"unknown scene {', '.join(sorted(unknown))}, expected {', '.join(SCENES)}")
+    for name in arguments.scenes or SCENES:
+        print(write(arguments.folder, name))
 
 
 if __name__ == "__main__":
