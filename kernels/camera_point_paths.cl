@@ -3,9 +3,8 @@
  * to the film. From: camera rays. To: camera points, samples. */
 #include "camera_paths.clh"
 
-/* A sample that waits for its splats is light that needs no photons: direct light and emission. */
-
-/* One work-item: the pixels of one region. */
+/* One work-item: the pixels of one region. Samples are light that needs no photons, direct light and emission, and wait
+ * for their splats. */
 __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                                 __global const uint* tables, __global CameraPoint* points,
                                 __global PointBorder* borders, __global float* samples,

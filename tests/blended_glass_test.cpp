@@ -1,6 +1,7 @@
 // A ball whose blend is half glass and half diffuse, in surroundings of radiance 1, against its closed form
 // (docs/notes/validation.md#a-ball-that-is-half-glass-and-half-diffuse). A right case passes within 3.5 standard errors of
 // 10 batches (Student t, 0.7 %; seeds are fixed).
+#include "support/path_tracing.h"
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 
@@ -45,13 +46,8 @@ MeanAndError render(double reflectance) {
     <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="{}"/></bsdf></bsdf></bsdf></shape>)",
                                                                                                 index, reflectance),
                                     Placement{});
-    RenderSettings settings;
-    settings.quasiSpecular = "all";
-    settings.quasiSpecularOverridesScene = true;
-    settings.variant = Variant::alternative;
-    settings.caustics = CausticLight::paths;
+    RenderSettings settings = pathTracing();
     settings.cameraPaths = 64;
-    settings.photonsPerPass = 10'000;
     return renderGroups(scene, settings, std::vector<int>(16, 0), 10, 8).front();
 }
 

@@ -5,6 +5,7 @@
 // so a case that passes goes on passing.
 #include "auto/prediction.h"
 #include "support/even_pilot.h"
+#include "support/path_tracing.h"
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
 #include "util/error.h"
@@ -19,16 +20,6 @@ namespace {
 
 constexpr unsigned seeds = 8, passes = 16;
 constexpr unsigned carried = 1u << LIGHT_CAUSTIC | 1u << LIGHT_QUASI_CAUSTIC | 1u << LIGHT_DIFFUSE;
-
-RenderSettings pathTracing() {
-    RenderSettings settings;
-    settings.quasiSpecular = "all";
-    settings.quasiSpecularOverridesScene = true;
-    settings.variant = Variant::alternative;
-    settings.caustics = CausticLight::paths;
-    settings.photonsPerPass = 4000;
-    return settings;
-}
 
 double meanOf(const std::vector<float>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
