@@ -13,7 +13,7 @@ __kernel void traceMeterPaths(__global const BvhNode* nodes, __global const Prim
     if (index >= pathCount(&params)) return;
     const World world = {nodes, blocks, tables, {sorted, cellStart, &params.map}, &params};
     float3 components[FILM_COMPONENTS];
-    countCut(counters, traceCameraPath(&world, index, params.pass, 1, components));
+    countCut(counters, traceCameraPath(&world, index, onlyPath(params.pass), components));
     for (uint k = 0; k < FILM_COMPONENTS; ++k) vstore3(components[k], k, samples + (size_t)index * SAMPLE_FLOATS);
 }
 
@@ -46,11 +46,11 @@ inline uint pathsAt(const World* world, uint index) {
 /* The mean of the paths of a pixel, or of a place in the grid of samples, in this pass. They look up the same photons,
  * so photons, which cost more, are traced once for all. */
 inline void tracePixel(const World* world, uint index, __global CameraCounters* counters, float3* mean) {
-    const uint paths = pathsAt(world, index);
+    const uint paths = pathsAt(world, index), all = paths + gathersApart(world->params, paths);
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] = 0;
-    for (uint path = 0; path < paths; ++path) {
+    for (uint path = 0; path < all; ++path) {
         float3 components[FILM_SAMPLES];
-        countCut(counters, traceCameraPath(world, index, world->params->pass * paths + path, paths, components));
+        countCut(counters, traceCameraPath(world, index, roleOfPath(world->params, path, paths), components));
         for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] += components[k];
     }
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] /= paths;

@@ -25,7 +25,7 @@ __kernel void traceCameraPoints(__global const BvhNode* nodes, __global const Pr
     for (uint index = first; index < last; ++index) {
         own.pixel = index / pathsPerPixel(&params);
         float3 components[FILM_SAMPLES];
-        const float cut = traceCameraPath(&world, index, params.pass, 1, components);
+        const float cut = traceCameraPath(&world, index, onlyPath(params.pass), components);
         if (cut >= 0) {
             ++own.count.cutPaths;
             own.count.cutThroughput += cut;

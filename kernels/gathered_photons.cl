@@ -20,6 +20,5 @@ __kernel void markGathered(__global const BvhNode* nodes, __global const Primiti
                          &params};
     float3 components[FILM_SAMPLES];
     const uint paths = pathsAt(&world, index);
-    for (uint k = 0; k < params.gatheringPaths; ++k)
-        traceCameraPath(&world, index, params.pass * paths + k, paths, components);
+    traceCameraPath(&world, index, roleOfPath(&params, gathersApart(&params, paths) ? paths : 0, paths), components);
 }

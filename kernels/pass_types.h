@@ -146,9 +146,8 @@ typedef struct {
     unsigned int pass;
     unsigned int bdd;
     unsigned int maxDepth;
-    unsigned int pathBlock; /* pixels of a row and column that have equally many camera paths in a pass */
-    /* So many of these gather photons, each for all; 0 where only the time of the others is asked for */
-    unsigned int gatheringPaths;
+    unsigned int pathBlock;       /* pixels of a row and column that have equally many camera paths in a pass */
+    unsigned int gathers;         /* 0 where no photons are stored, or light that needs none is all that is asked for */
     unsigned int directSamples;   /* of emitters, where a path takes direct light first */
     unsigned int causticsByPaths; /* paths find caustic light, not photons (takeRadiance) */
     unsigned int radiusBlock;     /* pixels of a row and column that share a density radius */

@@ -5,6 +5,7 @@
 #include "support/even_pilot.h"
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::optionOf, test::SamplingRule;
 
 FilmImage render(unsigned cameraPaths, unsigned passes, const char* scene = "cornell_phong.xml") {
     RenderSettings settings;
@@ -59,6 +62,29 @@ TEST(CameraPaths, OneGathersForAllInMedia) {
     EXPECT_NEAR(sumOf(render(4, 12, "furnace_medium.xml").radiance) /
                     sumOf(render(1, 12, "furnace_medium.xml").radiance),
                 1, 0.06);
+}
+
+std::vector<float> diffuseLightOfPlate(unsigned cameraPaths, SamplingRule rule = SamplingRule::right) {
+    Scene scene = projectScene("plate_checker.xml");
+    scene.sensor.width = scene.sensor.filmWidth = 24;
+    scene.sensor.height = scene.sensor.filmHeight = 18;
+    RenderSettings settings;
+    settings.photonsPerPass = 4000;
+    settings.quasiSpecular = "level:0.1";
+    settings.quasiSpecularOverridesScene = true;
+    settings.cameraPaths = cameraPaths;
+    settings.controlOptions += optionOf(rule);
+    Renderer renderer(testDevice(), scene, settings);
+    for (unsigned pass = 0; pass < 4; ++pass) renderer.renderPass(pass);
+    return renderer.develop().components[LIGHT_DIFFUSE];
+}
+
+// In media one path more gathers, whose numbers do not depend on how many others there are: nor does the light of
+// photons. Negative control: it does where the first path gathers.
+TEST(CameraPaths, InMediaOneMoreGathers) {
+    EXPECT_LT(largestDifference(diffuseLightOfPlate(4), diffuseLightOfPlate(8)), 1e-6);
+    constexpr auto wrong = SamplingRule::firstGathers;
+    EXPECT_GT(largestDifference(diffuseLightOfPlate(4, wrong), diffuseLightOfPlate(8, wrong)), 0.01) << "control";
 }
 
 // A pass costs photons + K camera seconds and leaves a variance of photons + camera / K, which is best at K^2 = (camera

@@ -98,7 +98,7 @@ void CameraStage::run(unsigned pass, const PhotonStage& photons) {
 
 void CameraStage::runWithoutGathering(const PhotonStage& photons) {
     shared::CameraParams ofPath = params(0, photons);
-    ofPath.gatheringPaths = 0;
+    ofPath.gathers = 0;
     runOn(film_, film_.beginPass(0), ofPath, {onePath_, radiusScales(0)}, photons);
 }
 
@@ -110,7 +110,7 @@ void CameraStage::runCoarse(Film& film, const shared::Camera& camera, unsigned p
     ofCoarse.coarseness = coarseBlock(params_.camera);
     ofCoarse.spread = 1.f / static_cast<float>(ofCoarse.coarseness);
     ofCoarse.radiusBlock = 1;
-    if (brings != Brings::allLight) ofCoarse.gatheringPaths = 0;
+    if (brings != Brings::allLight) ofCoarse.gathers = 0;
     ofCoarse.countsEvents = brings == Brings::rays;
     runOn(film, film.beginBatch(), ofCoarse, {paths, radiusScales(0)}, photons);
 }

@@ -52,7 +52,7 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     // The meter's own scattering does not count (kernels/meter.clh).
     params.bdd = settings.bdd + (meterIsGenuineDiffuse(flat.features, settings) ? 1 : 0);
     params.maxDepth = maxDepth;
-    params.gatheringPaths = 1;
+    params.gathers = photonClasses(flat.features, settings) != 0;
     params.coarseness = 1;
     params.spread = 1;
     params.directSamples = 1;

@@ -30,8 +30,9 @@ enum class PhotonRule {
     missingStoreWeight
 };
 
-/// Camera paths by pixel, or a mistake: the path that gathers for all of a pixel counts as if there were four.
-enum class SamplingRule { right, fourEverywhere };
+/// Camera paths of a pixel, or a mistake: the path that gathers for all counts as if there were four; or it is the first
+/// one, whose numbers are every fourth, eighth, ... of a sequence.
+enum class SamplingRule { right, fourEverywhere, firstGathers };
 
 /// Axes of lobes, or a mistake: those of anisotropic ones follow from the normal alone.
 enum class SurfaceRule { right, axesByNormal };
