@@ -302,6 +302,8 @@ typedef struct {
  * the table in the world, unit; radius: of a sphere about the shape. At an angle a from `normal` its intensity is at
  * most that of a surface which looks cutoffAngle nearer to it: cos(a - cutoffAngle) of the largest one. */
 #define EMITTER_GONIOGRAM 10u
+/* Instead of an index, of shapes that the camera looks through as it does through those that emit (hide_emitters). */
+#define EMITTER_OFF 0xfffffffeu
 
 typedef struct {
     unsigned int type;

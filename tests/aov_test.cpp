@@ -252,6 +252,14 @@ TEST(Aovs, ForecastHasTheLayers) {
     EXPECT_NEAR(all - bytes(), ofTwelveFloats, 0.05 * ofTwelveFloats);
 }
 
+// Depth and normals of a model that nothing lights.
+TEST(Aovs, NeedNoLight) {
+    const Scene dark = sceneOf(twoShapes, "");
+    EXPECT_THAT(dark.warnings, testing::ElementsAre(testing::HasSubstr("the scene has no emitter")));
+    EXPECT_EQ(channelsOf(dark), channelsOf(sceneOf(twoShapes)));
+    EXPECT_NE(channelsOf(dark), channelsOf(sceneOf(twoShapes, "", 0.1))) << "control";
+}
+
 TEST(Aovs, AreNotTracedUnlessAskedFor) {
     test::SceneFiles files;
     const Scene scene = loadScene(files.write("scene.xml", test::sceneWith(diffuse)));

@@ -363,6 +363,25 @@ TEST(PrincipledBsdf, IsASumOfLobes) {
     EXPECT_EQ(metallic.front[1].device.reflectanceTexture, 0u);
 }
 
+std::string number(const std::string& name, double value) {
+    return fmt::format("<float name=\"{}\" value=\"{}\"/>", name, value);
+}
+
+// As Mitsuba 3.9 takes them: an index below 1, and for light that passes one of 1 is a little more.
+TEST(PrincipledBsdf, TakesEveryIndexAboveZero) {
+    const auto principled = [](const std::string& name, double value, double transmitted) {
+        return loadBsdf("<bsdf type=\"principled\">" + number(name, value) + number("spec_trans", transmitted) +
+                        "</bsdf>");
+    };
+    EXPECT_FLOAT_EQ(principled("eta", 0.8, 0).front.at(1).device.eta.r, 0.8f);
+    EXPECT_EQ(principled("eta", 1, 0).front.size(), 1u) << "no index, no reflection";
+    const Bsdf thinner = principled("eta", 0.8, 1);
+    EXPECT_FLOAT_EQ(thinner.front.back().device.eta.r, 0.8f);
+    EXPECT_FLOAT_EQ(thinner.back.at(0).device.eta.r, 1.25f);
+    EXPECT_FLOAT_EQ(principled("eta", 1, 1).front.back().device.eta.r, 1.001f);
+    EXPECT_NEAR(principled("specular", 0, 1).front.back().device.eta.r, 2 / (1 - std::sqrt(0.08e-3)) - 1, 1e-6);
+}
+
 TEST(TwoSidedBsdf, SameOrDifferentSides) {
     const Bsdf same = loadBsdf(R"(<bsdf type="twosided"><bsdf type="phong"/></bsdf>)");
     EXPECT_EQ(same.front.size(), 2u);

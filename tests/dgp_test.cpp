@@ -127,14 +127,18 @@ TEST(DaylightGlare, ItsErrorBoundsWhatCommonErrorsDo) {
 
 class DgpTest : public CommandLineTest {
 protected:
-    DgpTest() {
+    DgpTest() { writeEye("eye.exr", ""); }
+
+    /// `units`: what the header says of them, or nothing.
+    void writeEye(const char* name, const char* units) const {
         const View view{Projection::equidistant, pi};
         const LuminanceImage image = imageOf(view, 200, twoLamps);
         std::vector<float> rgb;
         for (const float value : image.values) rgb.insert(rgb.end(), 3, value / 683);
-        const OIIO::ImageSpec spec(200, 200, 3, OIIO::TypeDesc::FLOAT);
+        OIIO::ImageSpec spec(200, 200, 3, OIIO::TypeDesc::FLOAT);
+        if (*units) spec.attribute("quasilux:units", units);
         const auto file = OIIO::ImageOutput::create("openexr");
-        file->open((folder / "eye.exr").string(), spec);
+        file->open((folder / name).string(), spec);
         file->write_image(OIIO::TypeDesc::FLOAT, rgb.data());
         file->close();
     }
@@ -151,6 +155,19 @@ TEST_F(DgpTest, IsPrinted) {
     EXPECT_EQ(json["sources"].size(), 2u);
     EXPECT_TRUE(json["standardErrorAtMost"].is_null());
     EXPECT_THAT(run({"dgp", "eye.exr", "--illuminance", "100"}).errors, HasSubstr("DGP was made from 380 lx on"));
+}
+
+// Of a sky in W per nanometre luminances are 107 times too low, so that what glares seems not to.
+TEST_F(DgpTest, WarnsOfASkyPerNanometre) {
+    writeEye("sky.exr", "radiometric per nanometre");
+    writeEye("watts.exr", "radiometric");
+    EXPECT_THAT(run({"dgp", "sky.exr"}).errors, HasSubstr("sky.exr: the sky of its scene is in W per nanometre"));
+    const auto json = nlohmann::json::parse(run({"dgp", "sky.exr", "--json"}).output);
+    EXPECT_THAT(json["warnings"].dump(), HasSubstr("106.75"));
+    EXPECT_EQ(run({"dgp", "watts.exr"}).errors, "") << "control";
+    EXPECT_EQ(run({"dgp", "sky.exr", "--photometric"}).errors.find("nanometre"), std::string::npos);
+    EXPECT_THAT(run({"falsecolour", "sky.exr", "-o", "sky.svg"}).errors, HasSubstr("cd/m² are some 107 times too low"));
+    EXPECT_EQ(run({"falsecolour", "watts.exr", "-o", "sky.svg"}).errors, "") << "control";
 }
 
 TEST_F(DgpTest, RefusesBadInput) {

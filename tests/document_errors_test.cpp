@@ -27,8 +27,6 @@ TEST_P(BadSceneFile, IsRefused) {
 const BadFile badFiles[] = {
     {"Empty", "", "malformed XML"},
     {"NoSensor", "<scene version=\"3.0.0\"><emitter type=\"point\"/></scene>", "scene.xml: the scene has no <sensor>"},
-    {"NoEmitter", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/></scene>",
-     "scene.xml: the scene has no emitter"},
     {"NoVersion", "<scene/>", "scene.xml:1:1: <scene> needs the attribute 'version'"},
     {"BadVersion", "<scene version=\"three\"/>", "scene.xml:1:1: version 'three' is not a version"},
     {"OtherRoot", "<bsdf type=\"diffuse\"/>", "scene.xml:1:1: the outermost element is <bsdf>"},

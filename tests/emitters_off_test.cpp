@@ -1,4 +1,5 @@
-// Emitters that emit nothing are left out with a warning, as scenes from the web have them; Mitsuba's image is the same.
+// Emitters that emit nothing are left out with a warning, as scenes from the web have them, and a scene without light
+// is black with one; Mitsuba's images are the same.
 #include "support/scene_files.h"
 
 #include <gmock/gmock.h>
@@ -62,10 +63,13 @@ TEST_P(OffEmitter, IsLeftOutWithAWarning) {
                 ElementsAre(testing::AllOf(HasSubstr("scene.xml:4:"), HasSubstr("is off: all that it emits is 0"))));
 }
 
-TEST_P(OffEmitter, IsNotEnoughForAScene) {
-    const std::string path =
-        files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + GetParam() + "</scene>");
-    EXPECT_THAT(test::errorOf(path), HasSubstr("every emitter of the scene is off"));
+TEST_P(OffEmitter, LeavesASceneWithoutLight) {
+    const Scene scene = loadScene(
+        files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + GetParam() + "</scene>"));
+    EXPECT_EQ(emittersOf(scene), 0u);
+    EXPECT_THAT(scene.warnings,
+                ElementsAre(HasSubstr("is off"), HasSubstr("scene.xml: every emitter of the scene is off, so its image "
+                                                           "is black")));
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, OffEmitter, testing::ValuesIn(offEmitters));
 
@@ -84,6 +88,25 @@ TEST(EmittersOff, SurroundingsMayFollowOnesThatAreOff) {
     const Scene scene = test::loadBody(of("constant", R"(<rgb name="radiance" value="0"/>)") +
                                        of("constant", R"(<rgb name="radiance" value="2"/>)"));
     EXPECT_EQ(scene.surroundings.value().radiance.g, 2);
+}
+
+TEST(EmittersOff, NoneAtAllIsAWarning) {
+    const auto warnings = [](const std::string& integrator) {
+        const test::SceneFiles files;
+        return loadScene(files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" +
+                                                      integrator + "</scene>"))
+            .warnings;
+    };
+    EXPECT_THAT(warnings(""), ElementsAre(testing::AllOf(HasSubstr("the scene has no emitter, so its image is black"),
+                                                         testing::Not(HasSubstr("aov")))));
+    EXPECT_THAT(warnings(R"(<integrator type="aov"><string name="aovs" value="d:depth"/></integrator>)"),
+                ElementsAre(HasSubstr("The layers of the integrator 'aov' need no light.")));
+}
+
+TEST(EmittersOff, AreKeptInMindForHiding) {
+    EXPECT_TRUE(test::loadShape(inShape(of("area", R"(<rgb name="radiance" value="0"/>)"))).emitterIsOff);
+    EXPECT_FALSE(test::loadShape(inShape(of("area", R"(<rgb name="radiance" value="1"/>)"))).emitterIsOff);
+    EXPECT_FALSE(test::loadShape("<shape type=\"rectangle\"/>").emitterIsOff);
 }
 
 TEST(EmittersOff, NegativeOnesAreRefused) {

@@ -1,5 +1,6 @@
 // What makes `quasilux render` handy: several scenes, watching files, warnings as errors, terminals.
 #include "cli/terminal_picture.h"
+#include "compare/image_file.h"
 #include "output/progress_line.h"
 #include "scene/scene.h"
 #include "scene/xml/read_files.h"
@@ -102,6 +103,36 @@ TEST_F(HabitsTest, SceneAloneIsRendered) {
     EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr("wrote a.exr"));
     EXPECT_THAT(run({"gone.xml"}).errors, HasSubstr("gone.xml"));
+}
+
+// A model that nothing lights yet: black by every method.
+TEST_F(HabitsTest, ASceneWithoutLightIsBlack) {
+    std::ofstream(folder / "off.xml") << replaced("value=\"1\"", "value=\"0\"");
+    std::ofstream(folder / "none.xml") << replaced(R"(<emitter type="area"><rgb name="radiance" value="1"/></emitter>)",
+                                                   R"(<bsdf type="plastic"/>)");
+    const std::vector<std::vector<std::string>> methods = {{"--time", "0.2"},
+                                                           {"--fixed", "--passes", "2"},
+                                                           {"--fixed", "--passes", "2", "--direct", "photons"},
+                                                           {"--fixed", "--passes", "2", "--map", "camera"}};
+    const auto radiances = [&](const std::string& scene, const std::vector<std::string>& method, Outcome& outcome) {
+        std::vector<std::string> arguments{"render", scene, "-o", "image.exr"};
+        arguments.insert(arguments.end(), method.begin(), method.end());
+        outcome = run(arguments);
+        return readRadiance((folder / "image.exr").string()).radiance;
+    };
+    Outcome outcome;
+    for (const char* scene : {"off.xml", "none.xml"})
+        for (const auto& method : methods) {
+            EXPECT_THAT(radiances(scene, method, outcome), testing::Each(0.0f)) << scene << method[0];
+            EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+            EXPECT_THAT(outcome.errors, HasSubstr("so its image is black"));
+            EXPECT_THAT(outcome.errors, Not(HasSubstr("not finite")));
+        }
+    std::ofstream(folder / "lit.xml") << replaced("<shape", "<emitter type=\"constant\"/><shape");
+    EXPECT_THAT(radiances("lit.xml", methods[1], outcome), Not(testing::Each(0.0f))) << "control";
+    EXPECT_THAT(outcome.errors, Not(HasSubstr("black"))) << "control";
+    EXPECT_EQ(run({"info", "none.xml"}).exitCode, 0);
+    EXPECT_EQ(run({"none.xml", "--strict", "--fixed", "--passes", "1"}).exitCode, 2);
 }
 
 TEST_F(HabitsTest, EachSceneHasItsOutput) {

@@ -113,11 +113,11 @@ TEST(Lenient, ValuesOutOfRangeBecomeTheNearest) {
 }
 
 TEST(Lenient, OtherIntegratorsAndSamplersStandForPath) {
-    const Scene scene = loadLeniently("<integrator type=\"ptracer\"/>");
+    const Scene scene = loadLeniently("<integrator type=\"depth\"/>");
     EXPECT_EQ(scene.maxDepth, -1);
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("1 thing is unknown"),
-                                            HasSubstr("scene.xml:4:1: integrator 'ptracer' is not supported: use "
-                                                      "'path'")));
+                                            HasSubstr("scene.xml:4:1: integrator 'depth' is not supported: it draws "
+                                                      "distances")));
     loadLeniently("<sensor type=\"perspective\"><sampler type=\"dice\"/></sensor>");
 }
 

@@ -173,14 +173,15 @@ TEST(PrincipledThin, IsTheSumOfItsLobesOnBothSides) {
     EXPECT_FLOAT_EQ(f[5].device.transmittance.r, float(0.5 * 0.25));
     EXPECT_NEAR(f[5].device.alphaU, std::pow((0.65 * 1.6 - 0.35) * 0.6, 2), 1e-6);
     EXPECT_EQ(thin(number("spec_trans", 1) + number("eta", 1)).front.size(), 1u) << "no index, no reflection";
+    EXPECT_EQ(thin(number("spec_trans", 1) + number("eta", 0.8)).front.size(), 2u) << "below 1 there is one again";
 }
 
 TEST(PrincipledThin, SaysWhatIsWrong) {
     test::SceneFiles files;
     const std::pair<std::string, const char*> bad[] = {
         {"\n<float name=\"diff_trans\" value=\"2.5\"/>", "scene.xml:5:1: parameter 'diff_trans' is 2.5; expected 0"},
-        {"\n<float name=\"eta\" value=\"0.9\"/>",
-         "scene.xml:5:1: parameter 'eta' of bsdf 'principledthin' is 0.9; it must be at least 1"},
+        {"\n<float name=\"eta\" value=\"0\"/>",
+         "scene.xml:5:1: parameter 'eta' of bsdf 'principledthin' is 0; it must be greater than 0"},
         {"\n<float name=\"metallic\" value=\"0.9\"/>",
          "scene.xml:5:1: unknown parameter 'metallic' of bsdf 'principledthin'"},
         {"\n<texture type=\"checkerboard\" name=\"eta\"/>",

@@ -157,6 +157,8 @@ TEST_F(ReportTest, RefusesBadInput) {
     expectRefused({"report", "room.xml", "-o", "room.pdf"}, "expected a name that ends in .html");
     expectRefused({"report", "room.xml", "-o", "room.html", "--precision", "2"}, "--precision");
     expectRefused({"report", "nowhere.xml", "-o", "room.html"}, "nowhere.xml");
+    write("dark.xml", camera + grid + observer);
+    expectRefused({"report", "dark.xml", "-o", "room.html"}, "the scene has no light, so that every figure");
 }
 
 } // namespace

@@ -227,6 +227,12 @@ TEST(HiddenEmitters, CameraLooksThroughThemAndSeesNoSky) {
         EXPECT_NEAR(hidden.mean, truth, 4 * hidden.standardError + 0.005 * truth) << kind;
     }
     EXPECT_GT(meanOfImage(floorUnderSpot("", lamp), DirectLight::emitters, false).mean, 90) << "control: it is seen";
+    // One that is off is hidden too, as in Mitsuba.
+    std::string off = lamp;
+    off.replace(off.find("100"), 3, "0");
+    const auto hidden = meanOfImage(floorUnderSpot(hide, off), DirectLight::emitters, false);
+    EXPECT_NEAR(hidden.mean, truth, 4 * hidden.standardError + 0.005 * truth);
+    EXPECT_EQ(meanOfImage(floorUnderSpot("", off), DirectLight::emitters, false).mean, 0) << "control: a black plate";
     // Nothing but sky in the picture.
     const auto sky = [](const std::string& integrator) {
         test::SceneFiles files;

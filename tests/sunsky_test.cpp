@@ -237,6 +237,8 @@ TEST(SunSkyReader, SaysThatLuxAreTooLow) {
     EXPECT_FALSE(isSaid(sunsky(highSun + watts) + grid));
     EXPECT_FALSE(isSaid(sunsky(noSun + highSun + "<float name=\"sky_scale\" value=\"106.75\"/>") + grid));
     EXPECT_FALSE(isSaid(sunsky(highSun) + grid + "<?quasilux units=\"photometric\"?>"));
+    EXPECT_TRUE(isSaid(sunsky(highSun) + "<sensor type=\"quasilux_fisheye\"/>")) << "its image is rated for glare";
+    EXPECT_FALSE(isSaid(sunsky(highSun) + "<sensor type=\"perspective\"/>"));
 }
 
 TEST(SunSkyReader, SaysWhatIsWrong) {

@@ -37,8 +37,9 @@ const char* classOf(double probability) {
     return probability <= 0.45 ? "disturbing" : "intolerable";
 }
 
-std::vector<std::string> warningsOf(const DaylightGlare& glare) {
+std::vector<std::string> warningsOf(const LuminanceImage& image, const std::string& path, const DaylightGlare& glare) {
     std::vector<std::string> warnings;
+    if (const auto warning = warningOfUnits(image, path)) warnings.push_back(*warning);
     if (glare.illuminance < leastIlluminanceOfGlare)
         warnings.push_back(fmt::format("{:.4g} lx at the eye: DGP was made from {:g} lx on", glare.illuminance,
                                        leastIlluminanceOfGlare));
@@ -48,7 +49,8 @@ std::vector<std::string> warningsOf(const DaylightGlare& glare) {
     return warnings;
 }
 
-nlohmann::json glareJson(const DgpOptions& options, const DaylightGlare& glare) {
+nlohmann::json glareJson(const DgpOptions& options, const DaylightGlare& glare,
+                         const std::vector<std::string>& warnings) {
     nlohmann::json sources = nlohmann::json::array();
     for (const auto& source : glare.sources)
         sources.push_back({{"luminance", source.luminance},
@@ -66,7 +68,7 @@ nlohmann::json glareJson(const DgpOptions& options, const DaylightGlare& glare) 
             {"covered", glare.covered},
             {"threshold", options.threshold},
             {"sources", sources},
-            {"warnings", warningsOf(glare)}};
+            {"warnings", warnings}};
 }
 
 std::string within(const std::optional<double>& error) {
@@ -104,10 +106,12 @@ int dgpCommand(const DgpOptions& options) {
                                      "known; give --illuminance LX, "
                                      "as a meter at the eye reads it, or a fisheye image of 180 degrees",
                                      options.input, 100 * glare.covered));
+    const auto warnings = warningsOf(image, options.input, glare);
     if (!options.quiet)
-        for (const auto& warning : warningsOf(glare)) printWarning(warning);
+        for (const auto& warning : warnings) printWarning(warning);
     if (options.json)
-        fmt::print("{}\n", glareJson(options, glare).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        fmt::print("{}\n",
+                   glareJson(options, glare, warnings).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else if (!options.quiet)
         printGlare(options, glare);
     return 0;

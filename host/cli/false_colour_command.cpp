@@ -3,6 +3,7 @@
 #include "cli/drawing_file.h"
 #include "photometry/isolux.h"
 #include "util/error.h"
+#include "util/messages.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -43,6 +44,7 @@ Drawing drawingOfImage(const FalseColourOptions& options, const std::string& tit
     requireImage(options);
     const LuminanceImage image =
         readLuminance(options.input, options.photometric ? ImageUnits::photometric : ImageUnits::asHeaderSays);
+    if (const auto warning = warningOfUnits(image, options.input); warning && !options.quiet) printWarning(*warning);
     const ValueScale scale = options.range.empty() ? scaleOfImage(image, options.logarithmic) : givenScale(options);
     return falseColourDrawing(image, {parseColourMap(options.map), scale}, title);
 }

@@ -24,6 +24,7 @@ RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device
     record.gathered = render.gathered;
     record.search = render.search;
     record.error = estimateError(render.image);
+    record.isPerNanometre = scene.surroundings && scene.surroundings->isPerNanometre;
     record.meter = scene.sensor.meter;
     if (record.meter == MeterKind::grid) record.grids = scene.grids;
     for (IlluminanceGrid& grid : record.grids) grid.origin += scene.origin;

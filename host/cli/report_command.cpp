@@ -46,6 +46,9 @@ public:
         content_.hasSky = scene_.surroundings || !scene_.directionalEmitters.empty();
         content_.luminaires = luminairesOf(scene_, photometric_);
         content_.otherLamps = otherLamps();
+        if (content_.luminaires.empty() && content_.otherLamps == 0)
+            throw InputError({options_.scene}, "the scene has no light, so that every figure of a report is 0 or "
+                                               "unknown; add an emitter, or turn one on.");
         const bool hasPicture = scene_.sensor.meter == MeterKind::none;
         sharesLeft_ = (directShare + observerShare) * static_cast<double>(observers().size()) +
                       (scene_.grids.empty() ? 0 : gridShare) + (hasPicture ? pictureShare : 0);

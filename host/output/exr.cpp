@@ -112,7 +112,7 @@ void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
     record.forEachSetting(set);
     set("kernels", settings.genericKernels ? "generic" : "scene");
     set("quantity", quantityName(record.meter));
-    set("units", settings.photometric ? "photometric" : "radiometric");
+    set("units", record.units());
     if (record.fisheye) {
         set("projection", record.fisheye->projection);
         set("fov", record.fisheye->degrees);

@@ -36,6 +36,7 @@ struct RenderRecord {
     ErrorEstimate error;
     PixelFormat pixelFormat;            ///< what the image holds beside R, G, B
     std::optional<FisheyeView> fisheye; ///< how the image shows directions, if by a fisheye in the middle of its film
+    bool isPerNanometre = false;        ///< surroundings are in W per nanometre, of which 683 lm/W makes no lux
     MeterKind meter = MeterKind::none;  ///< what the image's values are: radiance, or of area and grid irradiance
     std::vector<IlluminanceGrid> grids; ///< whose points the image has one after the other, where the file has them
     std::optional<double> unobstructedIlluminance; ///< lx, of which illuminances are stated as daylight factors too
@@ -72,6 +73,11 @@ struct RenderRecord {
         visit("nonFinite", counters.nonFinite);
     }
 
+    /// Of radiance and irradiance.
+    const char* units() const {
+        if (settings.photometric) return "photometric";
+        return isPerNanometre ? "radiometric per nanometre" : "radiometric";
+    }
     /// Emitted in each pass: what was asked for or, if that was left open, what was chosen.
     unsigned photonsPerPass() const { return report.photonsPerPass ? report.photonsPerPass : settings.photonsPerPass; }
 };

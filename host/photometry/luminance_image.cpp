@@ -43,13 +43,22 @@ LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector
 LuminanceImage readLuminance(const std::string& path, ImageUnits units) {
     const RadianceImage image = readRadiance(path);
     const OIIO::ImageSpec header = headerOf(path);
-    const bool photometric =
-        units == ImageUnits::photometric || header.get_string_attribute("quasilux:units") == "photometric";
+    const std::string stated = header.get_string_attribute("quasilux:units");
+    const bool photometric = units == ImageUnits::photometric || stated == "photometric";
     LuminanceImage found = luminanceImage(image.width, image.height, image.radiance, image.standardError, photometric);
+    found.isPerNanometre = !photometric && stated == "radiometric per nanometre";
     found.isIlluminance = header.get_string_attribute("quasilux:quantity") == "irradiance";
     const std::string projection = header.get_string_attribute("quasilux:projection");
     if (!projection.empty()) found.fisheye = {projection, header.get_float_attribute("quasilux:fov")};
     return found;
+}
+
+std::optional<std::string> warningOfUnits(const LuminanceImage& image, const std::string& path) {
+    if (!image.isPerNanometre) return std::nullopt;
+    return fmt::format("{}: the sky of its scene is in W per nanometre, so that {} are some 107 times too low; set "
+                       "sun_scale and sky_scale to 106.75 there, or begin the scene with <?quasilux "
+                       "units=\"photometric\"?>",
+                       path, image.unit());
 }
 
 } // namespace quasilux

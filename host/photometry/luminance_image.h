@@ -16,6 +16,7 @@ struct LuminanceImage {
     std::string conversion; ///< by which it was made of R, G, B
     /// Of a fisheye, if the header says so: how it shows directions, and how many degrees it is wide.
     std::optional<std::pair<std::string, double>> fisheye;
+    bool isPerNanometre = false; ///< made of W per nanometre, so that it is some 107 times too low
 
     const char* unit() const { return isIlluminance ? "lx" : "cd/m²"; }
 };
@@ -27,6 +28,8 @@ enum class ImageUnits { asHeaderSays, photometric };
 /// An image as readRadiance() takes it, of radiance or, if its header says so, of irradiance. 683 lm/W over the
 /// primaries of sRGB (docs/method/meters.md). Throws InputError.
 LuminanceImage readLuminance(const std::string& path, ImageUnits units);
+/// What there is to say of its units; nothing, mostly.
+std::optional<std::string> warningOfUnits(const LuminanceImage& image, const std::string& path);
 
 /// Of linear sRGB pixels, interleaved.
 LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector<float>& rgb,

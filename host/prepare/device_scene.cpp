@@ -67,7 +67,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
                                                                 [](const auto& g) { return !g.segments.empty(); });
     features.instances = !scene.instances.empty();
     features.depthLimit = scene.maxDepth >= 0;
-    features.hiddenEmitters = scene.hideEmitters && !isIrradiance(scene.sensor.meter);
+    features.hiddenEmitters = hidesEmitters(scene);
     features.orthographicCamera = scene.sensor.orthographic;
     features.fisheyeCamera = scene.sensor.fisheye != FISHEYE_NONE;
     features.thinLens = scene.sensor.apertureRadius > 0;

@@ -23,6 +23,7 @@ struct EmitterTables {
     std::vector<double> power;                ///< W, mean of R, G, B
     std::vector<double> radiance; ///< mean of R, G, B, over what it sends; 0 where no path can meet the emitter
     std::vector<std::string> ids;
+    bool hasLight = true; ///< false: the only one stands in for those that the scene lacks
 
     /// Emitters in the tree, the first ones; 0: there is none.
     unsigned countInTree() const { return static_cast<unsigned>((lightTree.size() + 1) / 2); }
@@ -118,6 +119,8 @@ MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>&
 /// Media and what they refer to, each by its distance from the record that names it.
 unsigned appendMedia(MediumTables media, SceneTableWriter& tables);
 double scatteringArea(const Scene& scene);
+/// Whether the camera looks through shapes that emit; irradiance meters do not.
+bool hidesEmitters(const Scene& scene);
 /// Whether a shape is no more than a place that light passes: a `null` bsdf that bounds no medium.
 bool passesLight(const Scene& scene, const ShapeDescription& shape);
 

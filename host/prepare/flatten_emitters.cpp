@@ -243,6 +243,22 @@ void addDistantEmitters(const Scene& scene, EmitterTables& tables) {
     }
 }
 
+/// Kernels need an emitter: of a scene without light a faint one that shines from outside of it away from it.
+void addNoLight(const Scene& scene, EmitterTables& tables) {
+    const Sphere bounds = boundingSphere(scene);
+    PointEmitter point;
+    point.position = bounds.center + glm::vec3(0, 0, 2 * bounds.radius);
+    point.intensity = {1e-9f, 1e-9f, 1e-9f};
+    point.spot = {glm::vec3(0, 0, 1), pi / 8, pi / 4};
+    double power = 0;
+    tables.emitters.push_back(pointEmitter(point, scene.textures, {}, &power));
+    tables.emitters.back().medium = MEDIUM_NONE;
+    tables.power.push_back(power);
+    tables.radiance.push_back(0);
+    tables.ids.push_back("none");
+    tables.hasLight = false;
+}
+
 // Of fewer emitters all can be listed by what was learned.
 constexpr size_t manyEmitters = LIGHT_CHOICES;
 
@@ -307,6 +323,7 @@ EmitterTables flattenEmitters(const Scene& scene, const MediumPlacement& placeme
     }
     sortIntoTree(tables);
     addDistantEmitters(scene, tables);
+    if (tables.emitters.empty()) addNoLight(scene, tables);
     setSelection(tables);
     return tables;
 }

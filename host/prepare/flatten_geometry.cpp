@@ -21,6 +21,8 @@ bool passesLight(const Scene& scene, const ShapeDescription& shape) {
     return isNull(scene, shape) && !shape.interior && !shape.exterior;
 }
 
+bool hidesEmitters(const Scene& scene) { return scene.hideEmitters && !isIrradiance(scene.sensor.meter); }
+
 std::vector<BvhPrimitive> flattenPrimitives(const Scene& scene, std::span<const ShapeDescription> shapes) {
     std::vector<BvhPrimitive> primitives;
     for (const auto& shape : shapes) {
@@ -52,7 +54,7 @@ std::vector<shared::Shape> flattenShapes(const Scene& scene, const std::vector<u
         const auto& shape = scene.shapes[k];
         shared::Shape record{};
         record.material = static_cast<unsigned>(shape.bsdf);
-        record.emitter = emitterOfShape[k];
+        record.emitter = shape.emitterIsOff && hidesEmitters(scene) ? EMITTER_OFF : emitterOfShape[k];
         record.firstPrimitive = primitive;
         record.firstNormal = shape.mesh.cornerNormals.empty() ? QL_NONE : normal;
         record.normalSign = shape.flipNormals ? -1.f : 1.f;

@@ -72,7 +72,7 @@ SceneReport describeScene(const Scene& scene, const DeviceScene& flat, const Ren
     report.borderSegments = flat.borderSegments;
     report.instances = flat.instances;
     report.features = compiledFeatures(flat, settings).names();
-    for (size_t k = 0; k < flat.emitters.emitters.size(); ++k)
+    for (size_t k = 0; flat.emitters.hasLight && k < flat.emitters.emitters.size(); ++k)
         report.emitters.push_back({flat.emitters.ids[k], emitterTypeName(flat.emitters.emitters[k].type),
                                    flat.emitters.power[k], flat.emitters.radiance[k]});
     for (size_t k = 0; k < scene.bsdfs.size(); ++k) {

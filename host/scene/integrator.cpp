@@ -110,6 +110,7 @@ constexpr IntegratorPlugin integratorPlugins[] = {
     {"bdpt", readFormer},         {"mlt", readFormer},      {"pssmlt", readFormer},
     {"erpt", readFormer},         {"prb", readPath},        {"prb_basic", readPath},
     {"prb_projective", readPath}, {"prbvolpath", readPath}, {"direct_projective", readDirect},
+    {"ptracer", readPath},
 };
 
 } // namespace

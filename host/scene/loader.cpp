@@ -209,20 +209,23 @@ void readSensors(const std::vector<PlacedSensor>& sensors, const LoadChoice& cho
                              others, further.size() == 1 ? "this one" : "another"));
 }
 
-void checkEmitters(const LoadContext& context) {
+/// As in Mitsuba it is no error, though only its layers may be worth anything.
+void checkEmitters(LoadContext& context) {
     const Scene& scene = context.scene;
     const bool emits = std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                    [](const auto& shape) { return shape.emitter.has_value(); });
     if (emits || !scene.pointEmitters.empty() || !scene.directionalEmitters.empty() || scene.surroundings) return;
+    const std::string layers = scene.aovs.empty() ? "" : " The layers of the integrator 'aov' need no light.";
     if (context.emittersOff > 0)
-        throw InputError({scene.path}, "every emitter of the scene is off, so its image is black; give one of them a "
-                                       "radiance, intensity, irradiance or scale above 0.");
-    throw InputError(
-        {scene.path},
-        "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or add "
-        "<emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or <emitter "
-        "type=\"envmap\">." +
-            std::string(scene.aovs.empty() ? "" : " It changes no layer of the integrator 'aov'."));
+        context.warn({scene.path}, "every emitter of the scene is off, so its image is black; give one of them a "
+                                   "radiance, intensity, irradiance or scale above 0." +
+                                       layers);
+    else
+        context.warn({scene.path},
+                     "the scene has no emitter, so its image is black; put <emitter type=\"area\"> into a shape, or "
+                     "add <emitter type=\"point\">, <emitter type=\"directional\">, <emitter type=\"constant\"> or "
+                     "<emitter type=\"envmap\">." +
+                         layers);
 }
 
 /// Lux that are asked for of a sky that has none.
@@ -230,12 +233,13 @@ void checkUnitsOfSky(LoadContext& context) {
     const Scene& scene = context.scene;
     if (!scene.surroundings || !scene.surroundings->isPerNanometre) return;
     if (isIrradiance(scene.sensor.meter) || !scene.grids.empty() || !scene.observers.empty() ||
-        !scene.luminaireTypes.empty())
-        context.warn(scene.surroundings->where,
-                     fmt::format("emitter '{}' is in W per nanometre, so that lux are some 107 times too low, and too "
-                                 "low beside luminaires; set sun_scale and sky_scale to 106.75, or begin the scene "
-                                 "with <?quasilux units=\"photometric\"?>.",
-                                 scene.surroundings->plugin));
+        !scene.luminaireTypes.empty() || scene.sensor.fisheye != FISHEYE_NONE)
+        context.warn(
+            scene.surroundings->where,
+            fmt::format("emitter '{}' is in W per nanometre, so that lux and cd/m² are some 107 times too "
+                        "low, beside luminaires too; set sun_scale and sky_scale to 106.75, or begin the scene "
+                        "with <?quasilux units=\"photometric\"?>.",
+                        scene.surroundings->plugin));
 }
 
 /// What is read more than once, such as a group by its instances, says what it has to say each time.

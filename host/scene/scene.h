@@ -185,6 +185,7 @@ struct ShapeDescription {
     bool flipNormals = false;                ///< already applied to a mesh's winding; a sphere's normal points inwards
     int bsdf = -1;                           ///< index into Scene::bsdfs
     std::optional<AreaEmitter> emitter;
+    bool emitterIsOff = false; ///< it has one that emits nothing; `hide_emitters` hides it all the same
     std::optional<unsigned> interior, exterior; ///< media as stated, index into Scene::media
 };
 

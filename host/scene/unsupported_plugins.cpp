@@ -35,7 +35,6 @@ constexpr Unsupported unsupported[] = {
      "it moves the sun while the shutter is open; use 'sunsky', which has one place and time"},
     {"sensor", "distant",
      "use sensor 'orthographic', whose rays are parallel too, or 'radiancemeter' for a single ray"},
-    {"integrator", "ptracer", "use 'path', or 'volpath' where there are media: photons are traced for either"},
     {"integrator", "depth", "it draws distances, not light; use 'aov' with a layer such as dd:depth"},
     {"integrator", "emission", "use 'path' with max_depth 1"},
     {"integrator", "stokes", "light has no polarisation here; use the integrator within it"},

@@ -134,6 +134,7 @@ void EditedScene::apply(const ViewEdits& edits) {
         auto& emitter = scene_.shapes[k].emitter = original_.byShape[k];
         emitter->radiance = emitter->radiance * factor();
         if (isBlack(emitter->radiance)) emitter.reset();
+        scene_.shapes[k].emitterIsOff = !emitter.has_value();
         lit += emitter.has_value();
     }
     scene_.pointEmitters = original_.points;

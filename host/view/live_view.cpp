@@ -44,6 +44,7 @@ void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& s
     record_.device = device.info();
     record_.workGroupSize = device.workGroupSize();
     record_.stop = stop;
+    record_.isPerNanometre = scene.surroundings && scene.surroundings->isPerNanometre;
     record_.meter = scene.sensor.meter;
     record_.fisheye = fisheyeViewOf(scene.sensor);
     record_.pixelFormat = scene.sensor.pixelFormat;

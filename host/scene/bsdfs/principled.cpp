@@ -7,12 +7,17 @@ namespace quasilux {
 
 namespace {
 
-/// `eta`, or `specular`, which stands for reflectances up to 8 % at normal incidence.
-double readEta(Properties& properties) {
+/// `eta`, or `specular`, which stands for reflectances up to 8 % at normal incidence. An index of 1 bends no light
+/// that is transmitted: as in Mitsuba it is a little more then.
+double readEta(Properties& properties, bool transmits) {
     if (properties.has("eta") && properties.has("specular"))
         throw InputError(properties.where("specular"), "principled has both eta and specular; keep one.");
-    if (!properties.has("eta")) return 2 / (1 - std::sqrt(0.08 * properties.share("specular", 0.5))) - 1;
-    return readPrincipledIndex(properties);
+    if (properties.has("eta")) {
+        const double eta = readPrincipledIndex(properties);
+        return transmits && eta == 1 ? 1.001 : eta;
+    }
+    const double specular = properties.share("specular", 0.5);
+    return 2 / (1 - std::sqrt(0.08 * (transmits && specular == 0 ? 0.001 : specular))) - 1;
 }
 
 Principled readParameters(Properties& properties) {
@@ -20,12 +25,8 @@ Principled readParameters(Properties& properties) {
     p.metallic = readShare(properties, "metallic", 0);
     p.clearcoat = readShare(properties, "clearcoat", 0);
     p.clearcoatGloss = readShare(properties, "clearcoat_gloss", 0);
-    p.eta = readEta(properties);
+    p.eta = readEta(properties, !p.specTrans.isZero());
     properties.accept({"diffuse_reflectance_sampling_rate", "main_specular_sampling_rate", "clearcoat_sampling_rate"});
-    if (!p.specTrans.isZero() && p.eta == 1)
-        throw InputError(
-            properties.where("spec_trans"),
-            "principled: light that is transmitted needs an index eta (or specular) that bends it; eta is 1.");
     return p;
 }
 
@@ -43,7 +44,7 @@ void addDielectric(const Principled& p, BsdfLobes& lobes) {
         LobeDescription lobe = weighted(facets(p, LOBE_GGX, reflected), dielectric * untinted);
         lobe.device.eta = grey(p.eta);
         lobe.device.k = {0, 0, 0};
-        if (p.eta > 1) lobes.front.push_back(lobe);
+        if (p.eta != 1) lobes.front.push_back(lobe);
         return;
     }
     const Share passing = share(p.specTrans) * dielectric;

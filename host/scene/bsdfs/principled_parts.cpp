@@ -132,7 +132,7 @@ Principled readSharedParameters(Properties& properties) {
     return p;
 }
 
-double readPrincipledIndex(Properties& properties) { return properties.numberAbove("eta", 1.5, 1, false); }
+double readPrincipledIndex(Properties& properties) { return properties.numberAbove("eta", 1.5, 0, true); }
 
 Rgb grey(double value) {
     const auto single = static_cast<float>(value);

@@ -38,7 +38,7 @@ Share rest(const Scalar& parameter, double factor = 1);
 
 /// Those that both have, but for the index.
 Principled readSharedParameters(Properties& properties);
-/// `eta`, an index of at least 1.
+/// `eta`, an index above 0.
 double readPrincipledIndex(Properties& properties);
 
 Rgb grey(double value);

@@ -30,7 +30,7 @@ LobeDescription transmitting(const Principled& p, LobeDescription lobe, const Sh
 
 void addSpecular(const Principled& p, std::vector<LobeDescription>& lobes) {
     const Share specular = share(p.specTrans), untinted = specular * rest(p.specTint);
-    if (p.eta > 1 && !untinted.isZero()) {
+    if (p.eta != 1 && !untinted.isZero()) {
         LobeDescription lobe = facets(p, LOBE_GGX, grey(untinted.constant));
         lobe.device.eta = grey(p.eta);
         lobe.device.k = {0, 0, 0};

@@ -98,6 +98,7 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
     if (needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
         checkTexCoords(shape, "bsdf");
     if (emitter) shape.emitter = readShapeEmitter(*emitter, context);
+    shape.emitterIsOff = emitter && !shape.emitter;
     keepShownAttributes(shape, context);
     if (shape.emitter) {
         if (shape.emitter->texture && needTexCoords(context.scene, {*shape.emitter->texture}))
