@@ -213,7 +213,7 @@ TEST(Aovs, InTilesHaveTheSameBits) {
 void makeLayers(ShapeDescription& shape, unsigned triangles) {
     shape.mesh = {};
     for (unsigned k = 0; k < triangles; ++k) {
-        const float z = 1 - 1e-3f * std::pow(1.05f, static_cast<float>(k));
+        const float z = 1 - 1e-3f * std::pow(1.0025f, static_cast<float>(k));
         for (const glm::vec2 corner : {glm::vec2(-3, -3), glm::vec2(3, -3), glm::vec2(0, 4)})
             shape.mesh.positions.emplace_back(corner, z);
         shape.mesh.triangles.emplace_back(3 * k, 3 * k + 1, 3 * k + 2);
@@ -222,7 +222,7 @@ void makeLayers(ShapeDescription& shape, unsigned triangles) {
 
 TEST(Aovs, OfARendererAreTheSame) {
     Scene scene = sceneOf(twoShapes);
-    makeLayers(scene.shapes[0], 200);
+    makeLayers(scene.shapes[0], 4000);
     RenderSettings settings;
     settings.photonsPerPass = 1000;
     EXPECT_GT(flattenFor(scene, settings).bvh.depth, 5u) << "32 entries of a stack are not enough";

@@ -12,7 +12,8 @@
 namespace quasilux {
 namespace {
 
-const std::string shapes = R"(<bsdf type="roughconductor" id="metal"><float name="alpha" value="0.1"/></bsdf>
+const std::string shapes =
+    R"(<?quasilux instances="two-level"?><bsdf type="roughconductor" id="metal"><float name="alpha" value="0.1"/></bsdf>
     <shape type="shapegroup" id="group"><shape type="cube"><ref id="metal"/></shape><shape type="cube"><transform name="to_world">
     <scale value="0.5"/><rotate x="1" y="1" angle="40"/><translate x="1"/></transform></shape></shape>
     <shape type="instance"><transform name="to_world"><translate x="5"/></transform><ref id="group"/></shape>
@@ -64,7 +65,9 @@ TEST(SceneGeometry, OfOtherShapesIsAnotherOne) {
 }
 
 TEST(SceneGeometry, SaysWhatOverlaps) {
-    const Scene scene = test::loadBody("<shape type=\"rectangle\"/><shape type=\"rectangle\"/>");
+    const Scene scene =
+        test::loadBody("<shape type=\"rectangle\"/><shape type=\"rectangle\"><transform name=\"to_world\"><translate "
+                       "x=\"0.5\" y=\"0.3\"/></transform></shape>");
     const SceneGeometry geometry = prepareGeometry(scene);
     EXPECT_EQ(flattenScene(scene, {}, &geometry).warnings.size(), 1u);
     EXPECT_EQ(flattenScene(scene, {}, &geometry).warnings, flattenScene(scene).warnings);
