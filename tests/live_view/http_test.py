@@ -226,9 +226,9 @@ class FurtherLayers(unittest.TestCase):
         aov = f'<integrator type="aov"><string name="aovs" value="dd:depth,nn:sh_normal,al:albedo"/>{path}</integrator>'
         cls.scene.write_text(text.replace(path, aov).replace('name="pixel_format" value="rgb"', 'name="pixel_format" value="rgba"'))
 
-    def rendered(self, folder, passes, *options):
+    def rendered(self, folder, passes, *options, scene=None):
         """What the program writes, by channel."""
-        command = [PROGRAM, "render", str(self.scene), *SMALL, "--fixed", "--passes", str(passes), "--quiet", "-o", "out.exr", *options]
+        command = [PROGRAM, "render", str(scene or self.scene), *SMALL, "--fixed", "--passes", str(passes), "--quiet", "-o", "out.exr", *options]
         subprocess.run(command, cwd=folder, check=True)
         return channels_of((folder / "out.exr").read_bytes())
 
@@ -243,6 +243,21 @@ class FurtherLayers(unittest.TestCase):
         for name, values in expected.items():
             numpy.testing.assert_array_equal(saved[name], values, name)
         self.assertGreater(numpy.ptp(saved["dd.T"]), 1, "control: depths differ")
+
+    def test_what_is_kept_between_changes_leaves_no_trace(self):
+        """Tree, borders and paces of launches are kept: each image is the one of a program that begins anew."""
+        with Viewed(PROGRAM, self.scene, *SMALL, "--passes", str(PASSES)) as view:
+            view.wait(lambda state: state["phase"] == "done")
+            brighter = view.folder / "brighter.xml"
+            brighter.write_text(self.scene.read_text().replace("100,100,100", "200,200,200"))
+            images = []
+            for edits, options, scene in [({"bdd": 1, "variant": "alternative"}, ["--bdd", "1", "--variant", "alternative"], None),
+                                          ({"map": "camera"}, ["--map", "camera"], None), ({"lamps": [2]}, [], brighter)]:
+                view.edit(**edits)
+                images.append(channels_of(view.get("image.exr")[2]))
+                for name, values in self.rendered(view.folder, PASSES, *options, scene=scene).items():
+                    numpy.testing.assert_array_equal(images[-1][name], values, f"{edits} {name}")
+        self.assertFalse(numpy.array_equal(images[0]["R"], images[1]["R"]), "control: changes change the image")
 
     def test_those_of_a_moved_camera(self):
         with Viewed(PROGRAM, self.scene, *SMALL, "--passes", str(PASSES)) as view:
