@@ -10,6 +10,6 @@ rm -rf "$environment"
 /usr/bin/python3 -m venv --system-site-packages "$environment"
 CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} "$environment/bin/pip" install .
 "$environment/bin/quasilux" --version
-for kind in render scene guide; do
+for kind in render scene load_dict guide; do
     "$environment/bin/python" "tests/python/${kind}_test.py" "$environment/bin/quasilux" "$PWD"
 done

@@ -3,9 +3,11 @@
 
 #include "aov_types.h"
 #include "render/pass_params.h"
+#include "render/renderer.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <map>
 
@@ -205,6 +207,36 @@ TEST(Aovs, InTilesHaveTheSameBits) {
     ASSERT_EQ(whole.layers.size(), 9u);
     EXPECT_TRUE(haveTheSameBits(tiles, whole));
     EXPECT_FALSE(haveTheSameBits(renderLarge(small, 2), whole)) << "negative control: another seed";
+}
+
+/// Triangles one behind the other, the first ones densely: their tree is deep, and a ray leaves much of it behind.
+void makeLayers(ShapeDescription& shape, unsigned triangles) {
+    shape.mesh = {};
+    for (unsigned k = 0; k < triangles; ++k) {
+        const float z = 1 - 1e-3f * std::pow(1.0025f, static_cast<float>(k));
+        for (const glm::vec2 corner : {glm::vec2(-3, -3), glm::vec2(3, -3), glm::vec2(0, 4)})
+            shape.mesh.positions.emplace_back(corner, z);
+        shape.mesh.triangles.emplace_back(3 * k, 3 * k + 1, 3 * k + 2);
+    }
+}
+
+TEST(Aovs, OfARendererAreTheSame) {
+    Scene scene = sceneOf(twoShapes);
+    makeLayers(scene.shapes[0], 4000);
+    RenderSettings settings;
+    settings.photonsPerPass = 1000;
+    EXPECT_GT(flattenFor(scene, settings).bvh.depth, 5u) << "32 entries of a stack are not enough";
+    Renderer renderer(testDevice(), scene, settings);
+    for (unsigned pass = 0; pass < 3; ++pass) renderer.renderPass(pass);
+    const auto launches = [] {
+        const auto timings = testDevice().timings();
+        return timings.count("traceAovs") ? timings.at("traceAovs").launches : 0;
+    };
+    const auto before = launches();
+    const Rendered ofRenderer{renderer.layers(scene), {}};
+    EXPECT_EQ(launches(), before) << "they are no part of the passes";
+    EXPECT_TRUE(haveTheSameBits(ofRenderer, {renderAovs(testDevice(), scene, settings, 3), {}}));
+    EXPECT_FALSE(haveTheSameBits(ofRenderer, {renderAovs(testDevice(), scene, settings, 4), {}})) << "negative control";
 }
 
 /// One that allows 1 GiB in a buffer, and is no CPU.

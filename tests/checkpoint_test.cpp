@@ -76,7 +76,7 @@ std::unique_ptr<Renderer> restored(const std::string& file, const Scene& scene) 
     const CheckpointReader reader(file);
     const Checkpoint checkpoint = checkpointOf(reader);
     auto renderer = std::make_unique<Renderer>(device(), scene, checkpoint.settings,
-                                               std::make_shared<LearnedScene>(restoreLearned(reader)));
+                                               std::make_shared<const LearnedScene>(restoreLearned(reader)));
     renderer->restoreState(reader, checkpoint.counters, checkpoint.passes.empty() ? 0 : checkpoint.passes.back().end);
     return renderer;
 }

@@ -44,5 +44,51 @@ TEST(Launches, InPartsGiveTheSameAsInOne) {
     EXPECT_EQ(launches(), 2u + (numbers.size() + 63) / 64) << "control: in one where there is time";
 }
 
+struct Enough {};
+
+TEST(Launches, AreWatchedAndEndedByWhoWatches) {
+    std::vector<uint64_t> numbers(1000);
+    Buffer<uint64_t> in(testDevice(), numbers, "input"), out(testDevice(), numbers.size(), "mixed");
+    Program program = testProgram("rng.cl");
+    Kernel mix = program.kernel("mixNumbers");
+    const auto mixAll = [&] { mix.launch(numbers.size(), in, out, cl_uint(numbers.size())); };
+    mixAll();
+    const uint64_t before = launches();
+    testDevice().setLongestLaunch(1e-9);
+    unsigned watched = 0;
+    testDevice().watchLaunches([&] {
+        if (++watched == 4) throw Enough();
+    });
+    EXPECT_THROW(mixAll(), Enough);
+    EXPECT_EQ(launches(), before + 3) << "parts of one";
+    testDevice().watchLaunches({});
+    EXPECT_NO_THROW(mixAll());
+    EXPECT_EQ(launches(), before + 3 + (numbers.size() + 63) / 64) << "control";
+    testDevice().setLongestLaunch(longestLaunchSeconds);
+}
+
+TEST(Launches, BeginWithThePaceOfThoseBefore) {
+    std::vector<uint64_t> numbers(1000);
+    const auto launchesOfNew = [&](bool keepsPaces) {
+        Device device({}, testDevice().workGroupSize());
+        if (keepsPaces) device.keepPaces();
+        Buffer<uint64_t> in(device, numbers, "input"), out(device, numbers.size(), "mixed");
+        Program program = testProgram(device, "rng.cl");
+        const auto launch = [&](Kernel mix) {
+            for (int k = 0; k < 2; ++k) {
+                mix.launch(numbers.size(), in, out, cl_uint(numbers.size()));
+                device.finish();
+            }
+            return device.timings().at("mixNumbers").launches;
+        };
+        const uint64_t before = launch(program.kernel("mixNumbers"));
+        device.setLongestLaunch(1e-9);
+        return launch(program.kernel("mixNumbers")) - before;
+    };
+    const size_t groups = (numbers.size() + 63) / 64;
+    EXPECT_EQ(launchesOfNew(true), 2 * groups) << "each group for itself";
+    EXPECT_EQ(launchesOfNew(false), 1 + groups) << "control: the first launch is whole on a CPU";
+}
+
 } // namespace
 } // namespace quasilux

@@ -205,7 +205,7 @@ MeanAndError furnaceMean(const Change& change) {
         LearnedScene learned = *Renderer(testDevice(), scene, settings).learned();
         EXPECT_FALSE(learned.tables.lights.empty());
         change(learned.tables.lights);
-        Renderer renderer(testDevice(), scene, settings, std::make_shared<LearnedScene>(learned));
+        Renderer renderer(testDevice(), scene, settings, std::make_shared<const LearnedScene>(learned));
         for (unsigned pass = 0; pass < 4; ++pass) renderer.renderPass(pass);
         const auto image = renderer.develop();
         const double sum = std::accumulate(image.radiance.begin(), image.radiance.end(), 0.0);

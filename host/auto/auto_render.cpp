@@ -8,12 +8,11 @@ namespace quasilux {
 namespace {
 
 // The clock of `--time` runs since learning, which took so many `learnSeconds`, began.
-SearchWorld worldOf(Device& device, const Scene& scene, const std::shared_ptr<const LearnedScene>& learned,
-                    double learnSeconds, const std::function<void(const Progress&)>& onProgress,
-                    const std::atomic<bool>& interrupted) {
+SearchWorld worldOf(Device& device, const Scene& scene, const KnownScene& known, double learnSeconds,
+                    const std::function<void(const Progress&)>& onProgress, const std::atomic<bool>& interrupted) {
     SearchWorld world;
-    world.open = [&device, &scene, learned](const RenderSettings& settings) -> std::unique_ptr<Pilot> {
-        return std::make_unique<RendererPilot>(device, std::make_unique<Renderer>(device, scene, settings, learned),
+    world.open = [&device, &scene, known](const RenderSettings& settings) -> std::unique_ptr<Pilot> {
+        return std::make_unique<RendererPilot>(device, std::make_unique<Renderer>(device, scene, settings, known),
                                                settings.cameraPaths, !scene.media.empty());
     };
     world.clock = [learnSeconds, watch = Stopwatch()] { return learnSeconds + watch.seconds(); };
@@ -36,15 +35,15 @@ size_t pilotsInMemory(Device& device, const Renderer& renderer) {
 // What could be opened among other pilots can be opened alone, or else the render is that of the settings where the
 // search began.
 std::unique_ptr<Renderer> openChosen(Device& device, const Scene& scene, const RenderSettings& first,
-                                     const std::shared_ptr<const LearnedScene>& learned, AutoRender& result) {
+                                     const KnownScene& known, AutoRender& result) {
     std::unique_ptr<Renderer> renderer;
-    const auto why = failureOf([&] { renderer = std::make_unique<Renderer>(device, scene, result.settings, learned); });
+    const auto why = failureOf([&] { renderer = std::make_unique<Renderer>(device, scene, result.settings, known); });
     if (!why) return renderer;
     result.search.rows[result.search.chosen].outcome = failedOutcome + *why;
     result.search.rows[0].outcome = "chosen";
     result.search.chosen = 0;
     result.settings = first;
-    return std::make_unique<Renderer>(device, scene, first, learned);
+    return std::make_unique<Renderer>(device, scene, first, known);
 }
 
 // The image is there already: what this costs must not lose it.
@@ -90,8 +89,8 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
     result.settings = settings;
     result.search.notSearched = whyNotSearched(scene, settings, stop);
     result.search.freedom = freedom;
-    const auto learned = start->learned();
-    SearchWorld world = worldOf(device, scene, learned, start->report().learned.seconds, onProgress, interrupted);
+    const KnownScene known = start->known();
+    SearchWorld world = worldOf(device, scene, known, start->report().learned.seconds, onProgress, interrupted);
     if (freedom.any() && result.search.notSearched.empty()) {
         world.mostOpen = pilotsInMemory(device, *start);
         auto first =
@@ -101,7 +100,7 @@ AutoRender renderAuto(Device& device, const Scene& scene, const RenderSettings& 
         result.settings = found.settings;
         // What pilots showed has decided which of them is the best, so their passes are no part of the image.
         start = found.start ? static_cast<RendererPilot&>(*found.start).release()
-                            : openChosen(device, scene, settings, learned, result);
+                            : openChosen(device, scene, settings, known, result);
     }
     if (onChosen) onChosen(result.search);
     renderPasses(device, std::move(start), world.clock(), stop, onProgress, interrupted, afterPass, run, result);

@@ -41,7 +41,7 @@ RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device
 }
 
 std::vector<AovImage> renderLayers(Device& device, const Scene& scene, const AutoRender& render) {
-    return renderAovs(device, scene, render.settings, std::min(render.image.passes, 256u));
+    return renderAovs(device, scene, render.settings, aovSamples(render.image.passes));
 }
 
 std::optional<double> skyOfDaylightFactor(const RenderOptions& options, Scene& scene,

@@ -15,8 +15,7 @@ namespace quasilux {
 RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device, const AutoRender& render,
                         bool interrupted);
 
-/// renderAovs() with places in the pixel of as many camera paths as the image has passes; more than some hundreds would
-/// hardly change it.
+/// renderAovs() for the image.
 std::vector<AovImage> renderLayers(Device& device, const Scene& scene, const AutoRender& render);
 
 /// Illuminance of free ground, lx, where daylight factors are asked for: then the scene's other lights are left out,

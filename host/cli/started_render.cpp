@@ -6,8 +6,7 @@
 
 namespace quasilux {
 
-StartedRender::StartedRender(const RenderOptions& options, Device& device, const Scene& scene,
-                             const std::shared_ptr<const LearnedScene>& known)
+StartedRender::StartedRender(const RenderOptions& options, Device& device, const Scene& scene, const KnownScene& known)
     : options_(options), device_(device), scene_(scene), freedom_(options.freedom(scene)),
       wanted_(checkpointOf(options, scene, options.stop)) {
     const std::string checkpoint = checkpointThatIsThere(options.resume);

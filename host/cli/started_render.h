@@ -9,9 +9,7 @@ namespace quasilux {
 class StartedRender {
 public:
     /// Throws InputError where the checkpoint is of another render.
-    /// `known`: what another render of the scene has learned; null: it is learned here.
-    StartedRender(const RenderOptions& options, Device& device, const Scene& scene,
-                  const std::shared_ptr<const LearnedScene>& known = nullptr);
+    StartedRender(const RenderOptions& options, Device& device, const Scene& scene, const KnownScene& known = {});
 
     const StopRule& stop() const { return wanted_.stop; }
     const std::vector<std::string>& warnings() const { return warnings_; }

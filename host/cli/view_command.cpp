@@ -3,6 +3,7 @@
 #include "cli/interrupt.h"
 #include "cli/started_render.h"
 #include "output/progress_line.h"
+#include "prepare/scene_geometry.h"
 #include "scene/xml/read_files.h"
 #include "util/error.h"
 #include "util/messages.h"
@@ -27,6 +28,7 @@ public:
         : options_(options), progress_(stderr, !options.quiet), scene_(load()),
           device_(options.device, options.workGroupSize, options.deviceMemory), view_(options.view, interruptFlag()) {
         options_.fixed = !options_.autoAll;
+        device_.keepPaces();
         StopRule& stop = options_.stop;
         isEndless_ = !stop.seconds && !stop.passes && !stop.relativeError;
         if (isEndless_ && options_.autoAll)
@@ -84,11 +86,12 @@ private:
             if (!options_.quiet) printWarning(warning);
     }
 
-    // A change does not wait for the end of a pass, which is long where the film is large.
+    // A change waits neither for the end of a pass nor for the image of the passes before, which take long where the
+    // film is large.
     void renderUntilChange() {
         try {
             renderOnce();
-        } catch (const PassAbandoned&) {
+        } catch (const RenderAbandoned&) {
         }
     }
 
@@ -98,7 +101,8 @@ private:
         view_.begin(device_, scene_->scene(), now.settings(scene_->scene()), now.stop, isEndless_);
         catchInterrupt();
         const bool isKnown = learned_ && edits_.learnsAs(learnedFor_);
-        StartedRender started(now, device_, scene_->scene(), isKnown ? learned_ : nullptr);
+        if (!geometry_) geometry_ = std::make_shared<const SceneGeometry>(prepareGeometry(scene_->scene()));
+        StartedRender started(now, device_, scene_->scene(), {isKnown ? learned_ : nullptr, geometry_});
         warn(started.warnings());
         view_.state().setProblem("");
         catchInterrupt(); // the runtime may have put in a handler of its own
@@ -157,6 +161,7 @@ private:
             scene_ = std::move(reloaded_);
             options_.caustics = caustics_;
             learned_ = nullptr;
+            geometry_ = nullptr;
             warn(scene_->scene().warnings);
             tellEditable();
         }
@@ -174,6 +179,7 @@ private:
     LiveView view_;
     ViewEdits edits_, learnedFor_;
     std::shared_ptr<const LearnedScene> learned_;
+    std::shared_ptr<const SceneGeometry> geometry_; ///< of the scene that is loaded: edits change no shapes
 };
 
 } // namespace

@@ -227,6 +227,15 @@ void Device::addTiming(const std::string& kernel, uint64_t privateBytes, const c
     pending_.emplace_back(kernel, event);
 }
 
+double Device::pace(const std::string& kernel) const {
+    const auto found = paces_.find(kernel);
+    return found == paces_.end() ? 0 : found->second;
+}
+
+void Device::notePace(const std::string& kernel, double secondsPerItem) {
+    if (keepsPaces_) paces_[kernel] = secondsPerItem;
+}
+
 void Device::resetTimings(std::map<std::string, KernelTiming> earlier) {
     finish();
     pending_.clear();

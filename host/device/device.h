@@ -65,6 +65,19 @@ public:
     /// Work is from now on divided as for a GPU, for tests on machines without one.
     void divideAsForGpu() { info_.isCpu = false; }
 
+    /// `beforeLaunch` is called by who launches kernels, before each launch, also of those that a long one is split
+    /// into. What it throws ends the work. Empty: nobody.
+    void watchLaunches(std::function<void()> beforeLaunch) { beforeLaunch_ = std::move(beforeLaunch); }
+    void noteLaunch() const {
+        if (beforeLaunch_) beforeLaunch_();
+    }
+    /// From now on kernels begin with the pace of those of the same name before, so that the first launch is split,
+    /// too: for renders that follow each other. On a CPU a first launch is one piece otherwise (launch_pace.h).
+    void keepPaces() { keepsPaces_ = true; }
+    /// Seconds that a work-item takes; 0: not known.
+    double pace(const std::string& kernel) const;
+    void notePace(const std::string& kernel, double secondsPerItem);
+
     /// Throws InputError that names `label` and by how much what is in use would exceed the limit, DeviceError if the
     /// device refuses.
     Allocation allocate(size_t bytes, const std::string& label);
@@ -89,6 +102,9 @@ private:
     cl::CommandQueue queue_;
     unsigned workGroupSize_;
     double longestLaunch_ = longestLaunchSeconds;
+    std::function<void()> beforeLaunch_;
+    bool keepsPaces_ = false;
+    std::map<std::string, double> paces_; ///< by kernel
     struct InUse {
         uint64_t now = 0, peak = 0;
     };

@@ -21,6 +21,8 @@ public:
         if (items > 0 && seconds > 0) secondsPerItem_ = seconds / static_cast<double>(items);
     }
 
+    double secondsPerItem() const { return secondsPerItem_; }
+
     /// Work-items to come have nothing to do with those before.
     void forget() { secondsPerItem_ = 0; }
 

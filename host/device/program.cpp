@@ -78,6 +78,8 @@ Kernel::Kernel(Device& device, cl::Kernel kernel, std::string name)
     : device_(&device), kernel_(std::move(kernel)), name_(std::move(name)),
       pace_(device.info().isCpu ? 0
                                 : size_t(firstGroupsPerUnit) * device.info().computeUnits * device.workGroupSize()) {
+    paceBefore_ = device.pace(name_);
+    pace_.note(1, paceBefore_);
     privateBytes_ = groupInfo<cl_ulong>(kernel_, device.device(), CL_KERNEL_PRIVATE_MEM_SIZE).value_or(0);
     const size_t largest = groupInfo<size_t>(kernel_, device.device(), CL_KERNEL_WORK_GROUP_SIZE).value_or(0);
     largestGroup_ = largest > 0 ? std::min<size_t>(device.workGroupSize(), largest) : device.workGroupSize();
@@ -95,6 +97,14 @@ void Kernel::set(cl_uint index, const std::function<void()>& argument) {
 void Kernel::notePace() {
     if (lastCount_ == 0 || last_.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() != CL_COMPLETE) return;
     pace_.note(lastCount_, secondsOf(last_));
+    device_->notePace(name_, pace_.secondsPerItem());
+}
+
+void Kernel::forgetPace() {
+    lastCount_ = 0;
+    pace_.forget();
+    pace_.note(1, paceBefore_);
+    device_->notePace(name_, paceBefore_);
 }
 
 cl::Event Kernel::enqueuePart(size_t first, size_t count, size_t group) {
@@ -110,6 +120,7 @@ void Kernel::enqueue(size_t count, size_t asked) {
     try {
         for (size_t first = 0; first < global; first += lastCount_) {
             notePace();
+            device_->noteLaunch();
             lastCount_ = pace_.next(global - first, group, std::min(device_->longestLaunch(), longestPart_));
             last_ = enqueuePart(first, lastCount_, group);
             if (lastCount_ < global) last_.wait();

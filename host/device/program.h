@@ -42,10 +42,7 @@ public:
     }
 
     /// The launches so far were of other work, or of none, made so that the runtime compiles the kernel.
-    void forgetPace() {
-        lastCount_ = 0;
-        pace_.forget();
-    }
+    void forgetPace();
 
 private:
     template <typename... Args>
@@ -76,7 +73,8 @@ private:
     /// Work-items that the device can run in a group of this kernel: registers may leave room for few
     size_t largestGroup_ = 1;
     LaunchPace pace_;
-    cl::Event last_; ///< the last launch
+    double paceBefore_ = 0; ///< Device::pace() when this was made
+    cl::Event last_;        ///< the last launch
     size_t lastCount_ = 0;
     std::function<void(size_t)> afterPart_;
     double longestPart_ = longestLaunchSeconds;

@@ -1,11 +1,10 @@
 #include "prepare/device_scene.h"
 
 #include "prepare/border_surface.h"
-#include "prepare/border_tree.h"
 #include "prepare/direct_sharing.h"
 #include "prepare/filter_table.h"
+#include "prepare/scene_geometry.h"
 #include "prepare/scene_tables.h"
-#include "prepare/scene_tree.h"
 #include "util/bit_words.h"
 
 #include <cmath>
@@ -110,10 +109,12 @@ unsigned appendTexels(const std::vector<Texels>& images, SceneTableWriter& table
     return first;
 }
 
-/// `Places`: where they are said, of the world or of a group.
+/// `Places`: where they are said, of the world or of a group. `known`: their tree, or null.
 template <typename Places>
-void appendBorders(const SurfaceBorders& borders, SceneTableWriter& tables, Places& places) {
-    const BorderTree tree = buildBorderTree(borders.segments, borders.patchCount);
+void appendBorders(const SurfaceBorders& borders, const BorderTree* known, SceneTableWriter& tables, Places& places) {
+    BorderTree built;
+    if (!known) built = buildBorderTree(borders.segments, borders.patchCount);
+    const BorderTree& tree = known ? *known : built;
     places.borderLeaves = tables.append(tree.leaves);
     places.borderNodes = tables.append(tree.nodes);
     places.borderNodeCount = static_cast<unsigned>(tree.nodes.size());
@@ -122,11 +123,15 @@ void appendBorders(const SurfaceBorders& borders, SceneTableWriter& tables, Plac
 }
 
 /// Borders of the world and of groups, and the instances of these.
-void appendAllBorders(const Scene& scene, const SurfaceBorders& borders, SceneTableWriter& tables, SceneTree& tree,
-                      shared::SceneTables& offsets) {
-    appendBorders(borders, tables, offsets);
+void appendAllBorders(const Scene& scene, const SurfaceBorders& borders, const SceneGeometry* known,
+                      SceneTableWriter& tables, SceneTree& tree, shared::SceneTables& offsets) {
+    const auto treeOf = [known](size_t k) { return known ? &known->borderTrees[k] : nullptr; };
+    appendBorders(borders, treeOf(0), tables, offsets);
     std::vector<shared::ShapeGroup> groups;
-    for (const SurfaceBorders& group : borders.groups) appendBorders(group, tables, groups.emplace_back());
+    for (const SurfaceBorders& group : borders.groups) {
+        const BorderTree* ofGroup = treeOf(groups.size() + 1);
+        appendBorders(group, ofGroup, tables, groups.emplace_back());
+    }
     appendInstances(scene, borders, groups, tree);
     offsets.patchCount = borders.patchCount;
     offsets.instances = tree.firstInstance;
@@ -236,7 +241,7 @@ void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     scene.typicalFlux = learned.guide.typicalFlux;
 }
 
-DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
+DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings, const SceneGeometry* known) {
     DeviceScene out;
     out.split = decideSplit(scene, settings.quasiSpecular, settings.overridesScene);
     out.mediumSplit = decideMediumSplit(scene, settings.quasiSpecular, settings.overridesScene);
@@ -246,14 +251,16 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     out.emitters = flattenEmitters(scene, placement);
     auto materials = flattenMaterials(scene, out.split);
     const unsigned meterLobe = isIrradiance(scene.sensor.meter) ? appendWhite(materials.lobes) : QL_NONE;
-    const SurfaceBorders borders = findBorders(scene);
+    SurfaceBorders found;
+    if (!known) found = findBorders(scene);
+    const SurfaceBorders& borders = known ? known->borders : found;
     out.warnings = findWarnings(scene, borders);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
     out.offsets.directSharing = directSharing(out.emitters.emitters, out.surfaceArea, out.features.irradianceMeter);
     out.features.sharingLambert = out.offsets.directSharing & DIRECT_SHARING_LAMBERT;
     out.features.sharingMedia = out.features.media && out.offsets.directSharing & DIRECT_SHARING_MEDIA;
-    SceneTree tree = buildSceneTree(scene);
+    SceneTree tree = known ? known->tree : buildSceneTree(scene);
 
     SceneTableWriter tables;
     out.offsets.primitives = tables.append(flattenPrimitiveInfo(scene, borders));
@@ -271,7 +278,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings) {
     appendEmitters(out.emitters, tables, out.offsets);
     appendMeter(flattenMeter(scene, placement.camera, placement.grids), meterLobe, tables, out.offsets);
     const unsigned filterSteps = tables.append(filterTable(scene.sensor));
-    appendAllBorders(scene, borders, tables, tree, out.offsets);
+    appendAllBorders(scene, borders, known, tables, tree, out.offsets);
     out.bvh = std::move(tree.bvh);
     out.offsets.texels = appendTexels(textures.images, tables);
     out.tables = std::move(tables).take();

@@ -12,6 +12,7 @@
 namespace quasilux {
 
 class SceneTableWriter;
+struct SceneGeometry;
 
 struct EmitterTables {
     std::vector<shared::Emitter> emitters;
@@ -54,7 +55,10 @@ struct FlattenSettings {
     unsigned photons = 0;               ///< emitted in a pass
     bool overridesScene = false;
 };
-DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings = {});
+/// `known`: prepareGeometry() of a scene with the same shapes, bsdfs and media; null: it is prepared here. The result is
+/// the same.
+DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings = {},
+                         const SceneGeometry* known = nullptr);
 
 /// Takes what was learned of the scene into its tables, instead of what they had.
 struct LearnedTables {

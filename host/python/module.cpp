@@ -6,6 +6,8 @@
 #include "output/statistics.h"
 #include "python/arrays.h"
 #include "python/scene_tree.h"
+#include "render/pass_params.h"
+#include "render/scene_report.h"
 #include "scene/loader.h"
 #include "scene/plugin_kinds.h"
 #include "scene/transform.h"
@@ -132,6 +134,11 @@ py::tuple compare(const py::handle& first, const py::handle& second, const std::
     return py::make_tuple(text, warnings);
 }
 
+SceneChecksums checksums(const LoadedScene& scene) {
+    const py::gil_scoped_release release;
+    return checksumsOf(flattenFor(*scene.scene, RenderSettings{}), scene.scene->maxDepth);
+}
+
 // Rows, as they are written on paper.
 std::vector<std::vector<double>> matrixOf(const py::handle& node) {
     Element element = elementOf(node);
@@ -163,6 +170,7 @@ void defineScene(py::module_& module) {
         .def_property_readonly("warnings", [](const LoadedScene& self) { return self.scene->warnings; });
     module.def("load_file", loadFile);
     module.def("load_tree", loadTree);
+    module.def("checksums", checksums);
     module.def("transform", matrixOf);
     module.def("tag_of_plugin", [](const std::string& plugin) { return std::string(tagOfPlugin(plugin)); });
     module.def("known_plugins", [](const std::string& plugin) { return knownNames(plugin, pluginNames()); });

@@ -2,7 +2,6 @@
 
 #include "aov_types.h"
 #include "device/program.h"
-#include "render/geometry_buffers.h"
 #include "render/method.h"
 #include "render/pass_params.h"
 #include "util/process_memory.h"
@@ -138,8 +137,13 @@ MemoryForecast withLayers(MemoryForecast forecast, const Scene& scene, const Dev
 std::vector<AovImage> renderAovs(Device& device, const Scene& scene, const RenderSettings& settings, unsigned samples) {
     if (!hasLayers(scene)) return {};
     const DeviceScene flat = flattenFor(scene, settings);
+    return renderAovs(device, scene, flat, GeometryBuffers(device, flat), settings, samples);
+}
+
+std::vector<AovImage> renderAovs(Device& device, const Scene& scene, const DeviceScene& flat,
+                                 const GeometryBuffers& geometry, const RenderSettings& settings, unsigned samples) {
+    if (!hasLayers(scene)) return {};
     Program program(device, "aovs.cl", kernelOptions(flat, settings) + (hasUvLayers(scene) ? " -DHAS_UV_LAYERS" : ""));
-    const GeometryBuffers geometry(device, flat);
     const size_t pixels = pixelsOf(flat), floats = floatsOf(scene),
                  tile = tileOf(pixels, floatsOf(scene), device.info());
     Buffer<float> sums(device, tile * floats, label);
@@ -154,5 +158,7 @@ std::vector<AovImage> renderAovs(Device& device, const Scene& scene, const Rende
     }
     return layers.take();
 }
+
+unsigned aovSamples(unsigned passes) { return std::min(passes, 256u); }
 
 } // namespace quasilux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/device.h"
+#include "render/geometry_buffers.h"
 #include "render/memory_plan.h"
 #include "render/settings.h"
 
@@ -20,5 +21,11 @@ MemoryForecast withLayers(MemoryForecast forecast, const Scene& scene, const Dev
 
 /// The layers that the scene asks for, alpha where its film wants it ("A"); means over `samples` for each pixel.
 std::vector<AovImage> renderAovs(Device& device, const Scene& scene, const RenderSettings& settings, unsigned samples);
+/// The same of a scene that is flattened and on the device already.
+std::vector<AovImage> renderAovs(Device& device, const Scene& scene, const DeviceScene& flat,
+                                 const GeometryBuffers& geometry, const RenderSettings& settings, unsigned samples);
+/// For an image of so many passes: places in the pixel of as many camera paths; more than some hundreds would hardly
+/// change the layers.
+unsigned aovSamples(unsigned passes);
 
 } // namespace quasilux

@@ -23,13 +23,13 @@ double firstRadiusByArea(double area, const RenderSettings& settings, unsigned p
     return settings.radiusScale * initialRadius(area, photons);
 }
 
-DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings) {
+DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings, const SceneGeometry* known) {
     const unsigned photons = photonsPerPass(settings, flattenCamera(scene.sensor));
     FlattenSettings flattening;
     flattening.quasiSpecular = settings.quasiSpecular;
     flattening.photons = photons;
     flattening.overridesScene = settings.quasiSpecularOverridesScene;
-    DeviceScene flat = flattenScene(scene, flattening);
+    DeviceScene flat = flattenScene(scene, flattening, known);
     flat.offsets.meter.samples = meterSamples(flat, settings);
     return flat;
 }

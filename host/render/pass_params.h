@@ -11,7 +11,7 @@ namespace quasilux {
 double firstRadiusByArea(double area, const RenderSettings& settings, unsigned photons);
 
 /// The scene as this render needs it.
-DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings);
+DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings, const SceneGeometry* known = nullptr);
 
 shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
 shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth);

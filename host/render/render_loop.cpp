@@ -63,6 +63,8 @@ RenderOutcome renderAsFarAsItGoes(Renderer& renderer, const StopRule& stopAt,
     const Stopwatch watch;
     try {
         renderPasses(renderer, stop, onProgress, interrupted, before, afterPass, known);
+    } catch (const RenderAbandoned&) {
+        throw;
     } catch (...) {
         if (renderer.counters().passes == 0) throw;
         failure = std::current_exception();

@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include "render/adaptive_radius.h"
-#include "render/aovs.h"
 #include "render/learned_scene.h"
 #include "render/method.h"
 #include "render/noise_probe.h"
@@ -41,15 +40,14 @@ shared::RadiusField fieldOf(const DeviceScene& flat, const RenderSettings& setti
 
 // What a render holds from its beginning to its end, in the order in which it is made.
 struct Renderer::Stages {
-    Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_,
-           std::shared_ptr<const LearnedScene> known)
-        : device(device_), settings(settings_), flat(std::move(flat_)) {
+    Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_, KnownScene known)
+        : device(device_), settings(settings_), flat(std::move(flat_)), shapes(std::move(known.geometry)) {
         const AllocationNotes noting(device, buffers);
         program.emplace(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                         kernelOptions(flat, settings));
         geometry.emplace(device, flat);
         auto timingsBefore = device.timings();
-        learned = known ? std::move(known) : learn(scene);
+        learned = known.learned ? std::move(known.learned) : learn(scene);
         film.emplace(device, flat.camera.width, flat.camera.height, filmLayout(flat.features, settings),
                      largestFilmBuffer(flat.features, settings, device.info()));
         report = describeScene(scene, flat, settings);
@@ -57,7 +55,9 @@ struct Renderer::Stages {
         report.learned = describeLearned(*learned, field, report.photonsPerPass);
         preparePasses(scene);
         device.resetTimings(std::move(timingsBefore)); // only those of passes count
-        flat.bvh = {};                                 // on the device now
+        // On the device now; the depth of the tree stays, as kernels to come are compiled for it.
+        flat.bvh.nodes = {};
+        flat.bvh.blocks = {};
         flat.tables = {};
     }
 
@@ -92,6 +92,7 @@ struct Renderer::Stages {
     BufferSizes buffers; // its own, by label
     RenderSettings settings;
     DeviceScene flat;
+    std::shared_ptr<const SceneGeometry> shapes; // kept for other renderers
     std::optional<Program> program;
     std::optional<GeometryBuffers> geometry;
     std::shared_ptr<const LearnedScene> learned;
@@ -106,20 +107,20 @@ struct Renderer::Stages {
     unsigned nextPass = 0;
 };
 
-Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
-                   std::shared_ptr<const LearnedScene> known, const SceneChecksums& expected) {
+Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings, const KnownScene& known,
+                   const SceneChecksums& expected) {
     const Stopwatch watch;
-    DeviceScene flat = flattenFor(scene, settings);
+    DeviceScene flat = flattenFor(scene, settings, known.geometry.get());
     if (settings.map == MapOrder::camera) refuseForCameraMap(scene);
     flat.features.directByPhotons = mayTakeDirectFromPhotons(flat.features, settings);
     checkCaustics(scene, flat.features, settings);
     auto checksums = checksumsOf(flat, scene.maxDepth);
     if (!expected.empty()) requireSame(expected, checksums);
-    if (known && !known->tables.guide.leaves.empty()) setLearned(flat, known->tables);
+    if (known.learned && !known.learned->tables.guide.leaves.empty()) setLearned(flat, known.learned->tables);
     const double prepareSeconds = watch.seconds();
     for (const BufferSizes& sizes : {planScene(flat, settings, device.info()), planAovs(scene, flat, device.info())})
         checkFits(sizes, device.info(), flat, settings);
-    stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), std::move(known));
+    stages_ = std::make_unique<Stages>(device, scene, settings, std::move(flat), known);
     stages_->report.checksums = std::move(checksums);
     stages_->counters.prepareSeconds = prepareSeconds;
     stages_->counters.compileSeconds = watch.seconds() - prepareSeconds;
@@ -202,11 +203,22 @@ const Film& Renderer::film() const { return *stages_->film; }
 
 FilmImage Renderer::develop() const { return stages_->film->develop(static_cast<unsigned>(stages_->counters.passes)); }
 
+std::vector<AovImage> Renderer::layers(const Scene& scene) const {
+    const auto& s = *stages_;
+    auto timingsOfPasses = s.device.timings();
+    auto layers = renderAovs(s.device, scene, s.flat, *s.geometry, s.settings,
+                             aovSamples(static_cast<unsigned>(s.counters.passes)));
+    s.device.resetTimings(std::move(timingsOfPasses));
+    return layers;
+}
+
 void Renderer::developOver(FilmImage& image) const {
     stages_->film->developOver(image, static_cast<unsigned>(stages_->counters.passes));
 }
 
 std::shared_ptr<const LearnedScene> Renderer::learned() const { return stages_->learned; }
+
+KnownScene Renderer::known() const { return {stages_->learned, stages_->shapes}; }
 
 const SceneReport& Renderer::report() const {
     stages_->report.bufferBytes = stages_->buffers;

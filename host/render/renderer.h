@@ -1,6 +1,7 @@
 // The method, stage by stage: photons, map, camera paths, film. Calls only named stages.
 #pragma once
 
+#include "render/aovs.h"
 #include "render/film_image.h"
 #include "render/gathered_photons.h"
 #include "render/render_counters.h"
@@ -18,7 +19,18 @@
 namespace quasilux {
 
 struct LearnedScene;
+struct SceneGeometry;
 class Film;
+
+/// What another renderer of the scene, or of one that differs in camera and emitters alone, has found out already;
+/// null: it is found out here.
+struct KnownScene {
+    KnownScene(std::shared_ptr<const LearnedScene> learned_ = nullptr,
+               std::shared_ptr<const SceneGeometry> geometry_ = nullptr)
+        : learned(std::move(learned_)), geometry(std::move(geometry_)) {}
+    std::shared_ptr<const LearnedScene> learned;   ///< where photons serve the image
+    std::shared_ptr<const SceneGeometry> geometry; ///< prepareGeometry()
+};
 
 struct Progress {
     std::string phase; ///< "preparing", "compiling", "rendering", "writing"
@@ -31,15 +43,18 @@ struct Progress {
 class Renderer {
 public:
     /// Prepares the scene, compiles the kernels it needs and learns where photons serve the image, unless that is
-    /// `known` from another renderer of the scene. Throws InputError where `expected` is not empty and not
-    /// SceneReport::checksums: what is known is of another scene then.
-    Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
-             std::shared_ptr<const LearnedScene> known = nullptr, const SceneChecksums& expected = {});
+    /// `known`. Throws InputError where `expected` is not empty and not SceneReport::checksums: what is known is of
+    /// another scene then.
+    Renderer(Device& device, const Scene& scene, const RenderSettings& settings, const KnownScene& known = {},
+             const SceneChecksums& expected = {});
     ~Renderer();
 
     /// Adds the independent estimate number `pass` (from 0) to the film.
     void renderPass(unsigned pass);
     FilmImage develop() const;
+    /// renderAovs() of the scene that this renderer was made for, for the passes that it has; they are no part of the
+    /// passes' timings.
+    std::vector<AovImage> layers(const Scene& scene) const;
     /// Film::developOver.
     void developOver(FilmImage& image) const;
     /// Has no pass failed halfway? Or else a part of it may be in the film.
@@ -48,6 +63,8 @@ public:
     const SceneReport& report() const;
     const RenderCounters& counters() const;
     std::shared_ptr<const LearnedScene> learned() const;
+    /// What was learned, and the geometry that it was made with, if that was known.
+    KnownScene known() const;
 
     struct FilmShape {
         unsigned width, height;
@@ -82,6 +99,12 @@ public:
 private:
     struct Stages;
     std::unique_ptr<Stages> stages_;
+};
+
+/// Thrown by who looks on, in the middle of a pass or between two: nobody wants the image any more. It comes out of
+/// renderAsFarAsItGoes at once.
+struct RenderAbandoned : std::exception {
+    const char* what() const noexcept override { return "something else is to be rendered"; }
 };
 
 /// What a render has behind it when renderAsFarAsItGoes begins.

@@ -1,6 +1,7 @@
 #include "view/live_view.h"
 
 #include "render/film_cut.h"
+#include "util/error.h"
 #include "view/browser.h"
 #include "view/frame.h"
 #include "view/server.h"
@@ -13,6 +14,8 @@ namespace quasilux {
 namespace {
 
 constexpr std::chrono::milliseconds whileWaiting{10};
+// That the first pass of a render has for itself.
+constexpr std::chrono::seconds ofFirstPass{1};
 
 } // namespace
 
@@ -22,6 +25,7 @@ LiveView::LiveView(const ViewOptions& options, const std::atomic<bool>& signalle
 }
 
 LiveView::~LiveView() {
+    if (device_) device_->watchLaunches({});
     state_.close();
     errands_.close();
     server_.reset(); // before what it uses
@@ -33,6 +37,10 @@ void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& s
                      bool isEndless) {
     if (device_ != &device) cutter_ = std::make_unique<FilmCutter>(device);
     device_ = &device;
+    scene_ = &scene;
+    device.watchLaunches([this] { giveUpIfOutdated(); });
+    passes_ = 0;
+    begun_.reset();
     isStopped_ = false;
     ++renders_;
     errands_.hurry(); // its first picture is not put off
@@ -59,27 +67,43 @@ void LiveView::onProgress(const Progress& progress) {
 
 void LiveView::afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
     syncSignal();
-    const auto passes = static_cast<unsigned>(renderer.counters().passes);
-    const auto onRows = [this, &renderer, &soFar, passes] {
-        if (hasEdits_ && passes > 0) throw PassAbandoned();
-        errands_.doDue({renderer, soFar, ++moment_, true, true});
+    passes_ = static_cast<unsigned>(renderer.counters().passes);
+    if (passes_ == 0) begun_ = Clock::now();
+    const auto onRows = [this, &renderer, &soFar] {
+        giveUpIfOutdated();
+        doErrands({renderer, soFar, ++moment_, true, true});
     };
     renderer.film().watchRows(isLast ? std::function<void()>() : onRows, errands_.areAwaited());
+    if (isLast) device_->watchLaunches({});
     const char* over = isStopped_ ? "stopped" : "done";
-    if (passes == 0) { // the method has been chosen
+    if (passes_ == 0) { // the method has been chosen
         state_.setSettings(soFar.settings);
         state_.setLayers(layersOf(renderer.film().layout()));
         state_.setPhase(isLast ? over : "rendering");
         return;
     }
-    state_.setPasses(passes, seconds);
+    state_.setPasses(passes_, seconds);
     if (isLast) state_.setPhase(over);
-    errands_.doDue({renderer, soFar, ++moment_, !isLast});
+    doErrands({renderer, soFar, ++moment_, !isLast});
+    if (hasEdits_ && !isLast) throw RenderAbandoned();
+}
+
+void LiveView::giveUpIfOutdated() const {
+    if (!hasEdits_ || isInErrands_) return;
+    const bool isInFirstPass = begun_ && passes_ == 0;
+    if (isInFirstPass && (areDrafts_ || Clock::now() < *begun_ + ofFirstPass)) return;
+    throw RenderAbandoned();
+}
+
+void LiveView::doErrands(const RenderMoment& moment) {
+    isInErrands_ = true; // what these launch is not given up
+    errands_.doDue(moment);
+    isInErrands_ = false;
 }
 
 void LiveView::waitWith(const AutoRender& soFar, const Renderer& renderer, const std::function<bool()>& isOver) {
     while (!signalled_ && !hasEdits_ && !isOver()) {
-        errands_.doDue({renderer, soFar, moment_, false});
+        doErrands({renderer, soFar, moment_, false});
         std::this_thread::sleep_for(whileWaiting);
     }
 }
@@ -98,6 +122,7 @@ void LiveView::stop() {
 void LiveView::edit(const ViewEdits& edits) {
     const std::lock_guard lock(mutex_);
     edits_ = edits;
+    areDrafts_ = edits.isDraft;
     hasEdits_ = true;
     interrupted_ = true;
 }
@@ -110,6 +135,13 @@ LiveView::Saved LiveView::saved(const RenderMoment& moment) const {
     saved.record.counters = moment.renderer.counters();
     saved.record.interrupted = isStopped_;
     return saved;
+}
+
+std::vector<AovImage> LiveView::layers(const RenderMoment& moment) {
+    std::vector<AovImage> found;
+    const auto why = failureOf([&] { found = moment.renderer.layers(*scene_); });
+    if (why) state_.setProblem("the layers of what is met first are left out, as they could not be rendered: " + *why);
+    return found;
 }
 
 } // namespace quasilux

@@ -9,7 +9,7 @@
 #include "view/live_state.h"
 
 #include <atomic>
-#include <exception>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,12 +27,6 @@ struct ViewOptions {
     bool opensBrowser = true; ///< where there is a desktop
 };
 
-/// Thrown in the middle of a pass, which is lost: something else is to be rendered. Not for a stop, which keeps the
-/// pass.
-struct PassAbandoned : std::exception {
-    const char* what() const noexcept override { return "something else is to be rendered"; }
-};
-
 class LiveView {
 public:
     /// Listens from now on. `signalled`: set by signals that end the program. Throws InputError where the address
@@ -48,12 +42,14 @@ public:
     bool isStopped() const { return isStopped_; }
 
     LiveState& state() { return state_; }
+    /// `scene` has to last and stay as it is while the render goes on. From now on launches on the device throw
+    /// RenderAbandoned where an edit has come, and afterPass() does. The first pass has a second for itself, and if the
+    /// edit is a draft all the time that it takes: or else nothing would be seen where edits follow each other. A stop
+    /// waits for the end of the pass, and keeps it.
     void begin(Device& device, const Scene& scene, const RenderSettings& settings, const StopRule& stop,
                bool isEndless);
     /// Both are called by the thread that renders.
     void onProgress(const Progress& progress);
-    /// The next pass throws PassAbandoned where rows of the film are done and an edit has come; not the first one,
-    /// which is all that is seen of a render where edits follow each other, as while the camera is dragged.
     void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
     /// Its render is over, but the view goes on until somebody wants something else, or `isOver()`: errands are done
     /// meanwhile.
@@ -82,14 +78,21 @@ public:
         RenderRecord record;
     };
     Saved saved(const RenderMoment& moment) const;
+    /// What else its EXR has: the layers of integrator `aov`, and alpha. Where they cannot be made the page says so,
+    /// and the image goes without.
+    std::vector<AovImage> layers(const RenderMoment& moment);
 
 private:
+    using Clock = std::chrono::steady_clock;
+
     void syncSignal() {
         if (signalled_) interrupted_ = true;
     }
+    void giveUpIfOutdated() const;
+    void doErrands(const RenderMoment& moment);
 
     const std::atomic<bool>& signalled_;
-    std::atomic<bool> interrupted_{false}, isStopped_{false}, hasEdits_{false}, isEditable_{false};
+    std::atomic<bool> interrupted_{false}, isStopped_{false}, hasEdits_{false}, areDrafts_{false}, isEditable_{false};
     std::atomic<uint64_t> renders_{0};
     std::mutex mutex_;
     std::optional<ViewEdits> edits_;
@@ -97,8 +100,12 @@ private:
     Errands errands_;
     std::unique_ptr<FilmCutter> cutter_;
     Device* device_ = nullptr;
-    RenderRecord record_; ///< what is known at the beginning
+    const Scene* scene_ = nullptr; ///< that is rendered
+    RenderRecord record_;          ///< what is known at the beginning
     uint64_t moment_ = 0;
+    unsigned passes_ = 0;                    ///< of the render
+    std::optional<Clock::time_point> begun_; ///< its first pass
+    bool isInErrands_ = false;
     std::unique_ptr<ViewServer> server_;
     std::unique_ptr<OpenedPage> page_;
 };

@@ -255,7 +255,12 @@ struct ViewServer::Http {
     void image(const Request& request, Response& response) {
         const bool isExr = request.matches[1] == "exr";
         std::optional<LiveView::Saved> saved;
-        view.errands().run([&](const RenderMoment& now) { saved = view.saved(now); }, {}, patienceOfSaving);
+        std::vector<AovImage> layers;
+        const auto take = [&](const RenderMoment& now) {
+            saved = view.saved(now);
+            if (isExr) layers = view.layers(now);
+        };
+        view.errands().run(take, {}, patienceOfSaving);
         if (!saved) {
             response.status = noContent;
             return;
@@ -264,7 +269,7 @@ struct ViewServer::Http {
         const TemporaryFolder folder;
         const auto path = folder.path() / (isExr ? "image.exr" : "image.png");
         if (isExr) {
-            writeExr(path.string(), saved->image, saved->record);
+            writeExr(path.string(), saved->image, saved->record, layers);
         } else {
             ToneCurve curve = chooseToneCurve(saved->image, {});
             curve.scale = numberParameter(request, "exposure", curve.scale);

@@ -33,10 +33,13 @@ def load(
 
     In a dict, objects are dicts with the name of a plugin as ``type``; their keys are their ids, which
     ``{"type": "ref", "id": ...}`` refers to. Numbers, bools, strings, three numbers (a point or vector), 4 x 4 arrays (a
-    transform), ``{"type": "rgb", "value": [r, g, b]}`` and ``{"type": "spectrum", ...}`` are parameters. Besides there are
+    transform), ``{"type": "rgb", "value": [r, g, b]}`` and ``{"type": "spectrum", ...}`` are parameters; so are the numbers,
+    vectors, colours, transforms, bitmaps and grids of Mitsuba, but not objects that it has loaded. Besides there are
 
     - ``{"type": "mesh", "vertices": (n, 3), "faces": (m, 3)}``, with ``normals`` (n, 3), ``uv`` (n, 2), ``vertex_NAME`` and
       ``face_NAME`` (1 or 3 columns) where wanted, and what else a ``ply`` takes;
+    - pictures and volumes from arrays: ``"bitmap": (height, width, channels)`` of a ``bitmap`` or ``envmap``, ``"data": (z, y, x)`` of a
+      ``gridvolume``, instead of a ``filename``;
     - ``"quasilux": {...}`` in the scene, a bsdf or a medium: quasilux' own settings, with underscores for hyphens; in the scene also
       ``"quasilux": {"illuminance_grid": {...}}``.
 
@@ -53,8 +56,8 @@ def load(
         if isinstance(scene, Mapping):
             if parameters:
                 raise SceneError("parameters are of scene files; write the values into the dict.")
-            with tempfile.TemporaryDirectory(prefix="quasilux-") as meshes:
-                loaded = _core.load_tree(scene_tree(scene, Path(meshes)), os.fspath(folder), chosen, lenient)
+            with tempfile.TemporaryDirectory(prefix="quasilux-") as files:
+                loaded = _core.load_tree(scene_tree(scene, Path(files)), os.fspath(folder), chosen, lenient)
         else:
             given = [(name, _text(value)) for name, value in (parameters or {}).items()]
             loaded = _core.load_file(os.fspath(scene), given, chosen, lenient)

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._tree import Node, number_text
+from ._tree import Node
+from ._values import number_text
 
 
 def _matrix(tag: str, **attributes: str) -> NDArray[np.float64]:

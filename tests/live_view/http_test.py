@@ -4,6 +4,7 @@ http_test.py PROGRAM SOURCE_FOLDER. Renders have a seed, so that figures are the
 
 import json
 import socket
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -30,6 +31,18 @@ def pixels_of(content, kind=".exr", names=("R", "G", "B")):
         pixels = image.read_image(OpenImageIO.FLOAT)
         image.close()
     return pixels[:, :, channels]
+
+
+def channels_of(content):
+    """All channels of an EXR that came by HTTP, by name."""
+    with tempfile.NamedTemporaryFile(suffix=".exr") as file:
+        file.write(content)
+        file.flush()
+        image = OpenImageIO.ImageInput.open(file.name)
+        names = image.spec().channelnames
+        pixels = image.read_image(0, len(names), OpenImageIO.FLOAT)
+        image.close()
+    return {name: pixels[:, :, k] for k, name in enumerate(names)}
 
 
 class Addresses(unittest.TestCase):
@@ -200,6 +213,74 @@ class GltfScene(unittest.TestCase):
             self.assertIn("scene.gltf: nodes[2]", view.wait(lambda state: state["problem"])["problem"])
 
 
+class FurtherLayers(unittest.TestCase):
+    """Of a scene with an integrator `aov` and alpha."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.scene = Path(cls.folder.name) / "layers.xml"
+        text = Path(SCENE).read_text()
+        path = text[text.index("<integrator"):text.index("</integrator>") + len("</integrator>")]
+        aov = f'<integrator type="aov"><string name="aovs" value="dd:depth,nn:sh_normal,al:albedo"/>{path}</integrator>'
+        cls.scene.write_text(text.replace(path, aov).replace('name="pixel_format" value="rgb"', 'name="pixel_format" value="rgba"'))
+
+    def rendered(self, folder, passes, *options, scene=None):
+        """What the program writes, by channel."""
+        command = [PROGRAM, "render", str(scene or self.scene), *SMALL, "--fixed", "--passes", str(passes), "--quiet", "-o", "out.exr", *options]
+        subprocess.run(command, cwd=folder, check=True)
+        return channels_of((folder / "out.exr").read_bytes())
+
+    def test_the_exr_is_the_one_that_the_program_writes(self):
+        with Viewed(PROGRAM, self.scene, *SMALL, "--passes", str(PASSES)) as view:
+            view.wait(lambda state: state["phase"] == "done")
+            saved = channels_of(view.get("image.exr")[2])
+            expected = self.rendered(view.folder, PASSES)
+            self.assertEqual(view.state()["problem"], "")
+        self.assertLess({"A", "dd.T", "nn.X", "nn.Y", "nn.Z", "al.R", "al.G", "al.B", "stderr.R"}, saved.keys())
+        self.assertEqual(list(saved), list(expected))
+        for name, values in expected.items():
+            numpy.testing.assert_array_equal(saved[name], values, name)
+        self.assertGreater(numpy.ptp(saved["dd.T"]), 1, "control: depths differ")
+
+    def test_what_is_kept_between_changes_leaves_no_trace(self):
+        """Tree, borders and paces of launches are kept: each image is the one of a program that begins anew."""
+        with Viewed(PROGRAM, self.scene, *SMALL, "--passes", str(PASSES)) as view:
+            view.wait(lambda state: state["phase"] == "done")
+            brighter = view.folder / "brighter.xml"
+            brighter.write_text(self.scene.read_text().replace("100,100,100", "200,200,200"))
+            images = []
+            for edits, options, scene in [({"bdd": 1, "variant": "alternative"}, ["--bdd", "1", "--variant", "alternative"], None),
+                                          ({"map": "camera"}, ["--map", "camera"], None), ({"lamps": [2]}, [], brighter)]:
+                view.edit(**edits)
+                images.append(channels_of(view.get("image.exr")[2]))
+                for name, values in self.rendered(view.folder, PASSES, *options, scene=scene).items():
+                    numpy.testing.assert_array_equal(images[-1][name], values, f"{edits} {name}")
+        self.assertFalse(numpy.array_equal(images[0]["R"], images[1]["R"]), "control: changes change the image")
+
+    def test_those_of_a_moved_camera(self):
+        with Viewed(PROGRAM, self.scene, *SMALL, "--passes", str(PASSES)) as view:
+            view.wait(lambda state: state["phase"] == "done")
+            before = channels_of(view.get("image.exr")[2])["dd.T"]
+            view.edit(camera={"nearer": 1})
+            after = channels_of(view.get("image.exr")[2])["dd.T"]
+        # The back wall: the camera, 3.9 before the middle of the scene, goes half the way.
+        self.assertAlmostEqual(before[20, 28] - after[20, 28], 1.95, delta=0.1)
+
+    def test_a_running_render_is_not_changed_by_saving(self):
+        options = [*SMALL, "--fixed", "--passes", "200", "-o", "out.exr"]
+        with Viewed(PROGRAM, self.scene, *options, "--view", command="render") as view:
+            saved = channels_of(view.get("image.exr")[2])
+            view.process.wait(60)
+            watched = channels_of((view.folder / "out.exr").read_bytes())
+            alone = self.rendered(view.folder, 200)
+        self.assertIn("nn.X", saved)
+        self.assertFalse(numpy.array_equal(saved["R"], watched["R"]), "control: it was saved before the end")
+        for name, values in alone.items():
+            numpy.testing.assert_array_equal(watched[name], values, name)
+
+
 class RunningRender(unittest.TestCase):
     def test_it_sharpens_and_stops(self):
         with Viewed(PROGRAM, SCENE, *SMALL) as view:
@@ -217,7 +298,7 @@ class RunningRender(unittest.TestCase):
 
     def test_a_change_does_not_wait_for_the_end_of_a_pass(self):
         with Viewed(PROGRAM, SCENE, "-D", "resolution=1536", "--photons", "4000") as view:
-            view.wait(lambda state: state["passes"] >= 1)
+            view.wait(lambda state: state["passes"] >= 1, 60)  # seconds where others use the machine, too
             view.get("frame")  # somebody looks on
             before = view.wait(lambda state: state["passes"] >= 2)
             self.assertEqual(view.post("edit", bdd=1)[0], 200)

@@ -13,12 +13,16 @@ Device& testDevice(unsigned workGroupSize) {
 }
 
 Program testProgram(const std::string& file, const std::string& options) {
+    return testProgram(testDevice(), file, options);
+}
+
+Program testProgram(Device& device, const std::string& file, const std::string& options) {
     const std::string path = std::string(QUASILUX_SOURCE_DIR) + "/tests/kernels/" + file;
     std::ifstream stream(path);
     if (!stream) throw std::runtime_error("cannot read " + path);
     std::ostringstream text;
     text << stream.rdbuf();
-    return Program(testDevice(), file, options, {{file, text.str()}});
+    return Program(device, file, options, {{file, text.str()}});
 }
 
 } // namespace quasilux

@@ -13,5 +13,7 @@ Device& testDevice(unsigned workGroupSize = 64);
 
 /// Builds tests/kernels/`file`, which may include anything of kernels/.
 Program testProgram(const std::string& file, const std::string& options = "");
+/// On another device.
+Program testProgram(Device& device, const std::string& file, const std::string& options = "");
 
 } // namespace quasilux
