@@ -52,23 +52,6 @@ formatIsRight() {
         sort | xargs clang-format --dry-run -Werror
 }
 
-# Sources by the dozen, as preset ci joins them (CMAKE_UNITY_BUILD): most of the time goes into the headers of libraries. By the name of
-# UnifiedSource clang's analyzer knows that the sources which such a file includes are no headers. Headers of host/ are checked
-# with them (.clang-tidy). GCC's own flags and precompiled headers are unknown to clang. The analyzer follows 20,000 states of a function, not 225,000,
-# which took four fifths of the time; and half of what is left goes into one check of parameters by value, which is for editors and reviews.
-analysisIsClean() {
-    local log=$logs/clang-tidy.log commands=build/ci/analysis source
-    mkdir -p "$commands"
-    sed 's,/Unity/unity_,/Unity/UnifiedSource_,g; s,-Winvalid-pch -include [^ ]*/cmake_pch.hxx ,,g' build/ci/compile_commands.json \
-        >"$commands/compile_commands.json"
-    while read -r source; do cp "$source" "${source/unity_/UnifiedSource_}"; done < <(find build/ci/CMakeFiles -name 'unity_*.cxx')
-    sed -nE 's,^ *"file": "(.*/(Unity|host)/.*)".*,\1,p' "$commands/compile_commands.json" | sort |
-        xargs --max-procs="$(nproc)" --max-args=1 clang-tidy -p "$commands" --quiet --checks=-performance-unnecessary-value-param \
-            --extra-arg=-Wno-unknown-warning-option \
-            --extra-arg=-Xclang --extra-arg=-analyzer-config --extra-arg=-Xclang --extra-arg=max-nodes=20000 \
-            >"$log" 2>&1 || { grep -v 'warnings\? generated' "$log"; return 1; }
-}
-
 # Builds the site of the documents, with its links; left out where MkDocs cannot be installed, as without a network.
 siteIsWhole() {
     local code=0
@@ -148,7 +131,7 @@ phase "build"
 cmake --preset ci
 cmake --build --preset ci
 check "layout of the sources (clang-format)" formatIsRight
-check "static analysis (clang-tidy)" analysisIsClean
+check "static analysis (clang-tidy)" /usr/bin/python3 scripts/static_analysis.py build/ci
 check "types of the Python package (mypy)" /usr/bin/python3 -m mypy
 check "site of the documents (MkDocs)" siteIsWhole
 

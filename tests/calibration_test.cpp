@@ -65,8 +65,8 @@ FilmImage awayFromEdges(const FilmImage& image) {
     pick(image.radiance, part.radiance);
     pick(image.standardError, part.standardError);
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c) {
-        pick(image.components[c], part.components[c]);
-        pick(image.componentError[c], part.componentError[c]);
+        pick(image.components[c].radiance, part.components[c].radiance);
+        pick(image.components[c].standardError, part.components[c].standardError);
     }
     return part;
 }
@@ -124,10 +124,10 @@ FilmImage truthFromSeeds(const std::vector<FilmImage>& images) {
     meanAndDeviation(
         images, [](const FilmImage& i) -> auto& { return i.radiance; }, truth.radiance, truth.standardError);
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
-        if (!images.front().components[c].empty())
+        if (!images.front().components[c].radiance.empty())
             meanAndDeviation(
-                images, [c](const FilmImage& i) -> auto& { return i.components[c]; }, truth.components[c],
-                truth.componentError[c]);
+                images, [c](const FilmImage& i) -> auto& { return i.components[c].radiance; },
+                truth.components[c].radiance, truth.components[c].standardError);
     return truth;
 }
 

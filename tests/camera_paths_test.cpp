@@ -40,8 +40,9 @@ double largestDifference(const std::vector<float>& a, const std::vector<float>& 
 TEST(CameraPaths, AreThoseOfAsManyPasses) {
     const FilmImage two = render(2, 8), one = render(1, 16), fewer = render(1, 12);
     for (const unsigned component : {LIGHT_DIRECT, FILM_EMISSION})
-        EXPECT_LT(largestDifference(two.components[component], one.components[component]), 1e-5);
-    EXPECT_GT(largestDifference(two.components[LIGHT_DIRECT], fewer.components[LIGHT_DIRECT]), 0.01) << "control";
+        EXPECT_LT(largestDifference(two.components[component].radiance, one.components[component].radiance), 1e-5);
+    EXPECT_GT(largestDifference(two.components[LIGHT_DIRECT].radiance, fewer.components[LIGHT_DIRECT].radiance), 0.01)
+        << "control";
 }
 
 // One path gathers for four, with four times the weight: the same light of each class on surfaces, and in a medium, but
@@ -52,7 +53,7 @@ TEST(CameraPaths, OneGathersForAll) {
     const FilmImage four = render(4, 12), one = render(1, 12);
     for (const unsigned component : {LIGHT_CAUSTIC, LIGHT_QUASI_CAUSTIC, LIGHT_DIFFUSE}) {
         SCOPED_TRACE(componentName(component));
-        const auto &ours = four.components[component], &known = one.components[component];
+        const auto &ours = four.components[component].radiance, &known = one.components[component].radiance;
         if (known.empty()) continue;
         EXPECT_NEAR(sumOf(ours) / sumOf(known), 1, 0.06);
     }

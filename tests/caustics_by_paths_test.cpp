@@ -36,7 +36,7 @@ Found render(const Scene& scene, RenderSettings settings) {
         for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
         const FilmImage image = renderer.develop();
         images.push_back(meanOf(image.radiance));
-        caustics.push_back(meanOf(image.components[LIGHT_CAUSTIC]));
+        caustics.push_back(meanOf(image.components[LIGHT_CAUSTIC].radiance));
     }
     return {meanAndError(images), meanAndError(caustics)};
 }

@@ -50,8 +50,8 @@ TEST_P(FilmCutTest, PixelsAreThoseOfTheImage) {
             ASSERT_EQ(cut.radiance[to], whole.radiance[from]);
             ASSERT_EQ(cut.standardError[to], whole.standardError[from]);
             ASSERT_EQ(cut.bias[to], whole.bias[from]);
-            ASSERT_EQ(cut.components[LIGHT_DIFFUSE][to], whole.components[LIGHT_DIFFUSE][from]);
-            ASSERT_EQ(cut.componentBiasError[LIGHT_CAUSTIC][to], whole.componentBiasError[LIGHT_CAUSTIC][from]);
+            ASSERT_EQ(cut.components[LIGHT_DIFFUSE].radiance[to], whole.components[LIGHT_DIFFUSE].radiance[from]);
+            ASSERT_EQ(cut.components[LIGHT_CAUSTIC].biasError[to], whole.components[LIGHT_CAUSTIC].biasError[from]);
         }
 }
 
@@ -60,7 +60,7 @@ TEST_P(FilmCutTest, ValuesAreMeansOfBlocks) {
     FilmCutChoice choice{0, 0, width, height, 4, CUT_ALL, FilmCutChoice::Content::values, {}};
     for (const auto component : {std::optional<unsigned>(), std::optional<unsigned>(FILM_EMISSION)}) {
         choice.component = component;
-        const auto& values = component ? whole.components[*component] : whole.radiance;
+        const auto& values = component ? whole.components[*component].radiance : whole.radiance;
         const FilmImage cut = cutter.develop(film, passes, choice);
         ASSERT_EQ(cut.width, 10u);
         ASSERT_EQ(cut.height, 6u);

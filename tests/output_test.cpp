@@ -50,9 +50,9 @@ TEST_F(OutputTest, ExrHoldsEveryLayerUnchanged) {
     EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
     const std::vector<std::pair<std::string, const std::vector<float>*>> layers{
         {"", &image.radiance},
-        {"direct.", &image.components[LIGHT_DIRECT]},
-        {"quasi_caustic.", &image.components[LIGHT_QUASI_CAUSTIC]},
-        {"emission.", &image.components[FILM_EMISSION]},
+        {"direct.", &image.components[LIGHT_DIRECT].radiance},
+        {"quasi_caustic.", &image.components[LIGHT_QUASI_CAUSTIC].radiance},
+        {"emission.", &image.components[FILM_EMISSION].radiance},
         {"stderr.", &image.standardError},
         {"bias.", &image.bias},
         {"bias_stderr.", &image.biasError}};
@@ -159,7 +159,7 @@ TEST_F(OutputTest, ExrLeavesOutAnUnknownError) {
 
 TEST_F(OutputTest, FailedWritesLeaveNothingBehind) {
     FilmImage image = distinctImage();
-    image.components[LIGHT_DIRECT].pop_back();
+    image.components[LIGHT_DIRECT].radiance.pop_back();
     EXPECT_THROW(writeExr(path("a.exr"), image, exampleRecord()), std::runtime_error);
     image.radiance.pop_back();
     EXPECT_THROW(writePng(path("a.png"), image, {}, exampleRecord()), std::runtime_error);

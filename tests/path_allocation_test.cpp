@@ -115,8 +115,8 @@ double sumOf(const std::vector<float>& values) { return std::accumulate(values.b
 MeanAndError ratioOf(unsigned component, SamplingRule rule) {
     std::vector<double> ratios;
     for (uint64_t seed = 1; seed <= 8; ++seed)
-        ratios.push_back(sumOf(render(CameraSampling::adaptive, seed, rule).components[component]) /
-                         sumOf(render(CameraSampling::even, seed).components[component]));
+        ratios.push_back(sumOf(render(CameraSampling::adaptive, seed, rule).components[component].radiance) /
+                         sumOf(render(CameraSampling::even, seed).components[component].radiance));
     return meanAndError(ratios);
 }
 
@@ -154,7 +154,8 @@ TEST(PathAllocation, LeavesTheMeanInLargerImages) {
     const auto cornerOf = [](const FilmImage& image) {
         double sum = 0;
         for (unsigned y = 73; y < 145; ++y)
-            for (unsigned x = 73; x < 145; ++x) sum += image.components[LIGHT_DIRECT].at(3 * (size_t{y} * 145 + x));
+            for (unsigned x = 73; x < 145; ++x)
+                sum += image.components[LIGHT_DIRECT].radiance.at(3 * (size_t{y} * 145 + x));
         return sum;
     };
     for (uint64_t seed = 1; seed <= 8; ++seed)

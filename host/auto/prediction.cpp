@@ -137,8 +137,9 @@ double shareOfNoise(unsigned first, unsigned end, const ErrorEstimate& error, bo
 // The square of their sum over its variance; pixels are independent where paths meet them.
 double causticsMet(const FilmImage& image) {
     double light = 0, variance = 0;
-    for (const float value : image.components[LIGHT_CAUSTIC]) light += value;
-    for (const float error : image.componentError[LIGHT_CAUSTIC]) variance += double(error) * error;
+    const RadianceEstimate& caustics = image.components[LIGHT_CAUSTIC];
+    for (const float value : caustics.radiance) light += value;
+    for (const float error : caustics.standardError) variance += double(error) * error;
     return variance > 0 ? light * light / variance : 0;
 }
 

@@ -68,10 +68,17 @@ void printRadii(const SceneReport& report) {
 }
 
 // What `render` with the same options would search, and the first candidates it may try.
-void printSearch(const std::string& notSearched, const Freedom& freedom, const std::vector<std::string>& candidates) {
-    fmt::print("\nauto: {}\n", notSearched.empty() ? "searches " + text(freedom) : "nothing searched: " + notSearched);
-    if (!notSearched.empty()) return;
-    for (const auto& candidate : candidates) fmt::print("  {}\n", candidate);
+struct SearchPlan {
+    Freedom freedom;
+    std::string notSearched; // why not, or empty
+    std::vector<std::string> candidates;
+};
+
+void printSearch(const SearchPlan& search) {
+    const std::string& why = search.notSearched;
+    fmt::print("\nauto: {}\n", why.empty() ? "searches " + text(search.freedom) : "nothing searched: " + why);
+    if (!why.empty()) return;
+    for (const auto& candidate : search.candidates) fmt::print("  {}\n", candidate);
 }
 
 void printEnergy(const std::optional<EnergyBalance>& energy) {
@@ -106,13 +113,50 @@ void printMemory(const MemoryForecast& forecast) {
     fmt::print("\n{}", table.text());
 }
 
+void printWarnings(const std::vector<std::string>& warnings, const SceneOptions& options) {
+    if (options.quiet) return;
+    for (const auto& warning : warnings) printWarning(warning);
+}
+
+// The report of a render after a trial pass, as one JSON object and as text.
+void printJson(const std::string& file, const RenderSettings& settings, const SearchPlan& search, const Device& device,
+               const Renderer& renderer) {
+    const nlohmann::json why =
+        search.notSearched.empty() ? nlohmann::json(nullptr) : nlohmann::json(search.notSearched);
+    const nlohmann::json output{
+        {"version", QUASILUX_VERSION},
+        {"scene", file},
+        {"settings", settingsJson(settings)},
+        {"auto", {{"notSearched", why}, {"searched", text(search.freedom)}, {"candidates", search.candidates}}},
+        {"device", deviceJson(device.info())},
+        {"sceneReport", sceneReportJson(renderer.report())},
+        {"trialPass", countersJson(renderer.counters())}};
+    fmt::print("{}\n", output.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void printText(const std::string& file, const RenderSettings& settings, const SearchPlan& search, const Device& device,
+               const Renderer& renderer) {
+    const SceneReport& report = renderer.report();
+    fmt::print("scene: {}\ndevice: {}\n", file, device.info().name);
+    fmt::print("map: {}, in a trial pass {} records, {}\n", name(settings.map), renderer.counters().storedPoints,
+               bytesText(renderer.counters().storedBytes));
+    printGeometry(report);
+    printEmitters(report);
+    printLobes(report);
+    printMedia(report);
+    printRadii(report);
+    printBuffers(report.bufferBytes);
+    printMemory(report.forecast);
+    printEnergy(renderer.counters().energy);
+    printSearch(search);
+}
+
 } // namespace
 
 void infoCommand(const SceneOptions& options) {
     exitOnInterrupt();
     const Scene scene = loadScene(options.scene, options.parameters(), options.choice());
-    if (!options.quiet)
-        for (const auto& warning : scene.warnings) printWarning(warning);
+    printWarnings(scene.warnings, options);
     const Freedom freedom = options.freedom(scene);
     const RenderSettings settings = searchStart(options.settings(scene), scene, freedom, {});
     Device device(options.device, options.workGroupSize, options.deviceMemory);
@@ -125,39 +169,14 @@ void infoCommand(const SceneOptions& options) {
     progress.clear();
 
     const SceneReport& report = renderer.report();
-    if (!options.quiet)
-        for (const auto& warning : report.warnings) printWarning(warning);
-    const std::string notSearched = whyNotSearched(scene, settings, {});
-    const auto candidates = firstCandidates(freedom, settings, report.photonsPerPass, scene);
+    printWarnings(report.warnings, options);
+    const SearchPlan search{freedom, whyNotSearched(scene, settings, {}),
+                            firstCandidates(freedom, settings, report.photonsPerPass, scene)};
     const std::string file = std::filesystem::path(options.scene).filename().string();
-    if (options.json) {
-        const nlohmann::json output{
-            {"version", QUASILUX_VERSION},
-            {"scene", file},
-            {"settings", settingsJson(settings)},
-            {"auto",
-             {{"notSearched", notSearched.empty() ? nlohmann::json(nullptr) : nlohmann::json(notSearched)},
-              {"searched", text(freedom)},
-              {"candidates", candidates}}},
-            {"device", deviceJson(device.info())},
-            {"sceneReport", sceneReportJson(report)},
-            {"trialPass", countersJson(renderer.counters())}};
-        fmt::print("{}\n", output.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-        return;
-    }
-    if (options.quiet) return;
-    fmt::print("scene: {}\ndevice: {}\n", file, device.info().name);
-    fmt::print("map: {}, in a trial pass {} records, {}\n", name(settings.map), renderer.counters().storedPoints,
-               bytesText(renderer.counters().storedBytes));
-    printGeometry(report);
-    printEmitters(report);
-    printLobes(report);
-    printMedia(report);
-    printRadii(report);
-    printBuffers(report.bufferBytes);
-    printMemory(report.forecast);
-    printEnergy(renderer.counters().energy);
-    printSearch(notSearched, freedom, candidates);
+    if (options.json)
+        printJson(file, settings, search, device, renderer);
+    else if (!options.quiet)
+        printText(file, settings, search, device, renderer);
 }
 
 } // namespace quasilux

@@ -303,6 +303,27 @@ std::vector<std::string> RenderOptions::fileNames() const {
 
 namespace {
 
+void declareRenderCommand(CLI::App& app, RenderOptions& options) {
+    CLI::App& render = *app.add_subcommand("render", "Render scenes to OpenEXR images");
+    declareScenes(render, options);
+    declareScene(render, options, ", or all, one after the other, into files NAME_0.exr, NAME_1.exr ...");
+    declareFiles(render, options);
+    declareTerminal(render, options);
+    declareStop(render, options.stop, "30 if no stop rule is given");
+    declareCheckpoints(render, options);
+    declareSettings(render, options);
+    declareDevice(render, options);
+    declareDevices(render, options);
+    auto* viewed = render
+                       .add_flag("--view", options.isViewed,
+                                 "Serve a page that shows the picture as it converges, and open it (default: off)")
+                       ->group("Live view");
+    declareView(render, options);
+    declareTev(render, options);
+    excludeEachOther(render);
+    for (const char* name : {"--listen", "--port", "--no-browser"}) render.get_option(name)->needs(viewed);
+}
+
 void declareViewCommand(CLI::App& app, RenderOptions& options) {
     CLI::App& view =
         *app.add_subcommand("view", "Render a scene in the browser: look, move the camera, change the method");
@@ -326,25 +347,7 @@ void declareOptions(CLI::App& app, Options& options) {
     app.require_subcommand(1);
     app.set_version_flag("--version", "quasilux " QUASILUX_VERSION, "Print the version");
 
-    CLI::App& render = *app.add_subcommand("render", "Render scenes to OpenEXR images");
-    declareScenes(render, options.render);
-    declareScene(render, options.render, ", or all, one after the other, into files NAME_0.exr, NAME_1.exr ...");
-    declareFiles(render, options.render);
-    declareTerminal(render, options.render);
-    declareStop(render, options.render.stop, "30 if no stop rule is given");
-    declareCheckpoints(render, options.render);
-    declareSettings(render, options.render);
-    declareDevice(render, options.render);
-    declareDevices(render, options.render);
-    auto* viewed = render
-                       .add_flag("--view", options.render.isViewed,
-                                 "Serve a page that shows the picture as it converges, and open it (default: off)")
-                       ->group("Live view");
-    declareView(render, options.render);
-    declareTev(render, options.render);
-    excludeEachOther(render);
-    for (const char* name : {"--listen", "--port", "--no-browser"}) render.get_option(name)->needs(viewed);
-
+    declareRenderCommand(app, options.render);
     declareViewCommand(app, options.view);
     declareMerge(app, options.merge);
     declareCompare(app, options.compare);

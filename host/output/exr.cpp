@@ -50,7 +50,8 @@ std::vector<Layer> layersOf(const FilmImage& image, const OtherTerms& terms, con
     if (!terms.luminance.empty()) layers.push_back({{"Y"}, &terms.luminance});
     if (!terms.xyz.empty()) layers.push_back({{"X", "Y", "Z"}, &terms.xyz});
     for (unsigned i = 0; i < FILM_COMPONENTS; ++i)
-        if (!image.components[i].empty()) layers.push_back(colors(componentName(i) + ".", image.components[i]));
+        if (const auto& values = image.components[i].radiance; !values.empty())
+            layers.push_back(colors(componentName(i) + ".", values));
     if (!image.standardError.empty()) layers.push_back(colors("stderr.", image.standardError));
     if (!image.bias.empty()) {
         layers.push_back(colors("bias.", image.bias));

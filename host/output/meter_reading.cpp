@@ -37,7 +37,7 @@ MeterReading readingOf(const FilmImage& image, size_t pixel, bool unitsArePhotom
     MeterReading reading;
     reading.value = tripleAt(image.radiance, pixel);
     reading.standardError = tripleAt(image.standardError, pixel);
-    for (size_t k = 0; k < FILM_COMPONENTS; ++k) reading.components[k] = tripleAt(image.components[k], pixel);
+    for (size_t k = 0; k < FILM_COMPONENTS; ++k) reading.components[k] = tripleAt(image.components[k].radiance, pixel);
     reading.photometricValue = photometric(reading.value, unitsArePhotometric);
     reading.photometricStandardError = photometric(reading.standardError, unitsArePhotometric);
     return reading;
@@ -130,7 +130,7 @@ private:
         const MeterReading reading = meanReading(image_, range, isPhotometric_);
         nlohmann::json byClass = nlohmann::json::object();
         for (unsigned k = 0; k < FILM_COMPONENTS; ++k)
-            if (!image_.components[k].empty()) byClass[componentName(k)] = reading.components[k];
+            if (!image_.components[k].radiance.empty()) byClass[componentName(k)] = reading.components[k];
         nlohmann::json json{
             {"value", reading.value}, {"standardError", known(image_, reading.standardError)}, {"components", byClass}};
         const std::string key = isIrradiance(record_.meter) ? "illuminance" : "luminance";

@@ -50,7 +50,7 @@ py::object imageArray(const RenderedPointer& owner, const std::vector<float>& va
 py::dict componentArrays(const RenderedPointer& owner) {
     py::dict arrays;
     for (unsigned k = 0; k < FILM_COMPONENTS; ++k)
-        if (const auto& values = owner->image.components[k]; !values.empty())
+        if (const auto& values = owner->image.components[k].radiance; !values.empty())
             arrays[py::str(componentName(k))] = imageArray(owner, values);
     return arrays;
 }

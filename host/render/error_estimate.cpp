@@ -101,17 +101,16 @@ double percentile95(std::vector<double> variances, double n) {
     return std::exp(middle - offset + share * (std::log(found) - middle));
 }
 
-ErrorPart partOf(const std::vector<float>& noise, const std::vector<float>& bias, const std::vector<float>& biasNoise,
-                 const std::vector<float>& scales, double passes) {
+ErrorPart partOf(const RadianceEstimate& estimate, const std::vector<float>& scales, double passes) {
     ErrorPart part;
-    std::vector<double> squares = squaredByPixel(noise, scales);
+    std::vector<double> squares = squaredByPixel(estimate.standardError, scales);
     part.noiseRms = std::sqrt(mean(squares));
     double roots = 0;
     for (const double square : squares) roots += std::sqrt(square);
     part.noiseMean = roots / static_cast<double>(squares.size()) / meanOfSampleDeviation(passes);
     part.noisePercentile95 = std::sqrt(percentile95(std::move(squares), passes));
-    const double noiseOfBias = mean(squaredByPixel(biasNoise, scales));
-    part.biasRms = std::sqrt(std::max(0.0, mean(squaredByPixel(bias, scales)) - noiseOfBias));
+    const double noiseOfBias = mean(squaredByPixel(estimate.biasError, scales));
+    part.biasRms = std::sqrt(std::max(0.0, mean(squaredByPixel(estimate.bias, scales)) - noiseOfBias));
     part.biasNoiseRms = std::sqrt(noiseOfBias);
     return part;
 }
@@ -132,11 +131,10 @@ ErrorEstimate estimateError(const FilmImage& image) {
         return estimate;
     }
     const auto scales = relativeScales(image, image.radiance);
-    estimate.total = partOf(image.standardError, image.bias, image.biasError, scales, image.passes);
+    estimate.total = partOf(image, scales, image.passes);
     for (size_t c = 0; c < LIGHT_CLASSES; ++c)
-        if (!image.componentError[c].empty())
-            estimate.components[c] = partOf(image.componentError[c], image.componentBias[c],
-                                            image.componentBiasError[c], scales, image.passes);
+        if (!image.components[c].standardError.empty())
+            estimate.components[c] = partOf(image.components[c], scales, image.passes);
     return estimate;
 }
 
@@ -160,7 +158,7 @@ TileErrors errorByTile(const FilmImage& image, unsigned perSide, const std::vect
 
 double noiseOfFinding(const FilmImage& image, unsigned component, double radiance,
                       const std::vector<float>& brightness) {
-    const auto& light = image.components.at(component);
+    const auto& light = image.components.at(component).radiance;
     if (light.empty()) return 0;
     const auto scales = relativeScales(image, brightness.empty() ? image.radiance : brightness);
     double sum = 0;

@@ -64,35 +64,40 @@ float biasStandardError(double sum, double squares, double open, const BiasCount
     return static_cast<float>(std::sqrt(variance) / n.passes);
 }
 
-void developPixel(const float* pixel, size_t first, const Counts& n, FilmImage& image) {
-    for (size_t channel = 0; channel < 3; ++channel) {
-        const double sum = valueOfSum(pixel + FILM_TOTAL_SUM, channel);
-        image.radiance[first + channel] = static_cast<float>(sum / n.passes);
-        image.standardError[first + channel] =
-            standardError(sum, valueOfSum(pixel + FILM_TOTAL_SQUARES, channel), pixel[FILM_TOTAL_BATCH + channel], n);
-    }
+// Where the sums of a pixel are, of the whole image or of one component. Null: there are none.
+struct PixelSums {
+    const float *radiance, *squares, *openBatch, *bias;
+};
+
+PixelSums totalSums(const float* pixel, const FilmLayout& layout) {
+    return {pixel + FILM_TOTAL_SUM, pixel + FILM_TOTAL_SQUARES, pixel + FILM_TOTAL_BATCH,
+            layout.bias ? pixel + FILM_TOTAL_BIAS : nullptr};
 }
 
-void developComponents(const float* pixel, unsigned layout, size_t first, const Counts& n, FilmImage& image) {
-    const float *sums = pixel + FILM_COMPONENT_SUMS(layout), *squares = pixel + FILM_CLASS_SQUARES(layout),
-                *open = pixel + FILM_CLASS_BATCH(layout);
-    for (size_t channel = 0; channel < 3; ++channel)
-        for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
-            const double sum = valueOfSum(sums + k * FILM_SUM_FLOATS, channel);
-            image.components[k][first + channel] = static_cast<float>(sum / n.passes);
-            if (k < LIGHT_CLASSES)
-                image.componentError[k][first + channel] =
-                    standardError(sum, valueOfSum(squares + k * FILM_SUM_FLOATS, channel), open[3 * k + channel], n);
-        }
+PixelSums componentSums(const float* pixel, const FilmLayout& layout, size_t k) {
+    const unsigned bits = layout.bits();
+    PixelSums sums{pixel + FILM_COMPONENT_SUMS(bits) + k * FILM_SUM_FLOATS, nullptr, nullptr, nullptr};
+    if (k >= LIGHT_CLASSES) return sums;
+    sums.squares = pixel + FILM_CLASS_SQUARES(bits) + k * FILM_SUM_FLOATS;
+    sums.openBatch = pixel + FILM_CLASS_BATCH(bits) + 3 * k;
+    if (layout.bias) sums.bias = pixel + FILM_CLASS_BIAS(bits) + k * FILM_BIAS_FLOATS;
+    return sums;
 }
 
-void developBias(const float* sums, size_t first, const BiasCounts& n, std::vector<float>& bias,
-                 std::vector<float>& error) {
+void developPixel(const PixelSums& sums, size_t first, const Counts& n, const BiasCounts& ofBias,
+                  RadianceEstimate& estimate) {
     for (size_t channel = 0; channel < 3; ++channel) {
-        const double sum = sums[FILM_BIAS_SUM + channel];
-        bias[first + channel] = static_cast<float>(sum / n.passes);
-        error[first + channel] =
-            biasStandardError(sum, sums[FILM_BIAS_SQUARES + channel], sums[FILM_BIAS_BATCH + channel], n);
+        const size_t at = first + channel;
+        const double sum = valueOfSum(sums.radiance, channel);
+        estimate.radiance[at] = static_cast<float>(sum / n.passes);
+        if (sums.squares)
+            estimate.standardError[at] =
+                standardError(sum, valueOfSum(sums.squares, channel), sums.openBatch[channel], n);
+        if (!sums.bias) continue;
+        const double bias = sums.bias[FILM_BIAS_SUM + channel];
+        estimate.bias[at] = static_cast<float>(bias / ofBias.passes);
+        estimate.biasError[at] = biasStandardError(bias, sums.bias[FILM_BIAS_SQUARES + channel],
+                                                   sums.bias[FILM_BIAS_BATCH + channel], ofBias);
     }
 }
 
@@ -187,48 +192,30 @@ void Film::forEachPiece(const std::function<void(const std::vector<float>& sums,
 FilmDeveloper::FilmDeveloper(const FilmLayout& layout, const FilmCounts& counts, unsigned passes, FilmImage& image)
     : layout_(layout), counts_(counts), passes_(passes), image_(image) {
     const size_t values = size_t(image.width) * image.height * 3;
-    image.radiance.resize(values);
-    image.standardError.resize(values);
-    if (layout.bias) {
-        image.bias.resize(values);
-        image.biasError.resize(values);
-    }
+    image.resize(values, true, layout.bias);
     if (!layout.components) return;
-    for (auto& component : image.components) component.resize(values);
-    for (auto& error : image.componentError) error.resize(values);
-    if (!layout.bias) return;
-    for (auto& bias : image.componentBias) bias.resize(values);
-    for (auto& error : image.componentBiasError) error.resize(values);
+    for (size_t k = 0; k < FILM_COMPONENTS; ++k)
+        image.components[k].resize(values, k < LIGHT_CLASSES, k < LIGHT_CLASSES && layout.bias);
 }
 
 void FilmDeveloper::develop(const float* sums, size_t firstPixel, size_t pixels) {
     const FilmCounts closed = counts_.closed();
     const Counts means{double(std::max(1u, passes_)), closed.batches, counts_.openWeight()};
     const BiasCounts biasCounts{std::max(1.0, counts_.biasPasses), closed.biasSquares};
-    const unsigned layout = layout_.bits();
+    const size_t components = layout_.components ? FILM_COMPONENTS : 0;
     for (size_t k = 0; k < pixels; ++k) {
         const float* pixel = sums + k * layout_.floatsPerPixel();
         const size_t first = 3 * (firstPixel + k);
-        developPixel(pixel, first, means, image_);
-        if (layout_.components) developComponents(pixel, layout, first, means, image_);
-        if (!layout_.bias) continue;
-        developBias(pixel + FILM_TOTAL_BIAS, first, biasCounts, image_.bias, image_.biasError);
-        for (size_t c = 0; layout_.components && c < LIGHT_CLASSES; ++c)
-            developBias(pixel + FILM_CLASS_BIAS(layout) + c * FILM_BIAS_FLOATS, first, biasCounts,
-                        image_.componentBias[c], image_.componentBiasError[c]);
+        developPixel(totalSums(pixel, layout_), first, means, biasCounts, image_);
+        for (size_t c = 0; c < components; ++c)
+            developPixel(componentSums(pixel, layout_, c), first, means, biasCounts, image_.components[c]);
     }
 }
 
 void FilmDeveloper::finish() {
     image_.passes = passes_;
-    for (size_t k = 0; k < FILM_COMPONENTS; ++k) {
-        if (!isBlack(image_.components[k])) continue;
-        image_.components[k].clear();
-        if (k >= LIGHT_CLASSES) continue;
-        image_.componentError[k].clear();
-        image_.componentBias[k].clear();
-        image_.componentBiasError[k].clear();
-    }
+    for (RadianceEstimate& component : image_.components)
+        if (isBlack(component.radiance)) component.resize(0, false, false);
 }
 
 void Film::save(StateSink& sink, const std::string& name) const {

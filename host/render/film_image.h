@@ -10,25 +10,33 @@
 
 namespace quasilux {
 
-struct FilmImage {
+/// Radiance by pixel and channel (W sr^-1 m^-2) and what is known of its error. Each has width*height*3 values or is empty.
+struct RadianceEstimate {
+    std::vector<float> radiance;      ///< mean over passes
+    std::vector<float> standardError; ///< of `radiance`, from independent passes
+    /// Estimate of the bias that the density radius leaves in `radiance`, and the standard error of that estimate; empty
+    /// where it was not estimated (docs/method/accuracy.md).
+    std::vector<float> bias, biasError;
+
+    void resize(size_t values, bool hasError, bool hasBias) {
+        radiance.resize(values);
+        standardError.resize(hasError ? values : 0);
+        bias.resize(hasBias ? values : 0);
+        biasError.resize(hasBias ? values : 0);
+    }
+    bool operator==(const RadianceEstimate&) const = default;
+};
+
+/// The whole image, the sum of its components.
+struct FilmImage : RadianceEstimate {
     unsigned width = 0, height = 0;
     unsigned passes = 0;
-    std::vector<float> radiance;      ///< width*height*3, W sr^-1 m^-2: the sum of the components
-    std::vector<float> standardError; ///< width*height*3, of `radiance`, from independent passes
-    /// By FILM component (LIGHT_* and FILM_EMISSION), each width*height*3, or empty where the scene has no such light.
-    std::array<std::vector<float>, FILM_COMPONENTS> components;
-    /// Their standard errors, by LIGHT_*.
-    std::array<std::vector<float>, LIGHT_CLASSES> componentError;
-
-    /// Estimate of the bias that the density radius leaves in `radiance`, and the standard error of that estimate:
-    /// width*height*3, W sr^-1 m^-2; empty where it was not estimated (docs/method/accuracy.md).
-    std::vector<float> bias, biasError;
-    /// The same by LIGHT_*; empty, too, where the scene has no such light.
-    std::array<std::vector<float>, LIGHT_CLASSES> componentBias, componentBiasError;
+    /// By FILM component (LIGHT_* and FILM_EMISSION, which has no error); empty where the scene has no such light.
+    std::array<RadianceEstimate, FILM_COMPONENTS> components;
 
     /// Or else the image is black, or its film kept none.
     bool hasComponents() const {
-        return std::any_of(components.begin(), components.end(), [](const auto& one) { return !one.empty(); });
+        return std::any_of(components.begin(), components.end(), [](const auto& one) { return !one.radiance.empty(); });
     }
 };
 

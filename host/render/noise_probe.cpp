@@ -38,7 +38,7 @@ void addPhotons(const FilmImage& gathered, const FilmImage& found, unsigned clas
     const auto at = [](const std::vector<float>& values, size_t k) { return values.empty() ? 0.f : values[k]; };
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c)
         for (size_t k = 0; k < radiance.size() && (classes >> c & 1); ++k)
-            radiance[k] += at(gathered.components[c], k) - at(found.components[c], k);
+            radiance[k] += at(gathered.components[c].radiance, k) - at(found.components[c].radiance, k);
 }
 
 } // namespace

@@ -247,7 +247,8 @@ struct ViewServer::Http {
         json["biasStderr"] = one.biasError.empty() ? nlohmann::json() : nlohmann::json(one.biasError);
         json["components"] = nlohmann::json::object();
         for (unsigned c = 0; c < FILM_COMPONENTS; ++c)
-            if (!one.components[c].empty()) json["components"][componentName(c)] = one.components[c];
+            if (const auto& values = one.components[c].radiance; !values.empty())
+                json["components"][componentName(c)] = values;
         reply(response, json);
     }
 

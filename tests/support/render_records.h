@@ -16,9 +16,9 @@ inline FilmImage distinctImage() {
     };
     const size_t count = image.radiance.size();
     fill(image.radiance, count);
-    fill(image.components[LIGHT_DIRECT], count);
-    fill(image.components[LIGHT_QUASI_CAUSTIC], count);
-    fill(image.components[FILM_EMISSION], count);
+    fill(image.components[LIGHT_DIRECT].radiance, count);
+    fill(image.components[LIGHT_QUASI_CAUSTIC].radiance, count);
+    fill(image.components[FILM_EMISSION].radiance, count);
     fill(image.standardError, count);
     fill(image.bias, count);
     fill(image.biasError, count);

@@ -3,10 +3,11 @@
 
 namespace quasilux {
 
-void readConstant(Properties& properties) {
-    Surroundings& surroundings = addSurroundings(properties);
+SceneEmitter readConstant(Properties& properties) {
+    Surroundings surroundings = newSurroundings(properties);
     properties.transform("to_world"); // turning the same radiance changes nothing
     surroundings.radiance = properties.emission("radiance", {1, 1, 1});
+    return surroundings;
 }
 
 } // namespace quasilux

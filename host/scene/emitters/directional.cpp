@@ -3,7 +3,7 @@
 
 namespace quasilux {
 
-void readDirectional(Properties& properties) {
+SceneEmitter readDirectional(Properties& properties) {
     if (properties.has("direction") && properties.has("to_world"))
         throw InputError(properties.where("to_world"),
                          "emitter 'directional' has both direction and to_world; keep one.");
@@ -13,7 +13,7 @@ void readDirectional(Properties& properties) {
     emitter.where = properties.element().where;
     emitter.direction = glm::vec3(glm::normalize(toWorld * properties.direction("direction", {0, 0, 1})));
     emitter.irradiance = properties.emission("irradiance", {1, 1, 1});
-    properties.context().scene.directionalEmitters.push_back(emitter);
+    return emitter;
 }
 
 } // namespace quasilux

@@ -21,7 +21,7 @@ constexpr ShapeEmitterPlugin shapeEmitters[] = {
 
 struct SceneEmitterPlugin {
     std::string_view name;
-    void (*read)(Properties&);
+    SceneEmitter (*read)(Properties&);
 };
 constexpr SceneEmitterPlugin sceneEmitters[] = {
     {"point", readPoint},
@@ -43,30 +43,13 @@ void warnOff(const Element& element, LoadContext& context) {
                  fmt::format("emitter '{}' is off: all that it emits is 0. It is left out.", idOf(element)));
 }
 
-/// How many of each kind there are.
-struct EmitterCounts {
-    explicit EmitterCounts(const Scene& scene)
-        : points(scene.pointEmitters.size()), directionals(scene.directionalEmitters.size()),
-          hasSurroundings(scene.surroundings.has_value()) {}
+bool isOff(const PointEmitter& emitter) { return isBlack(emitter.intensity); }
+bool isOff(const DirectionalEmitter& emitter) { return isBlack(emitter.irradiance); }
+bool isOff(const Surroundings& emitter) { return !emitter.image && isBlack(emitter.radiance); }
 
-    size_t points, directionals;
-    bool hasSurroundings;
-};
-
-/// Takes the emitter that was read since `before` out of the scene again where it is off.
-bool takeOutIfOff(Scene& scene, const EmitterCounts& before) {
-    const EmitterCounts now(scene);
-    if (now.points > before.points && isBlack(scene.pointEmitters.back().intensity))
-        scene.pointEmitters.pop_back();
-    else if (now.directionals > before.directionals && isBlack(scene.directionalEmitters.back().irradiance))
-        scene.directionalEmitters.pop_back();
-    else if (now.hasSurroundings && !before.hasSurroundings && !scene.surroundings->image &&
-             isBlack(scene.surroundings->radiance))
-        scene.surroundings.reset();
-    else
-        return false;
-    return true;
-}
+void add(PointEmitter&& emitter, Scene& scene) { scene.pointEmitters.push_back(std::move(emitter)); }
+void add(DirectionalEmitter&& emitter, Scene& scene) { scene.directionalEmitters.push_back(std::move(emitter)); }
+void add(Surroundings&& emitter, Scene& scene) { scene.surroundings = std::move(emitter); }
 
 [[noreturn]] void throwNotHere(const Element& element) {
     const std::string& plugin = element.get("type");
@@ -100,18 +83,18 @@ bool leavesOutEmitter(const Element& element, LoadContext& context) {
     return true;
 }
 
-Surroundings& addSurroundings(Properties& properties) {
-    auto& surroundings = properties.context().scene.surroundings;
+Surroundings newSurroundings(Properties& properties) {
+    const auto& before = properties.context().scene.surroundings;
     const Element& element = properties.element();
-    if (surroundings)
+    if (before)
         throw InputError(element.where,
                          fmt::format("a second emitter all around the scene, after the emitter '{}' at {}; keep one.",
-                                     surroundings->plugin, surroundings->where.text()));
-    surroundings.emplace();
-    surroundings->id = idOf(element);
-    surroundings->where = element.where;
-    surroundings->plugin = properties.plugin();
-    return *surroundings;
+                                     before->plugin, before->where.text()));
+    Surroundings surroundings;
+    surroundings.id = idOf(element);
+    surroundings.where = element.where;
+    surroundings.plugin = properties.plugin();
+    return surroundings;
 }
 
 std::optional<AreaEmitter> readShapeEmitter(const Element& element, LoadContext& context) {
@@ -133,11 +116,13 @@ void readSceneEmitter(const Element& element, LoadContext& context) {
     for (const SceneEmitterPlugin& plugin : sceneEmitters) {
         if (plugin.name != element.get("type")) continue;
         Properties properties(element, context);
-        const EmitterCounts before(context.scene);
-        plugin.read(properties);
+        SceneEmitter emitter = plugin.read(properties);
         properties.accept({"sampling_weight"}); // which emitter is chosen is learned
         properties.finish();
-        if (takeOutIfOff(context.scene, before)) warnOff(element, context);
+        const auto finish = [&](auto& read) {
+            isOff(read) ? warnOff(element, context) : add(std::move(read), context.scene);
+        };
+        std::visit(finish, emitter);
         return;
     }
     throwNotHere(element);

@@ -4,7 +4,12 @@
 
 #include "scene/properties.h"
 
+#include <variant>
+
 namespace quasilux {
+
+/// What a plugin that stands alone makes; a sky may add the sun to the scene besides.
+using SceneEmitter = std::variant<PointEmitter, DirectionalEmitter, Surroundings>;
 
 /// Whether the plugin is unknown, and forgiven.
 bool leavesOutEmitter(const Element& element, LoadContext& context);
@@ -16,8 +21,8 @@ std::optional<AreaEmitter> readShapeEmitter(const Element& element, LoadContext&
 /// An emitter of its own, directly in the scene; it is added to context.scene, or left out with a warning where it is off.
 void readSceneEmitter(const Element& element, LoadContext& context);
 
-/// The scene's surroundings, still without radiance. Throws InputError where it has some already.
-Surroundings& addSurroundings(Properties& properties);
+/// Surroundings without radiance. Throws InputError where the scene has some already.
+Surroundings newSurroundings(Properties& properties);
 /// Of their `to_world`, the nearest axes at right angles. Throws InputError where they are not nearly so, or scaled.
 glm::dmat3 axesOfSurroundings(Properties& properties);
 
@@ -37,15 +42,15 @@ Names emitterPluginNames();
 
 AreaEmitter readArea(Properties& properties);
 AreaEmitter readDirectionalArea(Properties& properties);
-void readConstant(Properties& properties);
-void readEnvmap(Properties& properties);
-void readLuminaire(Properties& properties);
-void readCieSky(Properties& properties);
-void readPerezSky(Properties& properties);
-void readDirectional(Properties& properties);
-void readPoint(Properties& properties);
-void readProjector(Properties& properties);
-void readSpot(Properties& properties);
-void readSunSky(Properties& properties);
+SceneEmitter readConstant(Properties& properties);
+SceneEmitter readEnvmap(Properties& properties);
+SceneEmitter readLuminaire(Properties& properties);
+SceneEmitter readCieSky(Properties& properties);
+SceneEmitter readPerezSky(Properties& properties);
+SceneEmitter readDirectional(Properties& properties);
+SceneEmitter readPoint(Properties& properties);
+SceneEmitter readProjector(Properties& properties);
+SceneEmitter readSpot(Properties& properties);
+SceneEmitter readSunSky(Properties& properties);
 
 } // namespace quasilux

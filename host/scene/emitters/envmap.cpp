@@ -31,8 +31,8 @@ glm::dmat3 axesOfSurroundings(Properties& properties) {
     return {x, y, glm::dot(z, given[2]) < 0 ? -z : z};
 }
 
-void readEnvmap(Properties& properties) {
-    Surroundings& surroundings = addSurroundings(properties);
+SceneEmitter readEnvmap(Properties& properties) {
+    Surroundings surroundings = newSurroundings(properties);
     const std::string name = properties.string("filename", "");
     const SourceLocation where = properties.where("filename");
     if (name.empty())
@@ -59,10 +59,11 @@ void readEnvmap(Properties& properties) {
         pixel = pixel * scale;
         isBlack = isBlack && quasilux::isBlack(pixel);
     }
-    if (isBlack) return; // off, as surroundings without an image and radiance
+    if (isBlack) return surroundings; // off, as surroundings without an image and radiance
     image.width = read.width;
     image.height = read.height;
     surroundings.image = std::move(image);
+    return surroundings;
 }
 
 } // namespace quasilux

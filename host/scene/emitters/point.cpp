@@ -20,12 +20,12 @@ PointEmitter pointEmitterAt(const glm::dvec3& position, Properties& properties) 
     return emitter;
 }
 
-void readPoint(Properties& properties) {
+SceneEmitter readPoint(Properties& properties) {
     if (properties.has("position") && properties.has("to_world"))
         throw InputError(properties.where("to_world"), "emitter 'point' has both position and to_world; keep one.");
     const glm::dvec3 position =
         transformPoint(properties.transform("to_world"), properties.vector("position", glm::dvec3(0)));
-    properties.context().scene.pointEmitters.push_back(pointEmitterAt(position, properties));
+    return pointEmitterAt(position, properties);
 }
 
 } // namespace quasilux

@@ -20,7 +20,7 @@ double aspectOf(const EmissionColor& picture, const Scene& scene) {
 
 } // namespace
 
-void readProjector(Properties& properties) {
+SceneEmitter readProjector(Properties& properties) {
     const glm::dmat4 toWorld = roundPlacement(properties);
     const double scale = properties.numberAbove("scale", 1, 0, false);
     const EmissionColor picture = readEmission(properties, "irradiance", {1, 1, 1}, false);
@@ -35,7 +35,7 @@ void readProjector(Properties& properties) {
     const glm::dvec3 u = glm::normalize(transformVector(toWorld, {-1, 0, 0})) * (0.5 / halfWidth);
     const glm::dvec3 v = glm::normalize(transformVector(toWorld, {0, -1, 0})) * (0.5 * aspect / halfWidth);
     emitter.projector = {glm::vec3(glm::normalize(axis)), {glm::vec3(u), glm::vec3(v), picture.texture}};
-    properties.context().scene.pointEmitters.push_back(emitter);
+    return emitter;
 }
 
 } // namespace quasilux

@@ -36,8 +36,8 @@ double readZenith(Properties& properties, double perZenith) {
 
 } // namespace
 
-void readCieSky(Properties& properties) {
-    Surroundings& surroundings = addSurroundings(properties);
+SceneEmitter readCieSky(Properties& properties) {
+    Surroundings surroundings = newSurroundings(properties);
     const int type = readSkyType(properties);
     if (dependsOnSun(type) && !properties.has("sun_direction") && givenPlaceOrTime(properties).empty())
         throw InputError(properties.where("sky_type"),
@@ -54,6 +54,7 @@ void readCieSky(Properties& properties) {
     daylight.skyIlluminance = zenith * perZenith;
     daylight.sunIlluminance = properties.numberAbove("sun_illuminance", 0, 0, false);
     addDaylight(properties, surroundings, daylight);
+    return surroundings;
 }
 
 } // namespace quasilux

@@ -41,7 +41,7 @@ unsigned typeOf(Properties& properties) {
 
 } // namespace
 
-void readLuminaire(Properties& properties) {
+SceneEmitter readLuminaire(Properties& properties) {
     const glm::dmat4 toWorld = roundPlacement(properties);
     const unsigned index = typeOf(properties);
     const LuminaireType& type = properties.context().scene.luminaireTypes[index];
@@ -67,7 +67,7 @@ void readLuminaire(Properties& properties) {
     const glm::dvec3 x = glm::normalize(along - glm::dot(along, z) * z), y = glm::cross(z, x);
     luminaire.axes = {x, glm::dot(y, transformVector(toWorld, {0, 1, 0})) < 0 ? -y : y, z};
     emitter.luminaire = luminaire;
-    properties.context().scene.pointEmitters.push_back(emitter);
+    return emitter;
 }
 
 } // namespace quasilux

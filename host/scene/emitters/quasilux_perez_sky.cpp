@@ -82,8 +82,8 @@ Conditions readMeasured(Properties& properties) {
 
 } // namespace
 
-void readPerezSky(Properties& properties) {
-    Surroundings& surroundings = addSurroundings(properties);
+SceneEmitter readPerezSky(Properties& properties) {
+    Surroundings surroundings = newSurroundings(properties);
     const Conditions conditions = properties.has("weather") ? readFromWeather(properties) : readMeasured(properties);
     if (!(conditions.radiation.diffuseHorizontal > 0))
         throw InputError(properties.where("weather"), "the sky has no diffuse radiation in this hour; choose another.");
@@ -99,6 +99,7 @@ void readPerezSky(Properties& properties) {
                          illuminanceOnGround([&](const glm::dvec3& direction) { return sky.luminance(direction); });
     daylight.luminance = [&](const glm::dvec3& direction) { return scale * sky.luminance(direction); };
     addDaylight(properties, surroundings, daylight);
+    return surroundings;
 }
 
 } // namespace quasilux

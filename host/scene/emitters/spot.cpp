@@ -37,7 +37,7 @@ glm::dmat4 roundPlacement(Properties& properties) {
     return toWorld;
 }
 
-void readSpot(Properties& properties) {
+SceneEmitter readSpot(Properties& properties) {
     const glm::dmat4 toWorld = roundPlacement(properties);
     const double cutoff = properties.numberAbove("cutoff_angle", 20, 0, true);
     const double beam = properties.numberAbove("beam_width", 0.75 * cutoff, 0, false);
@@ -52,7 +52,7 @@ void readSpot(Properties& properties) {
     emitter.intensity = emitter.intensity * picture.scale;
     if (picture.texture)
         emitter.picture = {acrossCone(toWorld, 0, cutoff), acrossCone(toWorld, 1, cutoff), picture.texture};
-    properties.context().scene.pointEmitters.push_back(emitter);
+    return emitter;
 }
 
 } // namespace quasilux

@@ -96,11 +96,12 @@ SunDisc discOf(const SunSky& given, double factor) {
 
 } // namespace
 
-void readSunSky(Properties& properties) {
-    Surroundings& surroundings = addSurroundings(properties);
+SceneEmitter readSunSky(Properties& properties) {
+    Surroundings surroundings = newSurroundings(properties);
     const glm::dmat3 axes = axesOfSurroundings(properties);
     const SunSky given = readSunSky(properties, axes);
-    if (given.sunScale == 0 && given.skyScale == 0) return; // off, as surroundings without an image and radiance
+    if (given.sunScale == 0 && given.skyScale == 0)
+        return surroundings; // off, as surroundings without an image and radiance
     const double factor = isPhotometric(properties) ? luminousEfficacy * hosekWilkieResponse() : 1;
     surroundings.isPerNanometre =
         !isPhotometric(properties) && !(isScaledToWatts(given.sunScale) && isScaledToWatts(given.skyScale));
@@ -112,6 +113,7 @@ void readSunSky(Properties& properties) {
     });
     if (hasSun) addSunDisc(image, discOf(given, factor));
     surroundings.image = std::move(image);
+    return surroundings;
 }
 
 } // namespace quasilux
