@@ -77,7 +77,7 @@ std::vector<float> diffuseLightOfPlate(unsigned cameraPaths, SamplingRule rule =
     settings.controlOptions += optionOf(rule);
     Renderer renderer(testDevice(), scene, settings);
     for (unsigned pass = 0; pass < 4; ++pass) renderer.renderPass(pass);
-    return renderer.develop().components[LIGHT_DIFFUSE];
+    return renderer.develop().components[LIGHT_DIFFUSE].radiance;
 }
 
 // In media one path more gathers, whose numbers do not depend on how many others there are: nor does the light of
