@@ -65,8 +65,6 @@ TEST_F(BadInput, MeshWithBadIndices) {
                        "bad.obj:4");
 }
 
-TEST_F(BadInput, NoEmitter) { expectSceneRefused("<shape type=\"rectangle\"/>", "emitter"); }
-
 TEST_F(BadInput, NoSensor) { expectSceneRefused(light, "sensor", false); }
 
 TEST_F(BadInput, OutputFolderMissing) {
