@@ -22,12 +22,17 @@ def run(*command, **more):
     return done.stdout
 
 
+def folder_of(case, what):
+    """A temporary folder that is gone when the tests of the class `case` are over."""
+    temporary = tempfile.TemporaryDirectory(prefix=f"quasilux-{what}-")
+    case.addClassCleanup(temporary.cleanup)
+    return Path(temporary.name)
+
+
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory(prefix="quasilux-install-")
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.root = Path(cls.temporary.name)
+        cls.root = folder_of(cls, "install")
         cls.prefix = cls.root / "prefix"
         run(CMAKE, "--install", BUILD, "--prefix", cls.prefix)
 
@@ -60,9 +65,7 @@ class Installed(unittest.TestCase):
 class DebianPackage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory(prefix="quasilux-package-")
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.root = Path(cls.temporary.name)
+        cls.root = folder_of(cls, "package")
         run(Path(CMAKE).with_name("cpack"), "-G", "DEB", "--config", Path(BUILD) / "CPackConfig.cmake", "-B", cls.root / "made")
         cls.package, = (cls.root / "made").glob("quasilux_*.deb")
         run("dpkg-deb", "-x", cls.package, cls.root / "unpacked")
@@ -94,9 +97,7 @@ class PythonPackage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.told = tomllib.loads((Path(SOURCE) / "pyproject.toml").read_text())["tool"]["scikit-build"]
-        cls.temporary = tempfile.TemporaryDirectory(prefix="quasilux-source-")
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.root = Path(cls.temporary.name)
+        cls.root = folder_of(cls, "source")
 
     def configure(self, left_out):
         """CMake as scikit-build-core calls it, on the source without these folders. Its build folder."""
