@@ -235,10 +235,9 @@ inline int meetImportanceSurface(const World* world, ImportancePath* path, Impor
     const SceneTables* scene = &world->params->scene;
     const Surface s = surfaceAt(hit, state->ray.origin, state->ray.direction, world->blocks, world->tables, scene);
     __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
+    int isHidden = 0;
 #ifdef HAS_HIDDEN_EMITTERS
-    const int isHidden = s.isHidden && looksThrough(state);
-#else
-    const int isHidden = 0;
+    isHidden = s.isHidden && looksThrough(state);
 #endif
     if (s.emitter != QL_NONE && s.front && !isHidden)
         meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,

@@ -40,14 +40,18 @@ void join(const std::string& file, const Sources& extra, std::set<std::string>& 
     out += fmt::format("#line 1 \"{}\"\n", file);
     std::istringstream lines(sourceText(file, extra));
     std::string line;
+    bool hasIncluded = false;
     for (int number = 1; std::getline(lines, line); ++number) {
         std::smatch match;
-        if (line.find("#include") != std::string::npos && std::regex_match(line, match, include)) {
+        const bool includes = line.find("#include") != std::string::npos && std::regex_match(line, match, include);
+        if (includes)
             for (const auto& included : matchingFiles(match[1])) join(included, extra, seen, out);
-            out += fmt::format("#line {} \"{}\"\n", number + 1, file);
-        } else {
+        else
             out += line + '\n';
-        }
+        // A branch that is not compiled has its lines counted, with all that they include, but not its #line.
+        hasIncluded |= includes;
+        if (includes || (hasIncluded && line.starts_with("#e"))) // #else, #elif, #endif
+            out += fmt::format("#line {} \"{}\"\n", number + 1, file);
     }
 }
 
@@ -137,12 +141,13 @@ Program::Program(Device& device, const std::string& file, const std::string& opt
     : device_(&device), file_(file) {
     // In C99 a plain inline function has no definition to link where a compiler chooses not to inline it, as some for
     // GPUs do. Those for CPUs inline all, and PoCL takes twice the time to compile static ones.
-    const std::string linkage = device.info().isCpu ? "" : "#define inline static inline\n";
+    const std::string linkage = device.info().isCpu ? "" : "#undef inline\n#define inline static inline\n";
     const std::string source = linkage + joinKernelSource(file, extra);
     try {
         program_ = cl::Program(device.context(), source);
-        // Fast-math stays off: it would let the compiler assume that there is no NaN or infinity.
-        program_.build(("-cl-std=CL1.2 " + options).c_str());
+        // Fast-math stays off: it would let the compiler assume that there is no NaN or infinity. Where the build takes
+        // warnings for errors (QUASILUX_WERROR), kernels do too: users would see how many there are.
+        program_.build(("-cl-std=CL1.2 " + options + QUASILUX_KERNEL_OPTIONS).c_str());
     } catch (const cl::BuildError& error) {
         std::string log;
         for (const auto& [builtFor, text] : error.getBuildLog()) log += text;
