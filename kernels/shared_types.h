@@ -335,8 +335,11 @@ typedef struct {
 typedef struct {
     unsigned int width, height; /* pixels, at least 1 x 2 */
     unsigned int texels;        /* Rgb, row by row from its own +y on */
-    /* Floats, sums of probabilities: of the height - 1 rows of cells; in each of them of its width cells; of those
-     * every ENVMAP_BLOCK-th and the last one. */
+    /* Cells by which directions are sampled: those between its pixels, width by height - 1, or fewer. Of fewer there are
+     * weights at their corners, floats, row by row; 0: the pixels' own. */
+    unsigned int cellsAcross, cellsDown, weights;
+    /* Floats, sums of probabilities: of the rows of cells; in each of them of its cells; of those every ENVMAP_BLOCK-th
+     * and the last one. */
     unsigned int rows, columns, blocks;
 } EnvironmentMap;
 

@@ -1,6 +1,7 @@
 // Environment maps: how they are looked up (values of Mitsuba 3.9.1), how directions are sampled, and what photons
 // carry. False-alarm rate 1e-4 together; seeds are fixed. In scenes: envmap_scene_test.
 #include "learn/guide.h"
+#include "prepare/environment_cells.h"
 #include "scene/color.h"
 #include "scene/skies/sky_image.h"
 #include "support/chi_squared.h"
@@ -29,7 +30,7 @@ using test::integral;
 using test::lookUp;
 using test::mitsubaImage;
 
-constexpr int statisticalTests = 24;
+constexpr int statisticalTests = 28;
 constexpr size_t sampleCount = 200000;
 
 TEST(EnvmapLookup, IsThatOfMitsuba) {
@@ -72,6 +73,25 @@ TEST(EnvmapTable, DimPixelsBesideASunKeepAProbability) {
         if (k % 2048 == 0) continue; // of the next row
         ASSERT_GT(columns[k], columns[k - 1]) << k;
     }
+}
+
+// Larger cells than the image's own, where these hardly add variance.
+TEST(EnvmapTable, LargerCellsSampleWhatHasNoContrast) {
+    const auto cellsDown = [](const EnvironmentImage& image) {
+        const EnvironmentCells cells(image);
+        EXPECT_EQ(cells.weights().size(), cells.down() + 1 == image.height ? 0 : (cells.down() + 1) * cells.across());
+        return cells.down();
+    };
+    const auto sky = [](float sun) {
+        return imageOf(1440, 721, [sun](unsigned c, unsigned r) {
+            const float up = std::cos(std::numbers::pi_v<float> * float(r) / 720);
+            const float v = up < 0 ? 0.2f : c == 300 && r == 200 ? sun : 1 + 2 * up; // overcast, over dark ground
+            return Rgb{v, v, v};
+        });
+    };
+    EXPECT_LE(cellsDown(sky(0)), 128u);
+    EXPECT_EQ(cellsDown(sky(1e6f)), 720u) << "a sun of one pixel";
+    EXPECT_EQ(cellsDown(imageOf(200, 101, [](unsigned, unsigned) { return Rgb{1, 1, 1}; })), 100u) << "few pixels";
 }
 
 /// p-value of `directions` against the density of `densityOf` over the image's own cosine and azimuth.

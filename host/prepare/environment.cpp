@@ -1,5 +1,6 @@
 #include "prepare/environment.h"
 
+#include "prepare/environment_cells.h"
 #include "scene/skies/sky_image.h"
 
 #include <algorithm>
@@ -31,36 +32,20 @@ void addSums(const std::vector<double>& weights, std::vector<float>& sums) {
     sums.back() = 1;
 }
 
-float brightness(const Rgb& color) { return color.r + color.g + color.b; }
-
-// envmapWeight of the kernels.
-std::vector<float> weightsOfRow(const EnvironmentImage& image, unsigned row) {
-    const auto at = [&](unsigned column, unsigned r) {
-        return brightness(image.pixels[size_t(r) * image.width + column]);
-    };
-    std::vector<float> weights(image.width);
-    for (unsigned column = 0; column < image.width; ++column) weights[column] = at(column, row);
-    if (row > 0 && row + 1 < image.height) return weights;
-    const unsigned next = row == 0 ? 1 : row - 1;
-    for (unsigned column = 0; column < image.width; ++column)
-        weights[column] = std::max(weights[column], at(column, next));
-    return weights;
-}
-
 struct Probabilities {
     std::vector<float> rows, columns, blocks; // as shared::EnvironmentMap has them
 };
 
-Probabilities probabilitiesOf(const EnvironmentImage& image) {
+Probabilities probabilitiesOf(const EnvironmentCells& of) {
     Probabilities found;
-    found.columns.reserve(size_t(image.height - 1) * image.width);
-    std::vector<double> cells(image.width), rows;
-    auto upper = weightsOfRow(image, 0);
-    for (unsigned row = 0; row + 1 < image.height; ++row) {
-        auto lower = weightsOfRow(image, row + 1);
+    found.columns.reserve(size_t(of.down()) * of.across());
+    std::vector<double> cells(of.across()), rows;
+    auto upper = of.weightsOfRow(0);
+    for (unsigned row = 0; row < of.down(); ++row) {
+        auto lower = of.weightsOfRow(row + 1);
         double all = 0;
-        for (unsigned column = 0; column < image.width; ++column) {
-            const unsigned next = column + 1 == image.width ? 0 : column + 1;
+        for (unsigned column = 0; column < of.across(); ++column) {
+            const unsigned next = column + 1 == of.across() ? 0 : column + 1;
             cells[column] = double(upper[column]) + upper[next] + lower[column] + lower[next];
             all += cells[column];
         }
@@ -70,8 +55,7 @@ Probabilities probabilitiesOf(const EnvironmentImage& image) {
             found.blocks.push_back(found.columns[std::min(end, found.columns.size()) - 1]);
             if (end >= found.columns.size()) break;
         }
-        rows.push_back(all *
-                       std::sin(pi * (row + 0.5) / (image.height - 1))); // in proportion to the difference of cosines
+        rows.push_back(all * std::sin(pi * (row + 0.5) / of.down())); // in proportion to the difference of cosines
         upper = std::move(lower);
     }
     addSums(rows, found.rows);
@@ -118,13 +102,15 @@ unsigned append(const std::vector<T>& records, std::vector<uint32_t>& words) {
 
 EnvironmentTable makeEnvironmentTable(const EnvironmentImage& image) {
     EnvironmentTable table;
-    const Probabilities probabilities = probabilitiesOf(image);
+    const EnvironmentCells cells(image);
+    const Probabilities probabilities = probabilitiesOf(cells);
     constexpr size_t headWords = sizeof(shared::EnvironmentMap) / sizeof(uint32_t);
-    table.words.reserve(headWords + 3 * image.pixels.size() + probabilities.rows.size() + probabilities.columns.size() +
-                        probabilities.blocks.size());
+    table.words.reserve(headWords + 3 * image.pixels.size() + cells.weights().size() + probabilities.rows.size() +
+                        probabilities.columns.size() + probabilities.blocks.size());
     table.words.resize(headWords);
-    shared::EnvironmentMap head{image.width, image.height, 0, 0, 0, 0};
+    shared::EnvironmentMap head{image.width, image.height, 0, cells.across(), cells.down(), 0, 0, 0, 0};
     head.texels = append(image.pixels, table.words);
+    if (!cells.weights().empty()) head.weights = append(cells.weights(), table.words);
     head.rows = append(probabilities.rows, table.words);
     head.columns = append(probabilities.columns, table.words);
     head.blocks = append(probabilities.blocks, table.words);

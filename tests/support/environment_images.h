@@ -35,7 +35,8 @@ struct NamedImage {
     EnvironmentImage image;
 };
 // A coloured gradient, turned; a small sun in a dim sky; light from the poles' pixels alone; from the ring beside a
-// pole alone; one pixel among black ones, mirrored; the fewest pixels.
+// pole alone; one pixel among black ones, mirrored; the fewest pixels; many pixels without contrast, which larger cells
+// sample.
 inline std::vector<NamedImage> images() {
     std::vector<NamedImage> all = {
         {"gradient", mitsubaImage()},
@@ -55,8 +56,13 @@ inline std::vector<NamedImage> images() {
                         [](unsigned c, unsigned r) {
                             return c == 0 && r == 3 ? Rgb{0, 5, 0} : Rgb{};
                         })},
-        {"fewest", imageOf(1, 2, [](unsigned, unsigned r) {
-             return Rgb{1, float(r + 1), 2};
+        {"fewest", imageOf(1, 2,
+                           [](unsigned, unsigned r) {
+                               return Rgb{1, float(r + 1), 2};
+                           })},
+        {"smooth", imageOf(300, 141, [](unsigned c, unsigned r) {
+             const float turn = 2 * std::numbers::pi_v<float> * (float(c) + 0.5f) / 300, down = float(r) / 140;
+             return Rgb{1 + 0.8f * std::cos(turn), 1 + 0.5f * std::sin(turn) * down, 0.3f + down};
          })}};
     all[0].image.axes = turned();
     all[4].image.axes = turned() * glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1);
