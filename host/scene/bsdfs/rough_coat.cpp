@@ -156,6 +156,13 @@ std::vector<double> evenCosines(size_t count) {
     return cosines;
 }
 
+std::vector<double> transmittedAt(const RoughCoat& coat, const std::vector<double>& cosines) {
+    std::vector<double> values;
+    values.reserve(cosines.size());
+    for (const double cosine : cosines) values.push_back(coat.transmitted(cosine));
+    return values;
+}
+
 /// Makes the variable run from -1 to 1: powers of numbers near 1 have factors that cancel, too large for floats.
 void spreadVariable(CoatFit& fit) {
     const double least = fit.variable(0), most = fit.variable(1);
@@ -168,9 +175,9 @@ void spreadVariable(CoatFit& fit) {
 CoatFit fitBelowOne(const RoughCoat& coat) {
     constexpr size_t count = 96, nearEdge = 48;
     const double critical = std::sqrt(1 - coat.eta * coat.eta);
-    std::vector<double> cosines = evenCosines(count), values;
+    std::vector<double> cosines = evenCosines(count);
     for (const double at : evenCosines(nearEdge)) cosines.push_back(std::clamp(critical + 0.2 * (at - 0.5), 0.0, 1.0));
-    for (const double cosine : cosines) values.push_back(coat.transmitted(cosine));
+    const std::vector<double> values = transmittedAt(coat, cosines);
     std::vector<CoatFit> candidates;
     for (const double widths : {0.5, 0.75, 1., 1.5, 2., 3., 4., 6., 8., 12.})
         candidates.push_back({0.1, widths * std::max(0.7 * coat.alpha * critical / coat.eta, 1e-4), coat.eta});
@@ -199,9 +206,7 @@ CoatFit fitTransmission(const RoughCoat& coat) {
     if (coat.eta < 1) return fitBelowOne(coat);
     CoatFit fit;
     fit.knee = std::max(coat.alpha, 0.1);
-    const std::vector<double> cosines = evenCosines(64);
-    std::vector<double> values;
-    for (const double cosine : cosines) values.push_back(coat.transmitted(cosine));
+    const std::vector<double> cosines = evenCosines(64), values = transmittedAt(coat, cosines);
     fitTo(cosines, values, values, fit); // the relative error counts
     return fit;
 }
