@@ -34,8 +34,7 @@ arguments() {
 # optionsOf NAME KIND: sets `words`.
 optionsOf() {
     read -ra words <<<"$(arguments "$2")"
-    words=("${words[@]//NAME/$1}" -o "$1.exr")
-    [[ $2 == ended ]] || words+=(--quiet) # which says nothing of a checkpoint that is not written
+    words=("${words[@]//NAME/$1}" -o "$1.exr" --quiet) # which still says that no checkpoint is written
 }
 
 # renders NAME KIND OPTION...

@@ -1,4 +1,5 @@
 // What the bsdfs of a scene file mean: lobes, sides, widths, colours, indices of refraction.
+#include "scene/bsdfs/rough_coat.h"
 #include "scene/scene.h"
 
 #include "support/scene_files.h"
@@ -319,6 +320,37 @@ TEST(RoughPlasticBsdf, BaseUnderARoughCoat) {
     const double within = 1 - 0.25 / (2.25 * linear);
     EXPECT_NEAR(within, 0.5963, 0.012);
     EXPECT_NEAR(nonlinear, 0.25 / (2.25 * (1 - 0.25 * within)), 1e-5);
+}
+
+// Below an index of 1 nothing is let in up to a critical angle, whose edge is the sharper the smoother the coat.
+TEST(RoughPlasticBsdf, CoatsUnderDenserMediaAreFitted) {
+    for (const double eta : {1 / 2.4, 1 / 1.5, 0.75, 0.9})
+        for (const bool ggx : {false, true})
+            for (const double alpha : {0.01, 0.1, 0.3, 1.0}) {
+                SCOPED_TRACE(fmt::format("eta {}, {}, alpha {}", eta, ggx ? "ggx" : "beckmann", alpha));
+                const RoughCoat coat{ggx, alpha, eta};
+                const CoatFit fit = fitTransmission(coat);
+                double worst = 0, mean = 0;
+                for (int k = 0; k < 200; ++k) {
+                    const double cosine = (k + 0.5) / 200, error = std::abs(fit(cosine) - coat.transmitted(cosine));
+                    EXPECT_GE(fit(cosine), 0);
+                    worst = std::max(worst, error);
+                    mean += 2 * cosine * error / 200;
+                }
+                EXPECT_LT(worst, 0.03);
+                for (const double factor : fit.factors)
+                    EXPECT_LT(std::abs(factor), fit.edge > 0 ? 10 : 50'000) << "cancels, too much for floats";
+                EXPECT_LT(mean, 0.007);
+            }
+    // Control: by the variable of other coats.
+    const CoatFit wrong = fitTransmission({false, 0.1, 1.5});
+    EXPECT_GT(std::abs(wrong(0.5) - RoughCoat{false, 0.1, 1 / 1.5}.transmitted(0.5)), 0.5);
+    const auto low = loadBsdf(R"(<bsdf type="roughplastic"><float name="int_ior" value="1"/>
+        <float name="ext_ior" value="1.5"/></bsdf>)")
+                         .front[0]
+                         .device;
+    EXPECT_NE(low.alphaV, 0);
+    EXPECT_FLOAT_EQ(low.eta.r, 1 / 1.5f);
 }
 
 TEST(PrincipledBsdf, IsASumOfLobes) {

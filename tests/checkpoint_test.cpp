@@ -6,6 +6,7 @@
 #include "support/program_runner.h"
 #include "support/render_statistics.h"
 
+#include "cli/checkpoints.h"
 #include "device/device.h"
 #include "learn/learned_state.h"
 #include "output/checkpoint_json.h"
@@ -281,6 +282,27 @@ void expectSameMeans(const std::vector<float>& a, const std::vector<float>& b, d
     size_t apart = 0;
     for (size_t k = 0; k < a.size(); ++k) apart += std::abs(a[k] - b[k]) > tolerance * std::abs(b[k]) ? 1 : 0;
     EXPECT_EQ(apart, 0u);
+}
+
+// Who is to go on from it has to know.
+TEST(CheckpointKeeper, SaysQuietlyTooThatNoneIsWritten) {
+    RenderOptions options;
+    options.checkpoint = "none.ckpt";
+    options.quiet = true;
+    const SceneReport report;
+    const RenderCounters counters;
+    const PassesSoFar passes{report, counters, {}, 0, {}, {}};
+    AutoRender soFar;
+    soFar.search.interrupted = true;
+    const auto said = [&](bool isLast) {
+        testing::internal::CaptureStderr();
+        CheckpointKeeper(options, device(), {}).afterPasses(soFar, passes, 0, isLast);
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_THAT(said(true), HasSubstr("warning: no checkpoint is written: the render was interrupted"));
+    EXPECT_EQ(said(false), "");
+    options.checkpoint = ""; // nobody asks
+    EXPECT_EQ(said(true), "");
 }
 
 class Merge : public CheckpointTest {

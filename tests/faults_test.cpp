@@ -237,6 +237,110 @@ TEST_F(FaultsTest, NoneSpoilsAResumedRender) {
         for (const unsigned at : chosen(counts.at(call))) expectGoodEnd(call, at, resumed);
 }
 
+/// Renders whose settings are searched, so that the clock says how many passes there are.
+class SearchFaults : public FaultsTest {
+protected:
+    SearchFaults() { EXPECT_TRUE(searches()) << "control"; }
+
+    /// Leaves a checkpoint of a render that had time to search: one that has to compile kernels, or a machine that is
+    /// busy, may have none.
+    bool searches() const {
+        for (unsigned tries = 0; tries < 5; ++tries) {
+            clean();
+            const Outcome outcome = run(searched);
+            EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+            if (hasSearched()) return true;
+        }
+        return false;
+    }
+    bool hasSearched() const { return checkpoint().search.passes > 0; }
+
+    Checkpoint checkpoint() const { return checkpointOf(CheckpointReader((folder / "a.ckpt").string())); }
+
+    Outcome runFailingAt(const Arguments& arguments, const std::string& call, unsigned at) const {
+        return runFailing(arguments, {{"QUASILUX_FAIL_CALL", call}, {"QUASILUX_FAIL_AT", std::to_string(at)}});
+    }
+
+    void expectNothingTemporary() const {
+        for (const std::string& name : filesInFolder()) EXPECT_FALSE(name.ends_with(".tmp")) << name;
+    }
+
+    const Arguments searched{"render", "scene.xml", "--auto",       "--time", "2",       "--json",
+                             "-o",     "a.exr",     "--checkpoint", "a.ckpt", "--every", "0"};
+};
+
+// The first one, which is written when the settings are chosen; those after it are.
+TEST_F(SearchFaults, FirstCheckpointThatFailsIsFollowedByAWholeOne) {
+    const auto writes = static_cast<unsigned>(CheckpointReader((folder / "a.ckpt").string()).names().size()) + 3;
+    const std::vector<std::pair<std::string, unsigned>> faults{{"ftruncate", 1},  {"write", 1}, {"write", writes / 2},
+                                                               {"write", writes}, {"fsync", 1}, {"rename", 1}};
+    unsigned withSearch = 0;
+    for (const auto& [call, at] : faults) {
+        SCOPED_TRACE(call + ", call " + std::to_string(at));
+        clean();
+        const Outcome outcome = runFailingAt(searched, call, at);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+        EXPECT_THAT(outcome.errors,
+                    testing::HasSubstr("no checkpoint could be written, the render goes on: cannot write a.ckpt"));
+        withSearch += hasSearched() ? 1 : 0;
+        EXPECT_EQ(run({"merge", "a.ckpt", "-o", "check.exr", "--quiet"}).exitCode, 0);
+        EXPECT_EQ(radianceOf("check.exr"), radianceOf("a.exr"));
+        expectNothingTemporary();
+    }
+    EXPECT_GT(withSearch, 0u);
+}
+
+// A render that goes on from it writes two: as it begins, and at the end.
+TEST_F(SearchFaults, LastCheckpointThatFailsLeavesTheOneBefore) {
+    const uint64_t before = checkpoint().counters.passes;
+    const std::string good = readText(folder / "a.ckpt");
+    const Arguments without{"render", "scene.xml", "--json", "-o", "a.exr", "--passes", std::to_string(before + 2),
+                            "--auto", "--resume",  "a.ckpt"};
+    Arguments resumed = without;
+    resumed.insert(resumed.end(), {"--checkpoint", "a.ckpt"});
+    const unsigned ofImage = countCalls(without).at("write");
+    const auto counts = countCalls(resumed);
+    EXPECT_EQ(checkpoint().counters.passes, before + 2); // control
+    const auto whole = radianceOf("a.exr");
+    const unsigned writes = counts.at("write") - ofImage;
+    const std::vector<std::pair<std::string, unsigned>> faults{
+        {"write", writes / 2 + 1}, {"write", writes * 3 / 4}, {"write", writes}, {"fsync", 2}, {"rename", 4}};
+    for (const auto& [call, at] : faults) {
+        SCOPED_TRACE(call + ", call " + std::to_string(at));
+        clean();
+        std::ofstream(folder / "a.ckpt", std::ios::binary) << good;
+        const Outcome outcome = runFailingAt(resumed, call, at);
+        EXPECT_EQ(outcome.exitCode, 1);
+        EXPECT_THAT(outcome.errors, testing::HasSubstr("error: no checkpoint of the last passes could be written"));
+        EXPECT_THAT(outcome.errors, testing::HasSubstr("cannot write a.ckpt"));
+        EXPECT_EQ(checkpoint().counters.passes, before);
+        EXPECT_EQ(radianceOf("a.exr"), whole);
+        expectNothingTemporary();
+    }
+}
+
+TEST_F(SearchFaults, ReadingThatFailsNamesTheFile) {
+    fs::remove(folder / "a.exr");
+    const std::string good = readText(folder / "a.ckpt");
+    const Arguments resumed{"render",   "scene.xml", "--json", "-o",       "a.exr",
+                            "--passes", "100000",    "--auto", "--resume", "a.ckpt"};
+    Arguments counted = resumed;
+    counted[6] = std::to_string(checkpoint().counters.passes);
+    const unsigned reads = countCalls(counted).at("read");
+    fs::remove(folder / "a.exr");
+    unsigned ofCheckpoint = 0, tried = 0;
+    for (unsigned at = 1; at <= reads; at += std::max(1u, reads / 12), ++tried) {
+        SCOPED_TRACE("read, call " + std::to_string(at));
+        const Outcome outcome = runFailingAt(resumed, "read", at);
+        EXPECT_EQ(outcome.exitCode, 2);
+        EXPECT_TRUE(names("read", outcome.errors)) << outcome.errors;
+        ofCheckpoint += outcome.errors.find("checkpoint a.ckpt: ") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_GT(ofCheckpoint, tried / 2);
+    EXPECT_EQ(readText(folder / "a.ckpt"), good);
+    EXPECT_EQ(filesInFolder(), (std::vector<std::string>{"a.ckpt", "a.ckpt.previous", "plate.obj", "scene.xml"}));
+}
+
 TEST_F(FaultsTest, WhatDoesNotFitIsNotCompiled) {
     Arguments tiny = render(1, "a.exr");
     tiny.insert(tiny.end(), {"--device-memory", "10000"});

@@ -108,6 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(coated("Plastic", "plastic", false, -1), coated("RoughPlasticBlend", "roughplastic", true, -1),
                     coated("PlasticBlendToDepth", "plastic", true, 3),
                     coated("RoughPlasticToDepth", "roughplastic", false, 3), Kind{"Satin", satin, true, -1},
+                    Kind{"LowRoughPlastic", [](double index) { return coat("roughplastic", 1 / index); }, false, -1},
                     Kind{"Ggx", [](double index) { return metal("ggx", index); }, false, -1},
                     Kind{"Beckmann", [](double index) { return metal("beckmann", index); }, true, 3},
                     Kind{"Principled", principled, false, -1}, Kind{"Thin", thin, false, -1, true}),

@@ -60,16 +60,17 @@ TEST(Lobes, areReciprocal) {
 }
 
 TEST(Lobes, areTheSameWhereTheyAreTheOnlyOneCompiled) {
-    const std::map<unsigned, const char*> options = {{LOBE_LAMBERT, "-DHAS_LOBE_LAMBERT"},
-                                                     {LOBE_PHONG, "-DHAS_LOBE_PHONG"},
-                                                     {LOBE_GGX, "-DHAS_LOBE_GGX"},
-                                                     {LOBE_BECKMANN, "-DHAS_LOBE_BECKMANN"},
-                                                     {LOBE_COATEDLAMBERT, "-DHAS_LOBE_COATEDLAMBERT"},
-                                                     {LOBE_ROUGHCOATEDLAMBERT, "-DHAS_LOBE_ROUGHCOATEDLAMBERT"},
-                                                     {LOBE_PRINCIPLEDDIFFUSE, "-DHAS_LOBE_PRINCIPLEDDIFFUSE"},
-                                                     {LOBE_SHEEN, "-DHAS_LOBE_SHEEN"},
-                                                     {LOBE_GGXSCHLICK, "-DHAS_LOBE_GGXSCHLICK"},
-                                                     {LOBE_CLEARCOAT, "-DHAS_LOBE_CLEARCOAT"}};
+    const std::map<unsigned, const char*> options = {
+        {LOBE_LAMBERT, "-DHAS_LOBE_LAMBERT"},
+        {LOBE_PHONG, "-DHAS_LOBE_PHONG"},
+        {LOBE_GGX, "-DHAS_LOBE_GGX"},
+        {LOBE_BECKMANN, "-DHAS_LOBE_BECKMANN"},
+        {LOBE_COATEDLAMBERT, "-DHAS_LOBE_COATEDLAMBERT"},
+        {LOBE_ROUGHCOATEDLAMBERT, "-DHAS_LOBE_ROUGHCOATEDLAMBERT -DHAS_LOW_COATS"},
+        {LOBE_PRINCIPLEDDIFFUSE, "-DHAS_LOBE_PRINCIPLEDDIFFUSE"},
+        {LOBE_SHEEN, "-DHAS_LOBE_SHEEN"},
+        {LOBE_GGXSCHLICK, "-DHAS_LOBE_GGXSCHLICK"},
+        {LOBE_CLEARCOAT, "-DHAS_LOBE_CLEARCOAT"}};
     const dvec3 wo = outgoing(0.5);
     for (const LobeCase& c : finiteLobes()) {
         const auto wi = directionsOver(c.lobe, wo);

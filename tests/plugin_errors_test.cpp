@@ -78,8 +78,8 @@ const BadBody badPlugins[] = {
      "name=\"normalmap\"/><bsdf type=\"diffuse\"/></bsdf></bsdf>",
      {"scene.xml:4:1: the blended bsdfs have different normals"}},
     {"RoughPlasticIndex",
-     "<bsdf type=\"roughplastic\">\n<float name=\"int_ior\" value=\"0.9\"/></bsdf>",
-     {"scene.xml:5:1: roughplastic: int_ior is 0.9", "the coat must have the larger index"}},
+     "<bsdf type=\"roughplastic\">\n<float name=\"int_ior\" value=\"1.000277\"/></bsdf>",
+     {"scene.xml:5:1: roughplastic: int_ior is 1.000277, as ext_ior", "another index than what is outside"}},
     {"RoughPlasticAlphas",
      "<bsdf type=\"roughplastic\">\n<float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" "
      "value=\"0.2\"/></bsdf>",

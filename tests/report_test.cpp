@@ -14,6 +14,7 @@ namespace quasilux {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class ReportTest : public CommandLineTest {
 protected:
@@ -113,6 +114,20 @@ TEST_F(ReportTest, AFigureThatIsNotKnownSaysSo) {
     const std::string page = readText(folder / "room.html");
     EXPECT_TRUE(holds(page, "(not reached)"));
     EXPECT_TRUE(holds(page, "Not every figure is known to 1e-05 % (95 %)"));
+}
+
+// Grids and observers end when their figures are known, the picture when its time is over.
+TEST_F(ReportTest, SaysHowLongWhereItKnows) {
+    write("grid.xml", lamp + grid);
+    write("picture.xml", camera + lamp);
+    const auto shown = [&](const std::string& scene) {
+        return runOnTerminal({"report", scene, "-o", "room.html", "--time", "2", "--precision", "1e-7"}).output;
+    };
+    const std::string ofGrid = shown("grid.xml");
+    EXPECT_THAT(ofGrid, HasSubstr("rendering: pass "));
+    EXPECT_THAT(ofGrid, Not(HasSubstr(" left")));
+    shown("picture.xml"); // of the first time all goes to compiling
+    EXPECT_THAT(shown("picture.xml"), HasSubstr(" left"));
 }
 
 TEST_F(ReportTest, NeedsNeitherCameraNorGrid) {

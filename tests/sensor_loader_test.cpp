@@ -165,6 +165,12 @@ TEST(Integrator, DepthLimit) {
     for (const int value : {-1, 0, 1, 2, 7}) EXPECT_EQ(path(std::to_string(value)), value);
     EXPECT_EQ(depth(R"(<integrator type="volpath"/>)"), -1);
     EXPECT_EQ(depth(R"(<integrator type="direct"><integer name="emitter_samples" value="4"/></integrator>)"), 2);
+    // Mitsuba's default of those for derivatives.
+    for (const std::string type : {"prb", "prb_basic", "prb_projective", "prbvolpath"}) {
+        EXPECT_EQ(depth("<integrator type=\"" + type + "\"/>"), 6) << type;
+        EXPECT_EQ(depth("<integrator type=\"" + type + R"("><integer name="max_depth" value="-1"/></integrator>)"), -1);
+    }
+    EXPECT_EQ(depth(R"(<integrator type="direct_projective"><integer name="max_depth" value="7"/></integrator>)"), 2);
     const std::string aov =
         R"(<integrator type="aov"><string name="aovs" value="dd.y:depth"/><integrator type="direct"/></integrator>)";
     EXPECT_EQ(depth(aov), 2);

@@ -83,7 +83,7 @@ void CheckpointKeeper::afterPass(const AutoRender& soFar, const Renderer& render
 void CheckpointKeeper::afterPasses(const AutoRender& soFar, const PassesSoFar& passes, double seconds, bool isLast) {
     if (options_.checkpoint.empty()) return;
     if (soFar.search.interrupted) { // a render that went on from its settings would never search
-        if (isLast && !options_.quiet)
+        if (isLast)                 // quietly, too: a script that asked for a checkpoint would go on from none
             printWarning("no checkpoint is written: the render was interrupted before its settings were chosen");
         return;
     }

@@ -107,13 +107,15 @@ private:
         static_cast<SceneOptions&>(options) = options_;
         // A search wants to know its time; others end by `isEnough` or when the time is over, though not before there
         // is an error.
-        if (scene.sensor.meter == MeterKind::none)
+        const bool endsByTime = scene.sensor.meter == MeterKind::none;
+        if (endsByTime)
             options.stop.seconds = std::max(budget, 1e-3);
         else
             options.stop.passes = manyPasses;
         std::atomic<bool> ends = false;
-        const auto onProgress = [&](const Progress& now) {
+        const auto onProgress = [&](Progress now) {
             catchInterrupt();
+            if (!endsByTime) now.secondsLeft = -1; // that until manyPasses
             progress_.update(now);
         };
         StartedRender started(options, device_, scene);

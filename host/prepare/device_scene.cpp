@@ -42,6 +42,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.specular |= lobe.scattering == SCATTER_SPECULAR && !LOBE_PASSES(lobe.type);
         features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0 || lobe.weightCount > 0;
         features.lobeWeights |= lobe.weightCount > 0;
+        features.lowCoats |= lobe.type == LOBE_ROUGHCOATEDLAMBERT && lobe.alphaV != 0;
     }
     for (const auto& weight : materials.weights) features.weightFunctions |= weight.function != WEIGHT_VALUE;
     for (const auto& material : materials.materials)

@@ -47,6 +47,7 @@ constexpr std::array flags = {
     Flag{&Features::alphaTextures, "HAS_ALPHA_TEXTURES", "roughness by texture"},
     Flag{&Features::relief, "HAS_RELIEF", "normal and bump maps"},
     Flag{&Features::anisotropy, "HAS_ANISOTROPY", "anisotropic lobes"},
+    Flag{&Features::lowCoats, "HAS_LOW_COATS", "rough coats under denser media"},
     Flag{&Features::media, "HAS_MEDIA", "media"},
     Flag{&Features::chromaticMedia, "HAS_CHROMATIC_MEDIA", "media with coloured extinction"},
     Flag{&Features::heterogeneousMedia, "HAS_HETEROGENEOUS_MEDIA", "media that vary in space"},

@@ -18,6 +18,7 @@ struct Features {
          lobeWeights = false, weightFunctions = false, manyLobes = false, relief = false, anisotropy = false,
          alphaTextures = false, textureVolumes = false, thinLens = false, fisheyeCamera = false, instances = false,
          filterTable = false;                            ///< a reconstruction filter wider than a pixel
+    bool lowCoats = false;                               ///< rough coats of an index below that outside
     bool radianceMeter = false, irradianceMeter = false; ///< what the sensor is, if no camera
     bool media = false, chromaticMedia = false;          ///< extinction differs between the channels of some medium
     bool heterogeneousMedia = false;                     ///< extinction or albedo of some medium varies in space

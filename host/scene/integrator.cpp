@@ -16,8 +16,8 @@ constexpr int64_t largestDepth = 1000000;
 /// Of integrators that take samples; none of them changes the image.
 const Names sampling = {"timeout", "block_size", "samples_per_pass"};
 
-int readDepthParameter(Properties& properties) {
-    const int64_t depth = properties.integer("max_depth", -1);
+int readDepthParameter(Properties& properties, int missing = -1) {
+    const int64_t depth = properties.integer("max_depth", missing);
     if (depth < -1 || depth > largestDepth)
         throw InputError(
             properties.where("max_depth"),
@@ -34,10 +34,26 @@ IntegratorChoice readPath(Properties& properties) {
     return {readDepthParameter(properties), properties.boolean("hide_emitters", false)};
 }
 
+/// Of integrators for derivatives, Mitsuba's default.
+constexpr int depthForDerivatives = 6;
+const Names ofSilhouettes = {"sppc", "sppp", "sppi", "guiding", "guiding_proj", "guiding_rounds", "project_seed"};
+
+IntegratorChoice readForDerivatives(Properties& properties) {
+    properties.accept(sampling);
+    properties.accept({"rr_depth"});
+    if (properties.plugin() == "prb_projective") properties.accept(ofSilhouettes);
+    return {readDepthParameter(properties, depthForDerivatives), properties.boolean("hide_emitters", false)};
+}
+
 /// Light of one scattering, and of emitters seen directly.
 IntegratorChoice readDirect(Properties& properties) {
     properties.accept(sampling);
-    properties.accept({"shading_samples", "emitter_samples", "bsdf_samples"});
+    if (properties.plugin() == "direct") {
+        properties.accept({"shading_samples", "emitter_samples", "bsdf_samples"});
+    } else {
+        properties.accept(ofSilhouettes);
+        properties.accept({"max_depth", "rr_depth"}); // read by Mitsuba, and replaced by 2
+    }
     return {2, properties.boolean("hide_emitters", false)};
 }
 
@@ -104,12 +120,24 @@ struct IntegratorPlugin {
     IntegratorChoice (*read)(Properties&);
 };
 constexpr IntegratorPlugin integratorPlugins[] = {
-    {"path", readPath},           {"volpath", readPath},    {"volpathmis", readPath},
-    {"direct", readDirect},       {"aov", readNested},      {"moment", readNested},
-    {"photonmapper", readFormer}, {"sppm", readFormer},     {"ppm", readFormer},
-    {"bdpt", readFormer},         {"mlt", readFormer},      {"pssmlt", readFormer},
-    {"erpt", readFormer},         {"prb", readPath},        {"prb_basic", readPath},
-    {"prb_projective", readPath}, {"prbvolpath", readPath}, {"direct_projective", readDirect},
+    {"path", readPath},
+    {"volpath", readPath},
+    {"volpathmis", readPath},
+    {"direct", readDirect},
+    {"aov", readNested},
+    {"moment", readNested},
+    {"photonmapper", readFormer},
+    {"sppm", readFormer},
+    {"ppm", readFormer},
+    {"bdpt", readFormer},
+    {"mlt", readFormer},
+    {"pssmlt", readFormer},
+    {"erpt", readFormer},
+    {"prb", readForDerivatives},
+    {"prb_basic", readForDerivatives},
+    {"prb_projective", readForDerivatives},
+    {"prbvolpath", readForDerivatives},
+    {"direct_projective", readDirect},
     {"ptracer", readPath},
 };
 

@@ -69,7 +69,16 @@ std::vector<LobeCase> finiteLobes() {
     coated.coat[1] = 0.9f;
     coated.coat[3] = -0.4f;
     coated.alphaU = 0.2f;
+    coated.alphaV = 0;
     coated.exponent = 0.796f;
+    cases.push_back({"rough low coated lambert", cases.back().lobe});
+    shared::Lobe& low = cases.back().lobe; // below a critical angle of 42 degrees nearly nothing, by the other variable
+    low.eta = {2 / 3.0f, 1, 0};
+    low.alphaV = 0.1f;
+    for (float& factor : low.coat) factor = 0;
+    low.coat[2] = 0.5f;
+    low.coat[4] = 0.4f;
+    low.exponent = 0.2645f;
     for (float exponent : {0.0f, 1.0f, 30.0f, 1000.0f, 1e5f}) {
         cases.push_back({fmt::format("phong {}", exponent), makeLobe(LOBE_PHONG)});
         cases.back().lobe.exponent = exponent;

@@ -12,7 +12,7 @@ namespace quasilux {
 
 /// Compiles every lobe.
 #define QUASILUX_LOBE_OPTION(ID, argument) " -DHAS_LOBE_" #ID
-inline const std::string allLobes = LOBE_LIST(QUASILUX_LOBE_OPTION, );
+inline const std::string allLobes = LOBE_LIST(QUASILUX_LOBE_OPTION, ) " -DHAS_LOW_COATS";
 #undef QUASILUX_LOBE_OPTION
 
 struct LobeCase {

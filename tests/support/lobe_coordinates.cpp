@@ -56,7 +56,11 @@ double transmittedByCoat(double cosine, double eta) {
 }
 
 double transmittedByRoughCoat(double cosine, const shared::Lobe& lobe) {
-    const double x = cosine / (cosine + double(lobe.alphaU));
+    double x = cosine / (cosine + double(lobe.alphaU));
+    if (lobe.alphaV > 0) {
+        const double y = 1 - (1 - cosine * cosine) / std::pow(double(lobe.eta.r), 2);
+        x = double(lobe.eta.g) * std::pow((y + std::hypot(y, double(lobe.alphaV))) / 2, 0.25) + double(lobe.eta.b);
+    }
     double sum = 0;
     for (int k = 0; k < 8; ++k) sum += double(lobe.coat[k]) * std::pow(x, k);
     return sum;

@@ -111,7 +111,16 @@ double RoughCoat::internalReflectance() const {
     return sum / count;
 }
 
-double CoatFit::operator()(double cosine) const { return powerSum(factors, cosine / (cosine + knee)); }
+double CoatFit::variable(double cosine) const {
+    if (edge <= 0) return cosine / (cosine + knee);
+    const double y = 1 - (1 - cosine * cosine) / (eta * eta), sum = std::sqrt(y * y + edge * edge) + std::abs(y);
+    return scale * std::sqrt(std::sqrt((y > 0 ? sum : edge * edge / sum) / 2)) + offset;
+}
+
+double CoatFit::operator()(double cosine) const {
+    const double value = powerSum(factors, variable(cosine));
+    return edge == 0 ? value : std::max(value, 0.0);
+}
 
 double CoatFit::ofDiffuseLight() const {
     constexpr int steps = 1000;
@@ -123,21 +132,82 @@ double CoatFit::ofDiffuseLight() const {
     return sum / steps;
 }
 
-CoatFit fitTransmission(const RoughCoat& coat) {
-    constexpr size_t count = 64;
-    CoatFit fit;
-    fit.knee = std::max(coat.alpha, 0.1);
+namespace {
+
+/// Fits `values` at these cosines, whose errors count 1 / `scales` of themselves.
+void fitTo(const std::vector<double>& cosines, std::vector<double> values, const std::vector<double>& scales,
+           CoatFit& fit) {
     std::array<std::vector<double>, 8> columns;
-    const std::vector<double> ones(count, 1.0); // the relative error counts
-    for (size_t i = 0; i < count; ++i) {
-        const double cosine = static_cast<double>(i) / (count - 1), x = cosine / (cosine + fit.knee);
-        double power = 1 / coat.transmitted(cosine);
+    for (size_t i = 0; i < cosines.size(); ++i) {
+        const double x = fit.variable(cosines[i]);
+        double power = 1 / scales[i];
         for (auto& column : columns) {
             column.push_back(power);
             power *= x;
         }
+        values[i] /= scales[i];
     }
-    fit.factors = leastSquares(std::move(columns), ones);
+    fit.factors = leastSquares(std::move(columns), std::move(values));
+}
+
+std::vector<double> evenCosines(size_t count) {
+    std::vector<double> cosines;
+    for (size_t i = 0; i < count; ++i) cosines.push_back(static_cast<double>(i) / static_cast<double>(count - 1));
+    return cosines;
+}
+
+std::vector<double> transmittedAt(const RoughCoat& coat, const std::vector<double>& cosines) {
+    std::vector<double> values;
+    values.reserve(cosines.size());
+    for (const double cosine : cosines) values.push_back(coat.transmitted(cosine));
+    return values;
+}
+
+/// Makes the variable run from -1 to 1: powers of numbers near 1 have factors that cancel, too large for floats.
+void spreadVariable(CoatFit& fit) {
+    const double least = fit.variable(0), most = fit.variable(1);
+    fit.scale = 2 / (most - least);
+    fit.offset = -(most + least) / (most - least);
+}
+
+/// The variable that serves best: of widths of the edge about the critical angle, and of knees without an edge, which
+/// serve where roughness has blurred it away.
+CoatFit fitBelowOne(const RoughCoat& coat) {
+    constexpr size_t count = 96, nearEdge = 48;
+    const double critical = std::sqrt(1 - coat.eta * coat.eta);
+    std::vector<double> cosines = evenCosines(count);
+    for (const double at : evenCosines(nearEdge)) cosines.push_back(std::clamp(critical + 0.2 * (at - 0.5), 0.0, 1.0));
+    const std::vector<double> values = transmittedAt(coat, cosines);
+    std::vector<CoatFit> candidates;
+    for (const double widths : {0.5, 0.75, 1., 1.5, 2., 3., 4., 6., 8., 12.})
+        candidates.push_back({0.1, widths * std::max(0.7 * coat.alpha * critical / coat.eta, 1e-4), coat.eta});
+    for (CoatFit& fit : candidates) spreadVariable(fit);
+    for (const double knee : {0.02, 0.05, 0.1, 0.3, 1.}) candidates.push_back({knee, -1, coat.eta});
+    const auto worstOf = [&](const CoatFit& fit) {
+        double worst = 0;
+        for (size_t i = 0; i < cosines.size(); ++i) worst = std::max(worst, std::abs(fit(cosines[i]) - values[i]));
+        return worst;
+    };
+    CoatFit best;
+    double least = INFINITY;
+    for (CoatFit& fit : candidates) {
+        fitTo(cosines, values, std::vector<double>(values.size(), 1), fit);
+        const double worst = worstOf(fit);
+        if (worst >= least) continue;
+        least = worst;
+        best = fit;
+    }
+    return best;
+}
+
+} // namespace
+
+CoatFit fitTransmission(const RoughCoat& coat) {
+    if (coat.eta < 1) return fitBelowOne(coat);
+    CoatFit fit;
+    fit.knee = std::max(coat.alpha, 0.1);
+    const std::vector<double> cosines = evenCosines(64), values = transmittedAt(coat, cosines);
+    fitTo(cosines, values, values, fit); // the relative error counts
     return fit;
 }
 

@@ -23,6 +23,9 @@ LobeDescription baseLobe(const CoatedBase& base, const RoughCoat& coat) {
     const CoatFit fit = fitTransmission(coat);
     for (size_t k = 0; k < fit.factors.size(); ++k) lobe.device.coat[k] = static_cast<float>(fit.factors[k]);
     lobe.device.alphaU = static_cast<float>(fit.knee);
+    lobe.device.alphaV = static_cast<float>(fit.edge);
+    if (fit.edge != 0)
+        lobe.device.eta = {static_cast<float>(fit.eta), static_cast<float>(fit.scale), static_cast<float>(fit.offset)};
     lobe.device.exponent = static_cast<float>(fit.ofDiffuseLight());
     return lobe;
 }
@@ -32,10 +35,12 @@ LobeDescription baseLobe(const CoatedBase& base, const RoughCoat& coat) {
 BsdfLobes readRoughPlastic(Properties& properties) {
     const double inside = readRefractiveIndex(properties, "int_ior", "polypropylene");
     const double outside = readRefractiveIndex(properties, "ext_ior", "air");
-    if (inside <= outside)
-        throw InputError(properties.where("int_ior"),
-                         fmt::format("roughplastic: int_ior is {} and ext_ior {}; the coat must have the larger index.",
-                                     inside, outside));
+    if (inside == outside)
+        throw InputError(
+            properties.where("int_ior"),
+            fmt::format("roughplastic: int_ior is {}, as ext_ior; a coat must have another index than what "
+                        "is outside; without a coat it is <bsdf type=\"diffuse\">.",
+                        inside));
     const Roughness roughness = readRoughness(properties, "plastic", false);
     if (roughness.alphaU != roughness.alphaV)
         throw InputError(properties.where("alpha_u"),

@@ -4,6 +4,7 @@
 #include "scene/xml/names.h"
 #include "scene/xml/xml_document.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <array>
@@ -40,15 +41,28 @@ constexpr std::pair<std::string_view, const char*> plainFormats[] = {
     {".exr", "openexr"}, {".hdr", "hdr"}, {".png", "png"},   {".jpg", "jpeg"}, {".jpeg", "jpeg"}, {".tif", "tiff"},
     {".tiff", "tiff"},   {".bmp", "bmp"}, {".tga", "targa"}, {".pfm", "pnm"},  {".ppm", "pnm"},   {".pgm", "pnm"}};
 
-std::unique_ptr<OIIO::ImageInput> openPlain(const std::string& path, const OIIO::ImageSpec& wish,
-                                            const SourceLocation& where) {
+/// Letters in lower case, with the dot.
+std::string endingOf(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending;
+}
+
+/// By the reader of a format, or of an ending without the dot; null where there is none.
+std::unique_ptr<OIIO::ImageInput> readerOf(const std::string& format, OIIO::Filesystem::IOProxy& content) {
+    auto reader = OIIO::ImageInput::create(format);
+    OIIO::geterror(); // or it would be taken for that of the next one
+    return reader && reader->set_ioproxy(&content) ? std::move(reader) : nullptr;
+}
+
+std::unique_ptr<OIIO::ImageInput> openPlain(const std::string& path, const OIIO::ImageSpec& wish,
+                                            OIIO::Filesystem::IOProxy& content, const SourceLocation& where) {
     for (const auto& [known, format] : plainFormats) {
-        if (ending != known) continue;
-        auto file = OIIO::ImageInput::create(format);
+        if (endingOf(path) != known) continue;
+        auto file = readerOf(format, content);
         OIIO::ImageSpec spec;
-        if (file && !file->open(path, spec, wish)) failImage(path, file->geterror(), where);
+        if (!file) failImage(path, fmt::format("OpenImageIO was built without the format {}.", format), where);
+        if (!file->open(path, spec, wish)) failImage(path, file->geterror(), where);
         return file;
     }
     Names endings;
@@ -56,6 +70,49 @@ std::unique_ptr<OIIO::ImageInput> openPlain(const std::string& path, const OIIO:
     failImage(path,
               fmt::format("scenes that are not trusted may have images with these endings: {}.", joinNames(endings)),
               where);
+}
+
+/// Files that are called what they are not, and those of a few rare formats, OpenImageIO opens itself.
+std::unique_ptr<OIIO::ImageInput> openAny(const std::string& path, const OIIO::ImageSpec& wish,
+                                          OIIO::Filesystem::IOProxy& content, const SourceLocation& where) {
+    const std::string ending = endingOf(path);
+    auto file = ending.size() > 1 ? readerOf(ending.substr(1), content) : nullptr;
+    OIIO::ImageSpec spec;
+    if (file && file->open(path, spec, wish)) return file;
+    file = OIIO::ImageInput::open(path, &wish);
+    if (!file) failImage(path, OIIO::geterror(), where);
+    return file;
+}
+
+/// Values as the file has them, of up to three channels.
+struct StoredPixels {
+    OIIO::ImageSpec spec;
+    int channels = 0;
+    std::vector<float> values;
+};
+
+/// From memory: OpenImageIO overlooks some bytes that it cannot read, such as those at the end of a PNG.
+StoredPixels readStored(const std::string& path, const SourceLocation& where, LoadGuard& guard) {
+    std::string content = readFile(path, where, "image");
+    OIIO::Filesystem::IOMemReader memory(content.data(), content.size());
+    OIIO::ImageSpec asStored;
+    asStored["oiio:UnassociatedAlpha"] = 1; // colours are not to be multiplied by an alpha that is left out
+    const auto file = (guard.isTrusted() ? openAny : openPlain)(path, asStored, memory, where);
+    StoredPixels stored;
+    const OIIO::ImageSpec& spec = stored.spec = file->spec();
+    const int64_t count = int64_t(spec.width) * spec.height;
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || count > maximumPixels)
+        failImage(
+            path,
+            fmt::format("it has {} x {} x {} pixels of {} channels; expected a flat picture of at most {} pixels.",
+                        spec.width, spec.height, spec.depth, spec.nchannels, maximumPixels),
+            where);
+    guard.addPixels(static_cast<uint64_t>(count), where);
+    stored.channels = std::min(spec.nchannels, 3);
+    stored.values.resize(static_cast<size_t>(count) * static_cast<size_t>(stored.channels));
+    if (!file->read_image(0, 0, 0, stored.channels, OIIO::TypeDesc::FLOAT, stored.values.data()))
+        failImage(path, file->geterror(), where);
+    return stored;
 }
 
 /// Decodes sRGB. Of files of bytes there are 256 values, which are decoded once: powers are most of the time that a
@@ -77,32 +134,14 @@ private:
 };
 
 Image readWithin(const Range& range, const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard) {
-    readFile(path, where, "image"); // says what is wrong with the name
-    OIIO::ImageSpec asStored;
-    asStored["oiio:UnassociatedAlpha"] = 1; // colours are not to be multiplied by an alpha that is left out
-    const auto file = guard.isTrusted() ? OIIO::ImageInput::open(path, &asStored) : openPlain(path, asStored, where);
-    if (!file) failImage(path, OIIO::geterror(), where);
-    const OIIO::ImageSpec spec = file->spec();
-    const int64_t count = int64_t(spec.width) * spec.height;
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || count > maximumPixels)
-        failImage(
-            path,
-            fmt::format("it has {} x {} x {} pixels of {} channels; expected a flat picture of at most {} pixels.",
-                        spec.width, spec.height, spec.depth, spec.nchannels, maximumPixels),
-            where);
-    guard.addPixels(static_cast<uint64_t>(count), where);
-    const int channels = std::min(spec.nchannels, 3);
-    std::vector<float> values(static_cast<size_t>(count) * static_cast<size_t>(channels));
-    if (!file->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()))
-        failImage(path, file->geterror(), where);
-
+    const auto [spec, channels, values] = readStored(path, where, guard);
     const bool encoded = !raw && !spec.format.is_floating_point();
     Decoder decode(spec.format == OIIO::TypeDesc::UINT8);
     const auto step = static_cast<size_t>(channels);
     const size_t green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2; // one channel, or grey and alpha
     Image image{static_cast<unsigned>(spec.width), static_cast<unsigned>(spec.height), {}, 0};
     std::vector<Rgb> pixels;
-    pixels.reserve(static_cast<size_t>(count));
+    pixels.reserve(values.size() / step);
     for (size_t i = 0; i < values.size(); i += step) {
         float pixel[3] = {values[i], values[i + green], values[i + blue]};
         bool beyond = false;
