@@ -69,6 +69,7 @@ protected:
         for (const auto& [label, bytes] : statistics.at("sceneReport").at("bufferBytes").items())
             buffers += bytes.get<double>();
         EXPECT_EQ(buffers, statistics.at("peakBufferBytes").get<double>());
+        EXPECT_EQ(buffers, statistics.at("sceneReport").at("forecast").at("deviceBytes").get<double>());
         return {buffers, statistics.at("peakHostBytes")};
     }
 };

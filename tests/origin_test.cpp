@@ -1,9 +1,12 @@
 // Scenes far from the origin of their file keep their shape: they are loaded relative to their centre.
 #include "support/scene_files.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
+#include <unistd.h>
 
 namespace quasilux {
 namespace {
@@ -65,6 +68,65 @@ TEST(Origin, LoadsASmallLampFarAway) {
     const Scene scene = loadScene(files.write("scene.xml", sceneAt("100000.1,-100000.2,50000.3", 1, lamp)));
     const auto& p = scene.shapes[2].mesh.positions;
     EXPECT_NEAR(glm::length(glm::dvec3(p[1]) - glm::dvec3(p[0])), 2e-3, 1e-9);
+}
+
+// Where it stands is known from the shapes, whatever else there is.
+TEST(Origin, LoadsASmallLampFarAwayWithoutASensor) {
+    const SceneFiles files;
+    const Scene scene = loadScene(files.write("scene.xml", R"(<scene version="3.0.0">
+<?quasilux illuminance-grid origin="100000,100000,0" edge-u="1,0,0" edge-v="0,1,0" nx="2" ny="2"?>
+<shape type="rectangle"><transform name="to_world"><scale value="1e-3"/><translate value="100000,100000,2"/></transform>
+<emitter type="area"/></shape></scene>)"));
+    const auto& p = scene.shapes[0].mesh.positions;
+    EXPECT_NEAR(glm::length(glm::dvec3(p[1]) - glm::dvec3(p[0])), 2e-3, 1e-9);
+}
+
+/// How often a file is opened while it lives.
+class Openings {
+public:
+    explicit Openings(const std::string& path) : queue_(inotify_init1(IN_NONBLOCK)) {
+        inotify_add_watch(queue_, path.c_str(), IN_OPEN | IN_CLOSE); // equal events in a row would become one
+    }
+    ~Openings() { close(queue_); }
+    Openings(const Openings&) = delete;
+    Openings& operator=(const Openings&) = delete;
+
+    /// Since the last call.
+    size_t count() const {
+        inotify_event events[64];
+        const ssize_t bytes = read(queue_, events, sizeof events);
+        const inotify_event *first = events,
+                            *end = events + (bytes > 0 ? static_cast<size_t>(bytes) / sizeof *events : 0);
+        return static_cast<size_t>(std::count_if(first, end, [](const auto& e) { return (e.mask & IN_OPEN) != 0; }));
+    }
+
+private:
+    int queue_;
+};
+
+TEST(Origin, MeshFilesAreReadOnceOrWhereTheSceneIsFarTwice) {
+    const SceneFiles files;
+    const std::string path = files.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), far = "100000,100000,0";
+    const auto meshAt = [](const std::string& place) {
+        return fmt::format(R"(<shape type="obj"><string name="filename" value="mesh.obj"/><transform name="to_world">
+<translate value="{}"/></transform></shape>)",
+                           place);
+    };
+    const auto lampOf = [&](const std::string& scale) {
+        return fmt::format(
+            R"(<shape type="rectangle"><transform name="to_world"><scale value="{}"/><translate value="{}"/>
+</transform><emitter type="area"/></shape>)",
+            scale, far);
+    };
+    const Openings openings(path);
+    loadScene(files.write("scene.xml", sceneAt("1,0,0", 1, meshAt("0,0,0"))));
+    EXPECT_EQ(openings.count(), 1u);
+    loadScene(files.write("scene.xml", sceneAt(far, 1, meshAt(far))));
+    EXPECT_EQ(openings.count(), 2u);
+    loadScene(files.write("scene.xml", sceneAt(far, 1, meshAt(far) + lampOf("1e-3"))));
+    EXPECT_EQ(openings.count(), 2u) << "a lamp that has no area at first";
+    errorOf(files.write("scene.xml", sceneAt("1,0,0", 1, meshAt("0,0,0") + "<shape type=\"cone\"/>")));
+    EXPECT_EQ(openings.count(), 1u) << "a scene with an error";
 }
 
 TEST(Origin, ErrorsStayTheSame) {

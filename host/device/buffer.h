@@ -11,9 +11,11 @@ namespace quasilux {
 template <typename T>
 class Buffer {
 public:
+    static constexpr uint64_t bytesOf(size_t count) { return uint64_t{count ? count : 1} * sizeof(T); }
+
     Buffer() = default;
     Buffer(Device& device, size_t count, const std::string& label)
-        : device_(&device), count_(count), allocation_(device.allocate((count ? count : 1) * sizeof(T), label)) {}
+        : device_(&device), count_(count), allocation_(device.allocate(bytesOf(count), label)) {}
     Buffer(Device& device, const std::vector<T>& data, const std::string& label) : Buffer(device, data.size(), label) {
         write(data);
     }
@@ -44,8 +46,7 @@ public:
         return data;
     }
     void fill(T value) {
-        device_->run(
-            [&] { device_->queue().enqueueFillBuffer(memory(), value, 0, (count_ ? count_ : 1) * sizeof(T)); });
+        device_->run([&] { device_->queue().enqueueFillBuffer(memory(), value, 0, bytesOf(count_)); });
     }
 
 private:

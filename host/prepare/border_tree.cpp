@@ -118,6 +118,7 @@ void build(Entries first, Entries last, BorderTree& tree) {
 
 BorderTree buildBorderTree(const std::vector<BorderSegment>& segments, unsigned patchCount) {
     BorderTree tree;
+    tree.segmentCount = segments.size();
     tree.nodeOfPatch.assign(patchCount, QL_NONE);
     std::vector<Entry> entries = entriesOf(segments);
     if (!entries.empty()) build(entries.begin(), entries.end(), tree);

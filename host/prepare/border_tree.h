@@ -8,6 +8,7 @@ namespace quasilux {
 struct BorderTree {
     std::vector<shared::BorderNode> nodes; ///< depth first, node 0 the root; none where there is no segment
     std::vector<shared::BorderLeaf> leaves;
+    size_t segmentCount = 0;
     std::vector<unsigned>
         nodeOfPatch; ///< the lowest node that holds all segments whose patchA it is; QL_NONE: there are none
 };

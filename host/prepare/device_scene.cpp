@@ -33,7 +33,7 @@ void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& m
 }
 
 Features findFeatures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters,
-                      const std::vector<shared::Medium>& media, const SurfaceBorders& borders) {
+                      const std::vector<shared::Medium>& media, const std::vector<BorderTree>& borders) {
     Features features;
     for (const auto& lobe : materials.lobes) {
         features.lobes.insert(lobe.type);
@@ -63,8 +63,8 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.cornerNormals |= !shape.mesh.cornerNormals.empty();
         features.nullPrimitives |= scene.bsdfs[static_cast<size_t>(shape.bsdf)].isNull;
     }
-    features.borders = !borders.segments.empty() || std::any_of(borders.groups.begin(), borders.groups.end(),
-                                                                [](const auto& g) { return !g.segments.empty(); });
+    features.borders =
+        std::any_of(borders.begin(), borders.end(), [](const BorderTree& tree) { return tree.segmentCount > 0; });
     features.instances = !scene.instances.empty();
     features.depthLimit = scene.maxDepth >= 0;
     features.hiddenEmitters = hidesEmitters(scene);
@@ -110,12 +110,9 @@ unsigned appendTexels(const std::vector<Texels>& images, SceneTableWriter& table
     return first;
 }
 
-/// `Places`: where they are said, of the world or of a group. `known`: their tree, or null.
+/// `Places`: where they are said, of the world or of a group.
 template <typename Places>
-void appendBorders(const SurfaceBorders& borders, const BorderTree* known, SceneTableWriter& tables, Places& places) {
-    BorderTree built;
-    if (!known) built = buildBorderTree(borders.segments, borders.patchCount);
-    const BorderTree& tree = known ? *known : built;
+void appendBorders(const SurfaceBorders& borders, const BorderTree& tree, SceneTableWriter& tables, Places& places) {
     places.borderLeaves = tables.append(tree.leaves);
     places.borderNodes = tables.append(tree.nodes);
     places.borderNodeCount = static_cast<unsigned>(tree.nodes.size());
@@ -124,15 +121,13 @@ void appendBorders(const SurfaceBorders& borders, const BorderTree* known, Scene
 }
 
 /// Borders of the world and of groups, and the instances of these.
-void appendAllBorders(const Scene& scene, const SurfaceBorders& borders, const SceneGeometry* known,
-                      SceneTableWriter& tables, SceneTree& tree, shared::SceneTables& offsets) {
-    const auto treeOf = [known](size_t k) { return known ? &known->borderTrees[k] : nullptr; };
-    appendBorders(borders, treeOf(0), tables, offsets);
-    std::vector<shared::ShapeGroup> groups;
-    for (const SurfaceBorders& group : borders.groups) {
-        const BorderTree* ofGroup = treeOf(groups.size() + 1);
-        appendBorders(group, ofGroup, tables, groups.emplace_back());
-    }
+void appendAllBorders(const Scene& scene, const SceneGeometry& geometry, SceneTableWriter& tables, SceneTree& tree,
+                      shared::SceneTables& offsets) {
+    const SurfaceBorders& borders = geometry.borders;
+    appendBorders(borders, geometry.borderTrees.front(), tables, offsets);
+    std::vector<shared::ShapeGroup> groups(borders.groups.size());
+    for (size_t k = 0; k < groups.size(); ++k)
+        appendBorders(borders.groups[k], geometry.borderTrees[k + 1], tables, groups[k]);
     appendInstances(scene, borders, groups, tree);
     offsets.patchCount = borders.patchCount;
     offsets.instances = tree.firstInstance;
@@ -168,17 +163,14 @@ void appendMeter(const MeterTables& meter, unsigned lobe, SceneTableWriter& tabl
 }
 
 // For reports.
-void countParts(const Scene& scene, const SurfaceBorders& borders, DeviceScene& out) {
+void countParts(const Scene& scene, const SceneGeometry& geometry, DeviceScene& out) {
     for (const auto& shape : scene.shapes) {
         out.triangles += shape.mesh.triangles.size();
         out.spheres += shape.sphere ? 1 : 0;
     }
-    out.patches = borders.patchCount;
-    out.borderSegments = borders.segments.size();
-    for (const SurfaceBorders& group : borders.groups) {
-        out.patches += group.patchCount;
-        out.borderSegments += group.segments.size();
-    }
+    out.patches = geometry.borders.patchCount;
+    for (const SurfaceBorders& group : geometry.borders.groups) out.patches += group.patchCount;
+    for (const BorderTree& tree : geometry.borderTrees) out.borderSegments += tree.segmentCount;
     out.instances = scene.instances.size();
     for (const double power : out.emitters.power) out.emittedFlux += power;
 }
@@ -252,19 +244,19 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings, co
     out.emitters = flattenEmitters(scene, placement);
     auto materials = flattenMaterials(scene, out.split);
     const unsigned meterLobe = isIrradiance(scene.sensor.meter) ? appendWhite(materials.lobes) : QL_NONE;
-    SurfaceBorders found;
-    if (!known) found = findBorders(scene);
-    const SurfaceBorders& borders = known ? known->borders : found;
-    out.warnings = findWarnings(scene, borders);
+    SceneGeometry own;
+    if (!known) own = prepareGeometry(scene);
+    const SceneGeometry& geometry = known ? *known : own;
+    SceneTree tree = known ? known->tree : std::move(own.tree); // instances are written into it
+    out.warnings = findWarnings(scene, geometry.borders);
     out.surfaceArea = scatteringArea(scene);
-    out.features = findFeatures(scene, materials, out.emitters, out.media, borders);
+    out.features = findFeatures(scene, materials, out.emitters, out.media, geometry.borderTrees);
     out.offsets.directSharing = directSharing(out.emitters.emitters, out.surfaceArea, out.features.irradianceMeter);
     out.features.sharingLambert = out.offsets.directSharing & DIRECT_SHARING_LAMBERT;
     out.features.sharingMedia = out.features.media && out.offsets.directSharing & DIRECT_SHARING_MEDIA;
-    SceneTree tree = known ? known->tree : buildSceneTree(scene);
 
     SceneTableWriter tables;
-    out.offsets.primitives = tables.append(flattenPrimitiveInfo(scene, borders));
+    out.offsets.primitives = tables.append(flattenPrimitiveInfo(scene, geometry.borders));
     out.offsets.shapes = tables.append(flattenShapes(scene, out.emitters.emitterOfShape, placement));
     out.offsets.cornerNormals = tables.append(flattenCornerNormals(scene));
     out.offsets.materials = tables.append(materials.materials);
@@ -279,7 +271,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings, co
     appendEmitters(out.emitters, tables, out.offsets);
     appendMeter(flattenMeter(scene, placement.camera, placement.grids), meterLobe, tables, out.offsets);
     const unsigned filterSteps = tables.append(filterTable(scene.sensor));
-    appendAllBorders(scene, borders, known, tables, tree, out.offsets);
+    appendAllBorders(scene, geometry, tables, tree, out.offsets);
     out.bvh = std::move(tree.bvh);
     out.offsets.texels = appendTexels(textures.images, tables);
     out.tables = std::move(tables).take();
@@ -289,7 +281,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings, co
     LearnedTables nothing;
     nothing.guide = plainGuide(out.emitters);
     setLearned(out, nothing);
-    countParts(scene, borders, out);
+    countParts(scene, geometry, out);
     return out;
 }
 

@@ -8,7 +8,7 @@
 namespace quasilux {
 
 struct SceneGeometry {
-    SurfaceBorders borders;
+    SurfaceBorders borders;              ///< without their segments, which are in the trees
     std::vector<BorderTree> borderTrees; ///< of the world, then of each group
     SceneTree tree;                      ///< before appendInstances()
 };

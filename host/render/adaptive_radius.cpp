@@ -38,32 +38,39 @@ size_t choicesWithin(unsigned passes) {
 
 std::string scalesLabel(size_t choice) { return "radii " + std::to_string(choice); }
 
-size_t scaleCount(const shared::Camera& coarse, unsigned classes) {
-    return size_t(coarse.width) * coarse.height * size_t(std::popcount(classes));
-}
+// But for the coarse film's.
+struct RadiusBuffers {
+    RadiusBuffers(const shared::Camera& coarse, unsigned classes) {
+        const size_t count = size_t(coarse.width) * coarse.height * size_t(std::popcount(classes));
+        coarseScales.count = measures.count = count;
+        for (size_t choice = 0; choice <= choices.size(); ++choice) scales.push_back({scalesLabel(choice), count});
+    }
+    PlannedBuffer<float> coarseScales{"coarse radii"};
+    PlannedBuffer<shared::RadiusMeasure> measures{"coarse measures"};
+    std::vector<PlannedBuffer<float>> scales; // as chosen
+};
 
 } // namespace
 
 AdaptiveRadius::AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes)
     : block_(coarseBlock(camera)), camera_(coarseCamera(camera, block_)),
       film_(std::in_place, device, camera_.width, camera_.height, FilmLayout{}, Film::inOneBuffer, coarseOwner),
-      measureRadii_(pass.kernel("measureRadii")), chooseRadii_(pass.kernel("chooseRadii")),
-      coarseScales_(device, scaleCount(camera_, classes), "coarse radii"),
-      measures_(device, coarseScales_.size(), "coarse measures") {
-    for (size_t choice = 0; choice <= choices.size(); ++choice)
-        scales_.emplace_back(device, coarseScales_.size(), scalesLabel(choice)).fill(1);
+      measureRadii_(pass.kernel("measureRadii")), chooseRadii_(pass.kernel("chooseRadii")) {
+    const RadiusBuffers buffers(camera_, classes);
+    coarseScales_ = buffers.coarseScales.make(device);
+    measures_ = buffers.measures.make(device);
+    for (const auto& scales : buffers.scales) scales_.emplace_back(scales.make(device)).fill(1);
     coarseScales_.fill(largestAdaptiveRadius);
     measures_.write(std::vector<shared::RadiusMeasure>(measures_.size()));
 }
 
-std::map<std::string, uint64_t> AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
+BufferSizes AdaptiveRadius::plan(const shared::Camera& camera, unsigned classes) {
     const shared::Camera coarse = coarseCamera(camera, coarseBlock(camera));
-    const uint64_t scales = scaleCount(coarse, classes);
-    auto bytes = Film::plan(size_t(coarse.width) * coarse.height, FilmLayout{}, Film::inOneBuffer, coarseOwner);
-    bytes["coarse radii"] = scales * sizeof(float);
-    bytes["coarse measures"] = scales * sizeof(shared::RadiusMeasure);
-    for (size_t choice = 0; choice <= choices.size(); ++choice) bytes[scalesLabel(choice)] = scales * sizeof(float);
-    return bytes;
+    const RadiusBuffers buffers(coarse, classes);
+    auto sizes = Film::plan(size_t(coarse.width) * coarse.height, FilmLayout{}, Film::inOneBuffer, coarseOwner);
+    sizes.merge(sizesOf(buffers.coarseScales, buffers.measures));
+    for (const auto& scales : buffers.scales) sizes.merge(sizesOf(scales));
+    return sizes;
 }
 
 void AdaptiveRadius::compile() {

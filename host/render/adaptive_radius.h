@@ -6,9 +6,7 @@
 #include "device/program.h"
 #include "render/film.h"
 
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace quasilux {
@@ -23,8 +21,8 @@ public:
     /// `pass`: with ADAPTIVE_RADIUS among its options. `classes`: bits of the photon classes in use.
     AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes);
 
-    /// Bytes of its buffers by label, as Device::allocations() has them.
-    static std::map<std::string, uint64_t> plan(const shared::Camera& camera, unsigned classes);
+    /// Its buffers, by label.
+    static BufferSizes plan(const shared::Camera& camera, unsigned classes);
     /// Has the runtime compile the kernels.
     void compile();
 

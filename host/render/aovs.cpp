@@ -54,8 +54,6 @@ size_t tileOf(size_t pixels, unsigned floats, const DeviceInfo& device) {
     return (pixels + tiles - 1) / tiles;
 }
 
-constexpr const char* label = "aovs";
-
 bool hasLayers(const Scene& scene) {
     return scene.sensor.meter == MeterKind::none && (!scene.aovs.empty() || scene.sensor.pixelFormat.alpha);
 }
@@ -63,6 +61,9 @@ bool hasLayers(const Scene& scene) {
 unsigned floatsOf(const Scene& scene) { return hasUvLayers(scene) ? AOV_ALL_FLOATS : AOV_PLAIN_FLOATS; }
 
 size_t pixelsOf(const DeviceScene& flat) { return size_t(flat.camera.width) * flat.camera.height; }
+
+// Sums of the pixels of a tile.
+PlannedBuffer<float> sumsOf(size_t tile, size_t floats) { return {"aovs", tile * floats}; }
 
 // The layers that are asked for, alpha first, filled pixel by pixel.
 class Layers {
@@ -112,8 +113,9 @@ private:
 
 BufferSizes planAovs(const Scene& scene, const DeviceScene& flat, const DeviceInfo& device) {
     if (!hasLayers(scene)) return {};
-    BufferSizes sizes = planGeometry(flat);
-    sizes[label] = tileOf(pixelsOf(flat), floatsOf(scene), device) * floatsOf(scene) * sizeof(float);
+    BufferSizes sizes = GeometryBuffers::plan(flat);
+    const unsigned floats = floatsOf(scene);
+    sizes.merge(sizesOf(sumsOf(tileOf(pixelsOf(flat), floats, device), floats)));
     return sizes;
 }
 
@@ -146,7 +148,7 @@ std::vector<AovImage> renderAovs(Device& device, const Scene& scene, const Devic
     Program program(device, "aovs.cl", kernelOptions(flat, settings) + (hasUvLayers(scene) ? " -DHAS_UV_LAYERS" : ""));
     const size_t pixels = pixelsOf(flat), floats = floatsOf(scene),
                  tile = tileOf(pixels, floatsOf(scene), device.info());
-    Buffer<float> sums(device, tile * floats, label);
+    const Buffer<float> sums = sumsOf(tile, floats).make(device);
     Kernel trace = program.kernel("traceAovs");
     shared::CameraParams params = cameraParams(flat, settings, QL_NONE);
     Layers layers(scene, pixels);

@@ -21,9 +21,10 @@ CameraStage::CameraStage(Device& device, const Program& pass, const GeometryBuff
     : geometry_(geometry), film_(film), radii_(radii), shared_(shared), paths_(device, params.camera, paths),
       onePath_(device, params.camera, 1, ofOnePath), traceCameraPaths_(pass.kernel(cameraKernel)), params_(params) {}
 
-std::map<std::string, uint64_t> CameraStage::plan(const shared::Camera& camera, bool isAdaptive) {
-    return {{PathCounts::label, PathCounts::plan(camera, isAdaptive)},
-            {ofOnePath + PathCounts::label, PathCounts::plan(camera, false)}};
+BufferSizes CameraStage::plan(const shared::Camera& camera, bool isAdaptive) {
+    BufferSizes sizes = PathCounts::plan(camera, isAdaptive);
+    sizes.merge(PathCounts::plan(camera, false, ofOnePath));
+    return sizes;
 }
 
 void CameraStage::compile(const PhotonStage& photons) {

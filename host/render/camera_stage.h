@@ -25,7 +25,8 @@ public:
     CameraStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                 shared::CameraParams params, unsigned paths, AdaptiveRadius* radii, SharedSamples* shared);
 
-    static std::map<std::string, uint64_t> plan(const shared::Camera& camera, bool isAdaptive);
+    /// Its own buffers, by label.
+    static BufferSizes plan(const shared::Camera& camera, bool isAdaptive);
 
     /// Has the runtime compile the kernels, by a launch of as many work-items as a pass has, which do nothing.
     void compile(const PhotonStage& photons);

@@ -42,6 +42,15 @@ size_t sumsOf(const std::vector<shared::SortDigit>& digits) {
     return most;
 }
 
+size_t cellsOf(unsigned slots, unsigned cellsOfSlot) { return size_t(std::popcount(slots)) * cellsOfSlot; }
+
+struct TableBuffers {
+    TableBuffers(size_t cells, const std::vector<shared::SortDigit>& digits, const std::string& noun)
+        : counts{noun + " cell counts", countsOf(digits)}, sums{noun + " sums of counts", sumsOf(digits)},
+          cellStart{noun + " cells", cells + 1} {}
+    PlannedBuffer<uint32_t> counts, sums, cellStart;
+};
+
 } // namespace
 
 std::vector<shared::SortDigit> sortDigits(size_t cells, const SortParts& parts, unsigned keySide) {
@@ -72,7 +81,7 @@ CellTable::CellTable(Device& device, const Program& pass, unsigned slots, unsign
       placeOrdered_(pass.kernel("placeOrdered")), copyCellStarts_(pass.kernel("copyCellStarts")),
       findCellStarts_(pass.kernel("findCellStarts")), slots_(slots), keySide_(keySide), noun_(std::move(noun)) {}
 
-size_t CellTable::cells() const { return size_t(std::popcount(slots_)) * (map_.cellMask + 1); }
+size_t CellTable::cells() const { return cellsOf(slots_, map_.cellMask + 1); }
 
 void CellTable::make(uint64_t expected, unsigned regions) {
     make(cellsPerSlot(expected), regions, partsFor(device_.info(), regions));
@@ -82,18 +91,17 @@ void CellTable::make(unsigned cellsOfSlot, unsigned regions, const SortParts& pa
     map_.regions = regions;
     map_.cellMask = cellsOfSlot - 1;
     digits_ = sortDigits(std::max<size_t>(1, cells()), parts, keySide_);
-    counts_ = Buffer<uint32_t>(device_, countsOf(digits_), noun_ + " cell counts");
-    sums_ = Buffer<uint32_t>(device_, sumsOf(digits_), noun_ + " sums of counts");
-    cellStart_ = Buffer<uint32_t>(device_, cells() + 1, noun_ + " cells");
+    const TableBuffers buffers(cells(), digits_, noun_);
+    counts_ = buffers.counts.make(device_);
+    sums_ = buffers.sums.make(device_);
+    cellStart_ = buffers.cellStart.make(device_);
 }
 
 BufferSizes CellTable::plan(unsigned slots, uint64_t expected, unsigned regions, const std::string& noun,
                             const DeviceInfo& device) {
-    const size_t cells = size_t(std::popcount(slots)) * cellsPerSlot(expected);
-    const auto digits = sortDigits(std::max<size_t>(1, cells), partsFor(device, regions), 1);
-    return {{noun + " cell counts", countsOf(digits) * sizeof(uint32_t)},
-            {noun + " sums of counts", sumsOf(digits) * sizeof(uint32_t)},
-            {noun + " cells", (cells + 1) * sizeof(uint32_t)}};
+    const size_t cells = cellsOf(slots, cellsPerSlot(expected));
+    const TableBuffers buffers(cells, sortDigits(std::max<size_t>(1, cells), partsFor(device, regions), 1), noun);
+    return sizesOf(buffers.counts, buffers.sums, buffers.cellStart);
 }
 
 void CellTable::scan(const shared::SortDigit& digit) {

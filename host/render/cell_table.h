@@ -4,7 +4,7 @@
 
 #include "device/program.h"
 #include "pass_types.h"
-#include "render/memory_plan.h"
+#include "render/planned_buffer.h"
 
 #include <array>
 #include <cstdint>

@@ -22,20 +22,27 @@ struct Counts {
 // Pixels of which the sums are read at once.
 constexpr size_t pixelsAtOnce = 1 << 16;
 
-std::string partLabel(const std::string& owner, size_t part) {
-    return owner + "film" + (part > 0 ? ' ' + std::to_string(part + 1) : "");
-}
+struct PlannedPart {
+    size_t firstPixel, pixels;
+    PlannedBuffer<float> sums;
+};
 
-// Pixels of each part.
-std::vector<size_t> partsOf(size_t pixels, const FilmLayout& layout, uint64_t largestBuffer) {
-    const size_t most = std::max<size_t>(largestBuffer / (layout.floatsPerPixel() * sizeof(float)) / 64, 1) * 64;
-    std::vector<size_t> parts;
+std::vector<PlannedPart> partsOf(size_t pixels, const FilmLayout& layout, uint64_t largestBuffer,
+                                 const std::string& owner) {
+    const size_t floats = layout.floatsPerPixel();
+    const size_t most = std::max<size_t>(largestBuffer / (floats * sizeof(float)) / 64, 1) * 64;
+    std::vector<PlannedPart> parts;
+    size_t first = 0;
     do {
-        parts.push_back(std::min(most, pixels));
-        pixels -= parts.back();
-    } while (pixels > 0);
+        const size_t ofPart = std::min(most, pixels - first);
+        const std::string number = parts.empty() ? "" : ' ' + std::to_string(parts.size() + 1);
+        parts.push_back({first, ofPart, {owner + "film" + number, ofPart * floats}});
+        first += ofPart;
+    } while (first < pixels);
     return parts;
 }
+
+PlannedBuffer<shared::CameraCounters> countersOf(const std::string& owner) { return {owner + "camera counters", 1}; }
 
 // Standard error of the mean from the sum over passes, the squares of batches, each divided by its number of passes,
 // and the sum over the open batch.
@@ -110,13 +117,9 @@ bool isBlack(const std::vector<float>& values) {
 
 Film::Film(Device& device, unsigned width, unsigned height, FilmLayout layout, uint64_t largestBuffer,
            const std::string& owner)
-    : width_(width), height_(height), layout_(layout), counters_(device, 1, owner + "camera counters") {
-    size_t first = 0;
-    for (const size_t pixels : partsOf(size_t(width) * height, layout, largestBuffer)) {
-        parts_.push_back(
-            {first, pixels, Buffer<float>(device, pixels * layout.floatsPerPixel(), partLabel(owner, parts_.size()))});
-        first += pixels;
-    }
+    : width_(width), height_(height), layout_(layout), counters_(countersOf(owner).make(device)) {
+    for (const PlannedPart& part : partsOf(pixels(), layout, largestBuffer, owner))
+        parts_.push_back({part.firstPixel, part.pixels, part.sums.make(device)});
     clear();
 }
 
@@ -127,13 +130,10 @@ void Film::clear() {
     endPass();
 }
 
-std::map<std::string, uint64_t> Film::plan(size_t pixels, FilmLayout layout, uint64_t largestBuffer,
-                                           const std::string& owner) {
-    std::map<std::string, uint64_t> bytes{{owner + "camera counters", sizeof(shared::CameraCounters)}};
-    size_t part = 0;
-    for (const size_t ofPart : partsOf(pixels, layout, largestBuffer))
-        bytes[partLabel(owner, part++)] = ofPart * layout.floatsPerPixel() * sizeof(float);
-    return bytes;
+BufferSizes Film::plan(size_t pixels, FilmLayout layout, uint64_t largestBuffer, const std::string& owner) {
+    BufferSizes sizes = sizesOf(countersOf(owner));
+    for (const PlannedPart& part : partsOf(pixels, layout, largestBuffer, owner)) sizes.merge(sizesOf(part.sums));
+    return sizes;
 }
 
 Buffer<float>& Film::sums() {

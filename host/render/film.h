@@ -1,14 +1,13 @@
 // The film on the device (kernels/film.clh): sums over passes by pixel, and what they say of the image.
 #pragma once
 
-#include "device/buffer.h"
 #include "pass_types.h"
 #include "render/film_image.h"
 #include "render/film_layout.h"
+#include "render/planned_buffer.h"
 #include "util/state_archive.h"
 
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -59,9 +58,9 @@ public:
         size_t firstPixel = 0, pixels = 0;
         Buffer<float> sums;
     };
-    /// Labels and bytes of the buffers that it has.
-    static std::map<std::string, uint64_t> plan(size_t pixels, FilmLayout layout, uint64_t largestBuffer = inOneBuffer,
-                                                const std::string& owner = "");
+    /// The buffers that it has, by label.
+    static BufferSizes plan(size_t pixels, FilmLayout layout, uint64_t largestBuffer = inOneBuffer,
+                            const std::string& owner = "");
 
     /// What the kernels are to know of a pass that adds to the film.
     struct Pass {

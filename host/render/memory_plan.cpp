@@ -2,12 +2,11 @@
 
 #include "render/adaptive_radius.h"
 #include "render/film.h"
+#include "render/geometry_buffers.h"
 #include "render/meter_stage.h"
-#include "render/meter_sums.h"
 #include "render/method.h"
 #include "render/noise_probe.h"
-#include "render/photon_arrays.h"
-#include "render/regions.h"
+#include "render/photon_stage.h"
 #include "render/shared_samples.h"
 #include "util/error.h"
 
@@ -18,11 +17,6 @@
 namespace quasilux {
 
 namespace {
-
-template <typename T>
-uint64_t bytesOf(const std::vector<T>& data) {
-    return std::max<uint64_t>(1, data.size()) * sizeof(T);
-}
 
 uint64_t pixelsOf(const DeviceScene& scene) { return uint64_t(scene.camera.width) * scene.camera.height; }
 
@@ -58,14 +52,8 @@ uint64_t sumOf(const BufferSizes& sizes) {
     return sum;
 }
 
-BufferSizes planGeometry(const DeviceScene& scene) {
-    return {{"tree nodes", bytesOf(scene.bvh.nodes)},
-            {"primitives", bytesOf(scene.bvh.blocks)},
-            {"scene tables", bytesOf(scene.tables)}};
-}
-
 BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, const DeviceInfo& device) {
-    BufferSizes sizes = planGeometry(scene);
+    BufferSizes sizes = GeometryBuffers::plan(scene);
     sizes.merge(Film::plan(pixelsOf(scene), filmLayout(scene.features, settings),
                            largestFilmBuffer(scene.features, settings, device)));
     return sizes;
@@ -75,9 +63,8 @@ BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, u
                      const DeviceInfo& device) {
     BufferSizes sizes = planScene(scene, settings, device);
     const unsigned classes = compiledClasses(scene.features, settings);
-    const unsigned regions = regionsOf(photonsPerPass(settings, scene.camera), photonsPerRegion(device));
-    sizes["photon regions"] = regions * sizeof(shared::RegionCount);
-    sizes.merge(PhotonArrays::plan(classes, photons, regions, compiledFeatures(scene, settings).depthLimit, device));
+    sizes.merge(PhotonStage::plan(photonsPerPass(settings, scene.camera), photons, classes,
+                                  storesDepth(scene, settings), device));
     if (const unsigned floats = SharedSamples::floatsPerSample(scene, settings))
         sizes.merge(SharedSamples::plan(scene.camera, floats, device));
     const bool isMeter = scene.offsets.meter.kind != METER_NONE,
@@ -85,10 +72,7 @@ BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, u
     if (mayHaveCameraPaths(isMeter, settings)) sizes.merge(CameraStage::plan(scene.camera, isAdaptive));
     if (isAdaptive) sizes.merge(NoiseProbe::plan(scene.camera));
     if (adaptsRadius(scene.features, settings)) sizes.merge(AdaptiveRadius::plan(scene.camera, classes));
-    if (const shared::Meter& meter = scene.offsets.meter; isMeter) {
-        sizes["meter"] = splatWords(classes) * pixelsOf(scene) * sizeof(uint32_t);
-        sizes["meter samples"] = MeterStage::sampleBytes(pixelsOf(scene) * meter.samples);
-    }
+    if (isMeter) sizes.merge(MeterStage::plan(pixelsOf(scene), scene.offsets.meter.samples, classes));
     return sizes;
 }
 

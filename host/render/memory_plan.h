@@ -1,18 +1,13 @@
 // What a render will take of memory, before it takes it (docs/method/memory.md).
 #pragma once
 
-#include "device/device.h"
 #include "prepare/device_scene.h"
+#include "render/planned_buffer.h"
 #include "render/settings.h"
 
 #include <cstdint>
-#include <map>
-#include <string>
 
 namespace quasilux {
-
-/// Bytes of device buffers by label, as Device::allocations() has them.
-using BufferSizes = std::map<std::string, uint64_t>;
 
 uint64_t sumOf(const BufferSizes& sizes);
 
@@ -21,9 +16,6 @@ struct MemoryForecast {
     uint64_t deviceBytes = 0;
     uint64_t hostPeakBytes = 0; ///< of the process; buffers of a CPU device included
 };
-
-/// The scene alone (GeometryBuffers).
-BufferSizes planGeometry(const DeviceScene& scene);
 
 /// Buffers that depend on the scene and the film alone.
 BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, const DeviceInfo& device);

@@ -6,6 +6,11 @@ namespace {
 
 constexpr size_t meterSampleFloats = size_t{3} * FILM_COMPONENTS; // SAMPLE_FLOATS of kernels/camera_paths.cl
 
+// What the paths of all pixels take before it is summed.
+PlannedBuffer<float> samplesOf(size_t pixels, unsigned samples) {
+    return {"meter samples", meterSampleFloats * pixels * samples};
+}
+
 } // namespace
 
 MeterStage::MeterStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
@@ -13,9 +18,11 @@ MeterStage::MeterStage(Device& device, const Program& pass, const GeometryBuffer
     : geometry_(geometry), film_(film), traceMeterPaths_(pass.kernel("traceMeterPaths")),
       addMeterSamples_(pass.kernel("addMeterSamples")), params_(params),
       counted_(device, classes, film.pixels(), meanRadiance),
-      samples_(device, meterSampleFloats * film.pixels() * params.scene.meter.samples, "meter samples") {}
+      samples_(samplesOf(film.pixels(), params.scene.meter.samples).make(device)) {}
 
-size_t MeterStage::sampleBytes(size_t paths) { return meterSampleFloats * paths * sizeof(float); }
+BufferSizes MeterStage::plan(size_t pixels, unsigned samples, unsigned classes) {
+    return sizesOf(MeterSums::planned(classes, pixels), samplesOf(pixels, samples));
+}
 
 void MeterStage::compile(const PhotonStage& photons) {
     shared::CameraParams nothing = params_;

@@ -13,8 +13,8 @@ public:
     MeterStage(Device& device, const Program& pass, const GeometryBuffers& geometry, Film& film,
                shared::CameraParams params, unsigned classes, double meanRadiance);
 
-    /// Of the buffer that holds what `paths` take before it is summed.
-    static size_t sampleBytes(size_t paths);
+    /// Its buffers, by label; `samples` of each pixel.
+    static BufferSizes plan(size_t pixels, unsigned samples, unsigned classes);
 
     /// As CameraStage::compile.
     void compile(const PhotonStage& photons);

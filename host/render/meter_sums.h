@@ -1,8 +1,8 @@
 // Sums of photons by pixel in 64-bit fixed point (kernels/splat_sums.clh).
 #pragma once
 
-#include "device/buffer.h"
 #include "pass_types.h"
+#include "render/planned_buffer.h"
 
 namespace quasilux {
 
@@ -18,9 +18,11 @@ float sampleScale(const shared::Meter& meter);
 /// Photons counted where they cross a meter (kernels/meter_photons.clh).
 struct MeterSums {
     MeterSums(Device& device, unsigned slots, size_t pixels, double meanRadiance)
-        : sums(device, splatWords(slots) * pixels, "meter"),
-          quantaPerRadiance(quasilux::quantaPerRadiance(meanRadiance)) {
+        : sums(planned(slots, pixels).make(device)), quantaPerRadiance(quasilux::quantaPerRadiance(meanRadiance)) {
         sums.fill(0);
+    }
+    static PlannedBuffer<uint32_t> planned(unsigned slots, size_t pixels) {
+        return {"meter", splatWords(slots) * pixels};
     }
 
     Buffer<uint32_t> sums;

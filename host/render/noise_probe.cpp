@@ -49,9 +49,11 @@ NoiseProbe::NoiseProbe(Device& device, CameraStage& paths, PassPhotons& photons,
     measure(classes);
 }
 
-std::map<std::string, uint64_t> NoiseProbe::plan(const shared::Camera& camera) {
+BufferSizes NoiseProbe::plan(const shared::Camera& camera) {
     const shared::Camera coarse = coarseOf(camera);
-    return Film::plan(size_t(coarse.width) * coarse.height, layout, Film::inOneBuffer, owner);
+    BufferSizes sizes = Film::plan(size_t(coarse.width) * coarse.height, layout, Film::inOneBuffer, owner);
+    sizes.merge(PathCounts::plan(coarse, false, owner));
+    return sizes;
 }
 
 double NoiseProbe::pathsByPixel(const shared::Camera& camera) {

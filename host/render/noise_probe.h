@@ -16,8 +16,8 @@ public:
     NoiseProbe(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera,
                unsigned classes);
 
-    /// Bytes of its buffers by label, while it runs.
-    static std::map<std::string, uint64_t> plan(const shared::Camera& camera);
+    /// Its buffers, by label, while it runs.
+    static BufferSizes plan(const shared::Camera& camera);
     /// Camera paths that allocate() and gain() trace together, as a multiple of the image's pixels.
     static double pathsByPixel(const shared::Camera& camera);
 

@@ -19,6 +19,10 @@ uint64_t sumOver(const shared::Camera& camera, unsigned block, const std::vector
     return sum;
 }
 
+PlannedBuffer<uint32_t> countsOf(size_t blocks, const std::string& owner) {
+    return {owner + "camera paths by block", blocks};
+}
+
 } // namespace
 
 PathCounts::PathCounts(Device& device, const shared::Camera& camera, uint32_t paths, const std::string& owner)
@@ -26,13 +30,13 @@ PathCounts::PathCounts(Device& device, const shared::Camera& camera, uint32_t pa
 
 PathCounts::PathCounts(Device& device, const shared::Camera& camera, unsigned block,
                        const std::vector<uint32_t>& counts, const std::string& owner)
-    : counts_(device, counts.size(), owner + label), block_(block), sum_(sumOver(camera, block, counts)) {
+    : counts_(countsOf(counts.size(), owner).make(device)), block_(block), sum_(sumOver(camera, block, counts)) {
     counts_.write(counts);
 }
 
-uint64_t PathCounts::plan(const shared::Camera& camera, bool byBlock) {
+BufferSizes PathCounts::plan(const shared::Camera& camera, bool byBlock, const std::string& owner) {
     const shared::Camera coarse = coarseCamera(camera, coarseBlock(camera));
-    return sizeof(uint32_t) * (byBlock ? uint64_t{coarse.width} * coarse.height : 1);
+    return sizesOf(countsOf(byBlock ? size_t{coarse.width} * coarse.height : 1, owner));
 }
 
 } // namespace quasilux

@@ -1,8 +1,8 @@
 // How many camera paths each pixel has in a pass, on the device (pathsAt() in kernels/camera_paths.cl).
 #pragma once
 
-#include "device/buffer.h"
 #include "pass_types.h"
+#include "render/planned_buffer.h"
 
 #include <vector>
 
@@ -16,9 +16,8 @@ public:
     PathCounts(Device& device, const shared::Camera& camera, unsigned block, const std::vector<uint32_t>& counts,
                const std::string& owner = "");
 
-    static constexpr const char* label = "camera paths by block";
-    /// Bytes of the counts of a camera, of one block or of coarseBlock() pixels each.
-    static uint64_t plan(const shared::Camera& camera, bool byBlock);
+    /// The counts of a camera, of one block or of coarseBlock() pixels each, by label.
+    static BufferSizes plan(const shared::Camera& camera, bool byBlock, const std::string& owner = "");
 
     const Buffer<uint32_t>& counts() const { return counts_; }
     /// CameraParams::pathBlock.

@@ -33,6 +33,13 @@ constexpr size_t manyWorkItems = 65536;
 
 const std::string noun = "photon";
 
+struct ArrayBuffers {
+    ArrayBuffers(uint64_t blockCount, bool storesDepth, const DeviceInfo& device)
+        : arrays{"photons", arrayCount(storesDepth, device) * strideOf(blockCount)}, blocks{"photon blocks",
+                                                                                            1 + blockCount} {}
+    PlannedBuffer<uint32_t> arrays, blocks;
+};
+
 } // namespace
 
 PhotonArrays::PhotonArrays(Device& device, const Program& pass, unsigned slots, bool storesDepth)
@@ -47,9 +54,8 @@ void PhotonArrays::make(uint64_t photons, unsigned regions) {
 BufferSizes PhotonArrays::plan(unsigned slots, uint64_t photons, unsigned regions, bool storesDepth,
                                const DeviceInfo& device) {
     BufferSizes sizes = CellTable::plan(slots, photons, regions, noun, device);
-    const uint64_t blocks = blocksFor(photons, regions);
-    sizes["photons"] = strideOf(blocks) * photonBytes(storesDepth, device);
-    sizes["photon blocks"] = (1 + blocks) * sizeof(uint32_t);
+    const ArrayBuffers buffers(blocksFor(photons, regions), storesDepth, device);
+    sizes.merge(sizesOf(buffers.arrays, buffers.blocks));
     return sizes;
 }
 
@@ -61,8 +67,9 @@ void PhotonArrays::makeBlocks(uint64_t count) {
     table_.map().photonStride = static_cast<unsigned>(strideOf(count));
     arrays_ = {};
     blocks_ = {};
-    arrays_ = Buffer<uint32_t>(device_, arrayCount(storesDepth_, device_.info()) * strideOf(count), "photons");
-    blocks_ = Buffer<uint32_t>(device_, 1 + count, "photon blocks");
+    const ArrayBuffers buffers(count, storesDepth_, device_.info());
+    arrays_ = buffers.arrays.make(device_);
+    blocks_ = buffers.blocks.make(device_);
 }
 
 bool PhotonArrays::enlarge(const std::vector<shared::RegionCount>& regions) {

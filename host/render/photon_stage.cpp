@@ -6,6 +6,12 @@
 
 namespace quasilux {
 
+namespace {
+
+PlannedBuffer<shared::RegionCount> regionCounts(unsigned regions) { return {"photon regions", regions}; }
+
+} // namespace
+
 PhotonStage::PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry,
                          shared::PhotonParams params, unsigned classes, bool storesDepth,
                          std::optional<uint64_t> photons)
@@ -13,12 +19,20 @@ PhotonStage::PhotonStage(Device& device, const Program& pass, const GeometryBuff
       params_(params), classes_(classes) {
     params_.pathsPerRegion = photonsPerRegion(device.info());
     params_.regions = regionsOf(params_.paths, params_.pathsPerRegion);
-    regions_ = Buffer<shared::RegionCount>(device, params_.regions, "photon regions");
+    regions_ = regionCounts(params_.regions).make(device);
     photons_.make(classes == 0 ? 0 : photons.value_or(params_.paths), params_.regions);
     shared::MapParams& map = photons_.table().map();
     map.media = params_.scene.media;
     map.fluxUnit = 1 / params_.perFluxUnit;
     thinVolume({1, 1, 1, 1});
+}
+
+BufferSizes PhotonStage::plan(unsigned paths, uint64_t photons, unsigned classes, bool storesDepth,
+                              const DeviceInfo& device) {
+    const unsigned regions = regionsOf(paths, photonsPerRegion(device));
+    BufferSizes sizes = PhotonArrays::plan(classes, photons, regions, storesDepth, device);
+    sizes.merge(sizesOf(regionCounts(regions)));
+    return sizes;
 }
 
 std::vector<shared::RegionCount> PhotonStage::trace() {

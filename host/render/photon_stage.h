@@ -24,6 +24,10 @@ public:
     PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry, shared::PhotonParams params,
                 unsigned classes, bool storesDepth, std::optional<uint64_t> photons = std::nullopt);
 
+    /// The buffers of passes of so many `paths` that store so many `photons`, by label.
+    static BufferSizes plan(unsigned paths, uint64_t photons, unsigned classes, bool storesDepth,
+                            const DeviceInfo& device);
+
     /// Traces the photons of a pass and indexes them with these radii, by class. A photon buffer that proves too small
     /// is enlarged and the pass traced again, so none is lost. `volumeScale` is that of kernels in media to their first
     /// size.

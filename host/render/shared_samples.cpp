@@ -23,19 +23,17 @@ struct Grid {
     }
 };
 
-constexpr const char* label = "samples";
-
-uint64_t floatsOf(const shared::Camera& camera, unsigned floatsPerSample, const DeviceInfo& device) {
+PlannedBuffer<float> samplesOf(const shared::Camera& camera, unsigned floatsPerSample, const DeviceInfo& device) {
     const Grid grid(camera);
     const uint64_t bytes = std::min(mostBytes, device.maximumAllocation / shareOfAllocation);
-    return grid.columns * grid.rowsKept(bytes / sizeof(float) / floatsPerSample) * floatsPerSample;
+    return {"samples", grid.columns * grid.rowsKept(bytes / sizeof(float) / floatsPerSample) * floatsPerSample};
 }
 
 } // namespace
 
 SharedSamples::SharedSamples(Device& device, const Program& pass, const shared::Camera& camera,
                              unsigned floatsPerSample)
-    : floatsPerSample_(floatsPerSample), samples_(device, floatsOf(camera, floatsPerSample, device.info()), label),
+    : floatsPerSample_(floatsPerSample), samples_(samplesOf(camera, floatsPerSample, device.info()).make(device)),
       filterSamples_(pass.kernel("filterSamples")) {}
 
 unsigned SharedSamples::floatsPerSample(const DeviceScene& scene, const RenderSettings& settings) {
@@ -43,9 +41,8 @@ unsigned SharedSamples::floatsPerSample(const DeviceScene& scene, const RenderSe
     return 3 * (FILM_COMPONENTS + (estimatesBias(scene.features, settings) ? LIGHT_CLASSES : 0));
 }
 
-std::map<std::string, uint64_t> SharedSamples::plan(const shared::Camera& camera, unsigned floatsPerSample,
-                                                    const DeviceInfo& device) {
-    return {{label, floatsOf(camera, floatsPerSample, device) * sizeof(float)}};
+BufferSizes SharedSamples::plan(const shared::Camera& camera, unsigned floatsPerSample, const DeviceInfo& device) {
+    return sizesOf(samplesOf(camera, floatsPerSample, device));
 }
 
 void SharedSamples::addPass(Film& film, const shared::CameraParams& params, const GeometryBuffers& geometry,

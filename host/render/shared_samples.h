@@ -7,8 +7,6 @@
 #include "render/method.h"
 
 #include <functional>
-#include <map>
-#include <string>
 
 namespace quasilux {
 
@@ -19,9 +17,8 @@ public:
 
     /// Does a scene have them, and of how many floats? 0: every pixel has samples of its own.
     static unsigned floatsPerSample(const DeviceScene& scene, const RenderSettings& settings);
-    /// Bytes of its buffer by label.
-    static std::map<std::string, uint64_t> plan(const shared::Camera& camera, unsigned floatsPerSample,
-                                                const DeviceInfo& device);
+    /// Its buffer, by label.
+    static BufferSizes plan(const shared::Camera& camera, unsigned floatsPerSample, const DeviceInfo& device);
 
     /// Traces the samples `firstPixel` and `pixels` of the grid into the buffer.
     using Trace = std::function<void(Buffer<float>& samples, const shared::CameraParams&)>;

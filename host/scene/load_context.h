@@ -40,6 +40,10 @@ public:
     /// deep, or where objects that refer to each other multiply without end.
     void enter(const Element& element, std::vector<const Element*>& open);
 
+    /// Of the first shape that needs an area and has none in single precision. It is thrown when all has been read about
+    /// the scene's own origin: about that of the file, shapes far from it may have lost theirs to rounding.
+    std::optional<InputError> withoutArea;
+
     Unknown unknown = Unknown::refused;
     std::vector<std::string> forgiven; ///< "file:line:column: …", in the order of reading
 

@@ -30,7 +30,7 @@ void LoadGuard::check(uint64_t LoadLimits::*limit, uint64_t found, const SourceL
     if (isTrusted() || found <= (*limits_).*limit) return;
     const auto* const named = std::find_if(namedLimits.begin(), namedLimits.end(),
                                            [&](const NamedLimit& each) { return each.value == limit; });
-    throw LimitError(where,
+    throw InputError(where,
                      fmt::format("more than {} {}, which a scene that is not trusted may not take; give --limit {}=N "
                                  "with a larger N, or leave out --untrusted if you know who made the scene.",
                                  (*limits_).*limit, named->of, named->name));
@@ -42,7 +42,7 @@ void LoadGuard::checkInside(const std::string& path, const SourceLocation& where
     const auto [inFolder, rest] = std::mismatch(folder_.begin(), folder_.end(), real.begin(), real.end());
     const bool isInside = inFolder == folder_.end() && (rest == real.end() || *rest == '/' || folder_ == "/");
     if (!folder_.empty() && isInside) return;
-    throw LimitError(where, fmt::format("'{}' lies outside of the scene's folder '{}', which a scene that is not "
+    throw InputError(where, fmt::format("'{}' lies outside of the scene's folder '{}', which a scene that is not "
                                         "trusted may not leave; put the file there, or give --allow-outside.",
                                         path, folder_));
 }

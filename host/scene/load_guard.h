@@ -12,19 +12,13 @@
 
 namespace quasilux {
 
-/// A limit of a scene that is not trusted: nothing is to be tried once more.
-class LimitError : public InputError {
-public:
-    using InputError::InputError;
-};
-
 class LoadGuard {
 public:
     explicit LoadGuard(const std::string& scene, const std::optional<LoadLimits>& limits = std::nullopt);
 
     bool isTrusted() const { return !limits_; }
 
-    // All throw LimitError at `where` beyond a limit.
+    // All throw InputError at `where` beyond a limit.
     /// A file that is to be read.
     void admit(const std::string& path, const SourceLocation& where);
     /// A folder in which files are to be looked for.

@@ -273,12 +273,18 @@ void readMeasurement(const Instruction& instruction, Scene& scene) {
     }
 }
 
+struct ReadScene {
+    Scene scene;
+    std::optional<InputError> withoutArea; ///< LoadContext::withoutArea
+};
+
 /// The scene in coordinates of the file less `origin`.
-Scene readScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice,
-                const glm::dvec3& origin) {
+ReadScene readScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice,
+                    const glm::dvec3& origin) {
     const Element& root = document.root;
     document.files.guard().forgetPixels();
-    Scene scene;
+    ReadScene read;
+    Scene& scene = read.scene;
     scene.path = path;
     scene.origin = origin;
     LoadContext context(root, document.files, scene);
@@ -319,20 +325,8 @@ Scene readScene(const SceneDocument& document, const std::string& path, const Lo
     checkUnitsOfSky(context);
     for (auto* messages : {&scene.warnings, &scene.withoutEffect, &context.forgiven}) keepEachOnce(*messages);
     listForgiven(context);
-    return scene;
-}
-
-/// The scene about the origin of the file. Where that is so far away that a shape has no area left, about the sensor.
-Scene readSceneAnywhere(const SceneDocument& document, const std::string& path, const LoadChoice& choice) {
-    try {
-        return readScene(document, path, choice, glm::dvec3(0));
-    } catch (const LimitError&) {
-        throw;
-    } catch (const InputError&) {
-        const glm::dvec3 place = placeOfSensor(document.root);
-        if (place == glm::dvec3(0)) throw;
-        return readScene(document, path, choice, place);
-    }
+    read.withoutArea = std::move(context.withoutArea);
+    return read;
 }
 
 } // namespace
@@ -350,9 +344,13 @@ Scene loadScene(const std::string& path, const std::vector<std::pair<std::string
 }
 
 Scene loadScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice) {
-    Scene scene = readSceneAnywhere(document, path, choice);
-    const glm::dvec3 origin = chooseOrigin(scene);
-    return origin == scene.origin ? scene : readScene(document, path, choice, origin);
+    ReadScene read = readScene(document, path, choice, glm::dvec3(0));
+    if (const glm::dvec3 origin = chooseOrigin(read.scene); origin != read.scene.origin) {
+        read.scene = {}; // its meshes may be large
+        read = readScene(document, path, choice, origin);
+    }
+    if (read.withoutArea) throw InputError(*read.withoutArea);
+    return std::move(read.scene);
 }
 
 } // namespace quasilux

@@ -1,9 +1,9 @@
 #include "scene/origin.h"
 
 #include "scene/box.h"
-#include "scene/transform.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace quasilux {
 
@@ -12,16 +12,6 @@ namespace {
 constexpr double farAway = 4; // times the size of the scene
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-/// Of a sensor, or of the first one of a batch.
-const Element* transformWithin(const Element& sensor) {
-    for (const Element& child : sensor.children) {
-        if (child.tag == "transform") return &child;
-        const Element* nested = child.tag == "sensor" ? transformWithin(child) : nullptr;
-        if (nested) return nested;
-    }
-    return nullptr;
-}
 
 } // namespace
 
@@ -53,15 +43,5 @@ Box boxOf(const Scene& scene) {
 }
 
 glm::dvec3 chooseOrigin(const Scene& scene) { return farCenter(boxOf(scene), scene.origin); }
-
-glm::dvec3 placeOfSensor(const Element& root) {
-    try {
-        for (const Element& sensor : root.children)
-            if (const Element* transform = sensor.tag == "sensor" ? transformWithin(sensor) : nullptr)
-                return glm::dvec3(parseTransform(*transform)[3]);
-    } catch (const InputError&) { // whoever loads the scene about this place says what is wrong
-    }
-    return glm::dvec3(0);
-}
 
 } // namespace quasilux

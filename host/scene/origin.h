@@ -4,7 +4,6 @@
 #pragma once
 
 #include "scene/scene.h"
-#include "scene/xml/element.h"
 
 namespace quasilux {
 
@@ -21,9 +20,5 @@ glm::dvec3 farCenter(const Box& box, const glm::dvec3& origin = glm::dvec3(0));
 /// further than four times the box's size from the file's origin; else that origin, so that most scenes are loaded as
 /// they are written.
 glm::dvec3 chooseOrigin(const Scene& scene);
-
-/// Where the first sensor stands, in coordinates of the file: a first guess of the place of a scene that cannot be
-/// loaded about the file's origin, since a shape has no area left there. Zero if there is none, or it cannot be read.
-glm::dvec3 placeOfSensor(const Element& root);
 
 } // namespace quasilux

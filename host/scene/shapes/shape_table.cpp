@@ -62,6 +62,14 @@ void checkFlat(const ShapeDescription& shape) {
                                      shape.id));
 }
 
+void checkArea(const ShapeDescription& shape, bool hasSensor, LoadContext& context) {
+    if ((!shape.emitter && !hasSensor) || context.withoutArea || static_cast<float>(areaOf(shape)) > 0) return;
+    context.withoutArea.emplace(shape.where,
+                                fmt::format("shape '{}' {}.", shape.id,
+                                            shape.emitter ? "emits but has no area; enlarge it or remove its emitter"
+                                                          : "has a sensor but no area; enlarge it"));
+}
+
 } // namespace
 
 Names shapePluginNames() { return namesOf(shapePlugins, compoundShapes()); }
@@ -104,13 +112,8 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
         if (shape.emitter->texture && needTexCoords(context.scene, {*shape.emitter->texture}))
             checkTexCoords(shape, "emitter");
         if (shape.emitter->alongNormal) checkFlat(shape);
-        if (!(static_cast<float>(areaOf(shape)) > 0))
-            throw InputError(
-                shape.where,
-                fmt::format("shape '{}' emits but has no area; enlarge it or remove its emitter.", shape.id));
     }
-    if (sensor && !(static_cast<float>(areaOf(shape)) > 0))
-        throw InputError(shape.where, fmt::format("shape '{}' has a sensor but no area; enlarge it.", shape.id));
+    checkArea(shape, sensor != nullptr, context);
     return shape;
 }
 
