@@ -140,13 +140,14 @@ Scene floorUnderLamp(const std::string& bsdf) {
 }
 
 /// Left and right half of the image, without a margin between.
-std::vector<MeanAndError> halves(const std::string& bsdf) {
+std::vector<MeanAndError> halves(const Scene& scene, const std::shared_ptr<const Features>& furtherFeatures) {
     std::vector<int> group(256, -1);
     for (int k = 0; k < 256; ++k)
         if (k % 16 < 6 || k % 16 >= 10) group[size_t(k)] = k % 16 < 8 ? 0 : 1;
     RenderSettings settings;
     settings.photonsPerPass = 8000;
-    return renderGroups(floorUnderLamp(bsdf), settings, group, 10, 3);
+    settings.furtherFeatures = furtherFeatures;
+    return renderGroups(scene, settings, group, 10, 3);
 }
 
 /// A parameter, by the texture of halves or as a number.
@@ -161,7 +162,10 @@ std::string number(const std::string& name, double value) {
 /// `bsdf` is given each parameter by name.
 void expectHalvesOfConstants(const std::function<std::string(std::function<std::string(const std::string&)>)>& bsdf) {
     const auto constant = [](double value) { return [value](const std::string& name) { return number(name, value); }; };
-    const auto both = halves(bsdf(byHalves)), left = halves(bsdf(constant(0.06))), right = halves(bsdf(constant(0.35)));
+    const Scene ofHalves = floorUnderLamp(bsdf(byHalves));
+    const auto features = std::make_shared<const Features>(flattened(ofHalves).features); // one program for all three
+    const auto ofConstant = [&](double value) { return halves(floorUnderLamp(bsdf(constant(value))), features); };
+    const auto both = halves(ofHalves, features), left = ofConstant(0.06), right = ofConstant(0.35);
     const auto differ = [](const MeanAndError& a, const MeanAndError& b) {
         return std::abs(a.mean - b.mean) > 4 * std::hypot(a.standardError, b.standardError) + 0.005 * b.mean;
     };

@@ -4,6 +4,7 @@
 // photons. A photon on the very border of a region may then count in one order only.
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 #include "support/test_kernels.h"
 #include "support/wrong_rules.h"
 
@@ -27,6 +28,7 @@ struct Rendered {
 
 Rendered render(const Scene& scene, RenderSettings settings, MapOrder map, unsigned workGroupSize = 64) {
     settings.map = map;
+    settings.furtherFeatures = test::sharedFeatures(scene);
     Renderer renderer(testDevice(workGroupSize), scene, settings);
     for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
     return {renderer.develop(), renderer.counters()};

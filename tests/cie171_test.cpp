@@ -8,6 +8,7 @@
 #include "support/meter_readings.h"
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
+#include "support/shared_features.h"
 
 #include <numbers>
 
@@ -102,6 +103,7 @@ TEST(Cie171, DirectionalTransmittanceOfGlass_5_5) {
             test::glass(1.52) + "</shape>" + test::rectangle("100,100,1", "", "0,0,-0.1", test::diffuse(0)));
         SCOPED_TRACE(row.angle);
         RenderSettings settings;
+        settings.furtherFeatures = test::surfaceFeatures();
         settings.photonsPerPass = 1000;
         const auto found = renderGroups(scene, settings, std::vector<int>(side * side, 0), 250, 1).front();
         const Reading reading{found.mean, found.standardError};

@@ -5,6 +5,7 @@
 // Student t, 0.7 % a case); the seeds are fixed. A render with a standard error above 1.5 % tells nothing and fails.
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 #include "support/vol_files.h"
 #include "support/wrong_rules.h"
 
@@ -78,6 +79,7 @@ MeanAndError render(const Scene& scene, const Method& method) {
     settings.bdd = method.bdd;
     settings.direct = method.direct;
     settings.controlOptions += optionOf(method.rule);
+    settings.furtherFeatures = test::mediumFeatures();
     settings.photonsPerPass = 20000;
     return renderGroups(scene, settings, std::vector<int>(64, 0), batches, method.passes).front();
 }

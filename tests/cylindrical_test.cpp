@@ -7,6 +7,7 @@
 #include "output/meter_reading.h"
 #include "render/renderer.h"
 #include "support/meter_scenes.h"
+#include "support/shared_features.h"
 #include "support/test_kernels.cpp"
 
 #include <cmath>
@@ -33,6 +34,7 @@ std::string grid(const std::string& name, const std::string& quantity, unsigned 
 }
 
 FilmImage render(const Scene& scene, RenderSettings settings) {
+    settings.furtherFeatures = test::surfaceFeatures();
     Renderer renderer(testDevice(), scene, settings);
     for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
     EXPECT_EQ(renderer.counters().nonFinite, 0u);

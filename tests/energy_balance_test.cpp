@@ -6,6 +6,7 @@
 // with 11 degrees of freedom: 0.2 % a case; seeds are fixed).
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 #include "support/test_kernels.h"
 #include "support/wrong_rules.h"
 
@@ -27,7 +28,8 @@ RenderSettings countingSettings(unsigned photons) {
     return settings;
 }
 
-RenderCounters countPasses(const Scene& scene, const RenderSettings& settings, unsigned passes = 2) {
+RenderCounters countPasses(const Scene& scene, RenderSettings settings, unsigned passes = 2) {
+    settings.furtherFeatures = test::sharedFeatures(scene);
     Renderer renderer(testDevice(), scene, settings);
     for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
     return renderer.counters();
@@ -56,8 +58,9 @@ std::vector<std::string> sceneFiles() {
 
 class EveryScene : public testing::TestWithParam<std::string> {};
 TEST_P(EveryScene, Balances) {
-    const Scene scene = small(projectScene(GetParam()));
-    expectBalance(countPasses(scene, countingSettings(2000)));
+    auto settings = countingSettings(2000);
+    settings.genericKernels = true; // two programs instead of one for each scene
+    expectBalance(countPasses(small(projectScene(GetParam())), settings));
 }
 INSTANTIATE_TEST_SUITE_P(EnergyBalance, EveryScene, testing::ValuesIn(sceneFiles()),
                          [](const auto& scene) { return scene.param.substr(0, scene.param.find('.')); });
@@ -106,7 +109,9 @@ MeanAndError lossByChance(const std::string& file, PhotonRule rule) {
     constexpr unsigned passes = 12;
     auto settings = countingSettings(20'000);
     settings.controlOptions += optionOf(rule);
-    Renderer renderer(testDevice(), small(projectScene(file)), settings);
+    const Scene scene = small(projectScene(file));
+    settings.furtherFeatures = test::sharedFeatures(scene);
+    Renderer renderer(testDevice(), scene, settings);
     std::vector<double> shares;
     double before = 0;
     for (unsigned pass = 0; pass < passes; ++pass) {

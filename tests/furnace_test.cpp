@@ -5,6 +5,7 @@
 // A right rule passes within 3 standard errors (from 10 batches: two-sided Student t, 1.5 % a case) plus 0.5 % for the
 // density radius; the seeds are fixed, so a case that passes goes on passing.
 #include "support/render_statistics.h"
+#include "support/shared_features.h"
 #include "support/wrong_rules.h"
 
 #include <cmath>
@@ -41,6 +42,7 @@ MeanAndError renderFurnace(const Method& method, const std::string& file = "furn
     settings.quasiSpecularOverridesScene = settings.quasiSpecular != "auto";
     settings.direct = method.direct;
     settings.controlOptions += optionOf(method.rule);
+    settings.furtherFeatures = test::surfaceFeatures();
     settings.photonsPerPass = 8000;
     return renderGroups(scene, settings, std::vector<int>(resolution * resolution, 0), batches, passesPerBatch).front();
 }

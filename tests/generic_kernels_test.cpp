@@ -2,6 +2,7 @@
 // Each mean has a standard error from 10 batches; they may differ by 3.5 combined standard errors (two-sided, Student t
 // with about 18 degrees of freedom: 0.3 % a case; seeds are fixed). A feature lost or counted twice shows by percents.
 #include "support/render_statistics.h"
+#include "support/shared_features.h"
 #include "support/test_kernels.h"
 
 #include <algorithm>
@@ -39,19 +40,23 @@ INSTANTIATE_TEST_SUITE_P(Scenes, GenericKernels,
                          testing::Values("cornell_phong.xml", "cornell_ggx.xml", "furnace_split.xml",
                                          "furnace_glass.xml"));
 
-/// Root mean square of the difference, relative to the mean.
-double distanceOf(const std::string& file, uint64_t firstSeed, uint64_t secondSeed) {
+/// What the kernels are compiled for.
+enum class Compiled { forScene, shared, generic };
+
+/// Root mean square of the difference from the scene's own kernels, relative to the mean.
+double distanceOf(const std::string& file, Compiled compiled, uint64_t firstSeed, uint64_t secondSeed) {
     const auto scene = projectScene(file, {{"resolution", std::to_string(resolution)}});
-    const auto radianceOf = [&](bool generic, uint64_t seed) {
+    const auto radianceOf = [&](Compiled kernels, uint64_t seed) {
         RenderSettings settings;
-        settings.genericKernels = generic;
+        settings.genericKernels = kernels == Compiled::generic;
+        if (kernels == Compiled::shared) settings.furtherFeatures = test::sharedFeatures(scene);
         settings.photonsPerPass = 20'000;
         settings.seed = seed;
         Renderer renderer(testDevice(), scene, settings);
         for (unsigned pass = 0; pass < 4; ++pass) renderer.renderPass(pass);
         return renderer.develop().radiance;
     };
-    const auto a = radianceOf(false, firstSeed), b = radianceOf(true, secondSeed);
+    const auto a = radianceOf(Compiled::forScene, firstSeed), b = radianceOf(compiled, secondSeed);
     double squares = 0, sum = 0;
     for (size_t k = 0; k < a.size(); ++k) {
         squares += (a[k] - b[k]) * double(a[k] - b[k]);
@@ -65,8 +70,17 @@ double distanceOf(const std::string& file, uint64_t firstSeed, uint64_t secondSe
 // is compiled differently rounds differently, and some paths then part. Control: other random numbers.
 TEST(GenericKernelsEstimate, IsThatOfTheSceneKernels) {
     for (const char* file : {"cornell_ggx.xml", "furnace_split.xml", "furnace_glass.xml", "furnace_sky.xml"}) {
-        EXPECT_LT(distanceOf(file, 1, 1), 2e-3) << file;
-        EXPECT_GT(distanceOf(file, 1, 2), 2e-2) << file;
+        EXPECT_LT(distanceOf(file, Compiled::generic, 1, 1), 2e-3) << file;
+        EXPECT_GT(distanceOf(file, Compiled::generic, 1, 2), 2e-2) << file;
+    }
+}
+
+// So do kernels that the scenes of many tests share, with media, too.
+TEST(SharedKernelsEstimate, IsThatOfTheSceneKernels) {
+    for (const char* file : {"cornell_ggx.xml", "furnace_split.xml", "furnace_glass.xml", "furnace_sky.xml", "slab.xml",
+                             "furnace_medium.xml"}) {
+        EXPECT_LT(distanceOf(file, Compiled::shared, 1, 1), 2e-3) << file;
+        EXPECT_GT(distanceOf(file, Compiled::shared, 1, 2), 2e-2) << file;
     }
 }
 

@@ -8,6 +8,7 @@
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 #include "support/test_kernels.h"
 
 #include <cmath>
@@ -31,6 +32,7 @@ std::string placementName(const testing::TestParamInfo<Placement>& info) { retur
 RenderSettings countingSettings(unsigned photons) {
     RenderSettings settings;
     settings.energyBalance = true;
+    settings.furtherFeatures = test::surfaceFeatures();
     settings.photonsPerPass = photons;
     return settings;
 }
@@ -117,6 +119,8 @@ TEST(HardCasesControl, CoordinatesInSinglePrecisionAreFound) {
 
 // Fresnel's formulas for unpolarised light at every hit, all internal reflections: T = (1 - R) / (1 + R) (Born & Wolf).
 TEST_P(Placed, AThinPaneTransmits) {
+    RenderSettings settings;
+    settings.furtherFeatures = test::surfaceFeatures();
     const std::pair<double, double> cases[] = {
         {0, .923077}, {45, .904327}, {60, .836232}, {75, .596092}, {85, .240080}};
     for (const auto& [degrees, transmittance] : cases) {
@@ -130,7 +134,7 @@ TEST_P(Placed, AThinPaneTransmits) {
     <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
     <emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>)";
         const auto result =
-            renderGroups(placedScene(text, GetParam()), RenderSettings{}, std::vector<int>(64 * 64, 0), 10, 4).front();
+            renderGroups(placedScene(text, GetParam()), settings, std::vector<int>(64 * 64, 0), 10, 4).front();
         EXPECT_NEAR(result.mean, transmittance, std::max(bound * transmittance, 3 * result.standardError)) << degrees;
         EXPECT_LT(result.standardError, 0.004) << "too noisy to decide anything";
     }

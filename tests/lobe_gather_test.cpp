@@ -50,8 +50,16 @@ std::string besideDiffuse(const std::string& bsdf) {
     return R"(<bsdf type="blendbsdf"><float name="weight" value="0.7"/><bsdf type="diffuse"/>)" + bsdf + "</bsdf>";
 }
 
+/// Of all blends: one program serves them. Lobes that stand alone are compiled alone.
+std::shared_ptr<const Features> blendFeatures() {
+    Features some;
+    some.lobes = {LOBE_LAMBERT, LOBE_CONDUCTOR, LOBE_GGX, LOBE_BECKMANN, LOBE_COATEDLAMBERT, LOBE_ROUGHCOATEDLAMBERT};
+    some.depthLimit = some.anisotropy = some.specular = some.genuineDiffuse = true;
+    return std::make_shared<const Features>(some);
+}
+
 /// The corner of a floor and a wall, so that light comes from everywhere and discs are cut.
-FilmImage render(const std::string& bsdf, int maxDepth, const std::string& options) {
+FilmImage render(const std::string& bsdf, int maxDepth, const std::string& options, bool sharesProgram) {
     const Scene scene = placedScene(orthographicSensor("0,0,1.5", "0,0,0", 1, 16) + fmt::format(R"(
 <integrator type="path"><integer name="max_depth" value="{0}"/></integrator>
 <shape type="rectangle">{1}</shape>
@@ -64,6 +72,7 @@ FilmImage render(const std::string& bsdf, int maxDepth, const std::string& optio
     settings.photonsPerPass = 20'000;
     settings.quasiSpecular = "none";
     settings.controlOptions = options;
+    if (sharesProgram) settings.furtherFeatures = blendFeatures();
     Renderer renderer(testDevice(), scene, settings);
     for (unsigned pass = 0; pass < 2; ++pass) renderer.renderPass(pass);
     return renderer.develop();
@@ -84,7 +93,8 @@ TEST_P(Lobes, GatherByEightsAsOneByOne) {
     const Kind& kind = GetParam();
     const auto imageOf = [&](double index, const std::string& options) {
         const std::string bsdf = kind.isBlended ? besideDiffuse(kind.bsdf(index)) : kind.bsdf(index);
-        return render(kind.isThin ? bsdf : "<bsdf type=\"twosided\">" + bsdf + "</bsdf>", kind.maxDepth, options);
+        return render(kind.isThin ? bsdf : "<bsdf type=\"twosided\">" + bsdf + "</bsdf>", kind.maxDepth, options,
+                      kind.isBlended);
     };
     const FilmImage eight = imageOf(1.5, ""), one = imageOf(1.5, " -DLOBES_ONE_BY_ONE");
     EXPECT_LT(largestDifference(eight.radiance, one.radiance), rounding);

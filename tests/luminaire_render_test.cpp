@@ -5,6 +5,7 @@
 #include "output/meter_reading.h"
 #include "support/luminaire_files.h"
 #include "support/meter_readings.h"
+#include "support/shared_features.h"
 #include "support/wrong_learning.h"
 #include "util/temporary_folder.h"
 
@@ -33,6 +34,7 @@ std::string hanging(const std::string& file, const std::string& place, double tu
 std::vector<double> luxOf(Scene scene, unsigned passes = 1) {
     useGridsAsSensor(scene);
     RenderSettings settings;
+    settings.furtherFeatures = test::surfaceFeatures();
     settings.photonsPerPass = 1000;
     Renderer renderer(testDevice(), scene, settings);
     for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);

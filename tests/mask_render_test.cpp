@@ -4,6 +4,7 @@
 // the density radius.
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
+#include "support/shared_features.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -38,6 +39,7 @@ MeanAndError render(const std::string& opacity, DirectLight direct, int maxDepth
     settings.direct = direct;
     settings.map = map;
     settings.photonsPerPass = direct == DirectLight::photons ? 160'000 : 10'000;
+    settings.furtherFeatures = test::surfaceFeatures();
     settings.radiusScale = 0.5;
     return renderGroups(sheetScene(opacity, maxDepth), settings, std::vector<int>(16, 0), 10, 12).front();
 }

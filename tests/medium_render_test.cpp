@@ -5,6 +5,7 @@
 // seeds are fixed. A render with a standard error above 1.5 % decides nothing and fails.
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 #include "support/test_kernels.h"
 #include "support/wrong_rules.h"
 
@@ -46,6 +47,7 @@ MeanAndError measure(const Case& c) {
     settings.bdd = c.bdd;
     settings.controlOptions += optionOf(c.rule);
     settings.direct = c.direct;
+    settings.furtherFeatures = test::mediumFeatures();
     settings.photonsPerPass = c.photons;
     const std::vector<int> group(size_t(scene.sensor.width) * scene.sensor.height, 0);
     return renderGroups(scene, settings, group, batches, c.passes).front();
@@ -110,6 +112,7 @@ TEST(MediumRender, LosesNothingOfPathsOfManyCollisions) {
     RenderSettings settings;
     settings.quasiSpecular = "all"; // camera paths follow every collision
     settings.quasiSpecularOverridesScene = true;
+    settings.furtherFeatures = test::mediumFeatures();
     settings.photonsPerPass = 3000;
     const auto result = renderGroups(scene, settings, std::vector<int>(16, 0), batches, 3).front();
     EXPECT_NEAR(result.mean, 1, std::max(0.005, 3 * result.standardError));

@@ -8,6 +8,7 @@
 #include "support/render_statistics.h"
 #include "support/rough_interface.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -39,6 +40,7 @@ MeanAndError render(const Scene& scene, const Method& method, double radiusScale
     settings.quasiSpecularOverridesScene = true;
     settings.direct = method.direct;
     settings.genericKernels = method.genericKernels;
+    settings.furtherFeatures = test::surfaceFeatures();
     settings.photonsPerPass = 30000;
     settings.radiusScale = radiusScale;
     return renderGroups(scene, settings, std::vector<int>(resolution * resolution, 0), batches, passesPerBatch).front();

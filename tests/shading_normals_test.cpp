@@ -8,6 +8,7 @@
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 #include "support/wrong_rules.h"
 
 #include <cmath>
@@ -63,6 +64,7 @@ MeanAndError measure(Lean lean, bool atScreen, unsigned bdd, DirectLight direct,
     settings.controlOptions += optionOf(rule);
     settings.map = map;
     settings.photonsPerPass = bdd == 0 ? 40'000 : 2000;
+    if (lean == Lean::vertices) settings.furtherFeatures = test::surfaceFeatures();
     settings.radiusScale = 0.5;
     // Little light comes back from there: eight times as many passes of photons, or camera paths.
     const unsigned more = lean == Lean::mapAway && atScreen ? 8 : 1;

@@ -6,6 +6,7 @@
 #include "prepare/device_scene.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 
 #include <numbers>
 
@@ -26,6 +27,7 @@ MeanAndError render(const Scene& scene, const Method& method) {
     settings.bdd = method.bdd;
     settings.variant = method.variant;
     settings.direct = method.direct;
+    settings.furtherFeatures = test::surfaceFeatures();
     settings.photonsPerPass = 16000;
     return renderGroups(scene, settings, std::vector<int>(resolution * resolution, 0), batches, passesPerBatch).front();
 }

@@ -1,6 +1,7 @@
 // Textures in images: a closed form that a texture must not change, and squares whose radiances stand in the ratio of
 // their reflectances. Bounds as in furnace_test.cpp: 3 standard errors of 10 batches (1.5 % a case) plus 0.5 %.
 #include "support/render_statistics.h"
+#include "support/shared_features.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@ protected:
         settings.direct = std::get<0>(GetParam());
         settings.quasiSpecular = std::get<1>(GetParam());
         settings.quasiSpecularOverridesScene = settings.quasiSpecular != "auto";
+        settings.furtherFeatures = test::surfaceFeatures();
         settings.photonsPerPass = 8000;
         settings.bdd = 1;
         return renderGroups(projectScene("furnace_textured.xml", parameters), settings, std::vector<int>(256, 0), 10,
@@ -52,6 +54,7 @@ std::vector<MeanAndError> renderQuarters(DirectLight direct, Parameters paramete
         }
     RenderSettings settings;
     settings.direct = direct;
+    settings.furtherFeatures = test::surfaceFeatures();
     settings.photonsPerPass = 40'000;
     return renderGroups(projectScene("textured_plane.xml", parameters), settings, group, 10, 6);
 }

@@ -101,4 +101,17 @@ Features Features::generic() {
     return all;
 }
 
+Features Features::with(const Features& further) const {
+    Features all = *this;
+    all.lobes.insert(further.lobes.begin(), further.lobes.end());
+    all.emitterTypes.insert(further.emitterTypes.begin(), further.emitterTypes.end());
+    all.phases.insert(further.phases.begin(), further.phases.end());
+    for (const auto& flag : flags) all.*flag.member |= further.*flag.member;
+    all.hiddenEmitters = hiddenEmitters;
+    for (const auto kind : {&Features::genuineDiffuse, &Features::quasiSpecular, &Features::specular,
+                            &Features::genuineDiffuseMedia, &Features::quasiSpecularMedia})
+        all.*kind |= further.*kind;
+    return all;
+}
+
 } // namespace quasilux

@@ -47,7 +47,8 @@ unsigned photonClasses(const Features& sceneFeatures, const RenderSettings& sett
 }
 
 unsigned compiledClasses(const Features& features, const RenderSettings& settings) {
-    const unsigned some = photonClasses(features, settings) | settings.furtherClasses;
+    unsigned some = photonClasses(features, settings) | settings.furtherClasses;
+    if (settings.furtherFeatures) some |= photonClasses(features.with(*settings.furtherFeatures), settings);
     return some == 0 || !features.directByPhotons ? some : some | bit(LIGHT_DIRECT);
 }
 
@@ -139,10 +140,8 @@ bool meterCountsCaustics(const Features& features, const RenderSettings& setting
 }
 
 Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settings) {
-    if (!settings.genericKernels) return scene.features;
-    Features all = Features::generic();
-    all.hiddenEmitters = scene.features.hiddenEmitters; // that is another image, no ability
-    return all;
+    if (settings.genericKernels) return scene.features.with(Features::generic());
+    return settings.furtherFeatures ? scene.features.with(*settings.furtherFeatures) : scene.features;
 }
 
 bool sharesSamples(const Features& features, const RenderSettings& settings) {

@@ -1,10 +1,12 @@
 // What decides the image besides the scene: the method, its numbers, and when to stop.
 #pragma once
 
+#include "prepare/features.h"
 #include "render/film_layout.h"
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -29,6 +31,8 @@ struct RenderSettings {
     bool genericKernels = false; ///< compile every feature, used or not (for comparison)
     /// Of photons, as bits of photonClasses(): kernels serve splits and variants that use them, too; not 0 in a search
     unsigned furtherClasses = 0;
+    /// Of tests alone: kernels serve scenes with these features, too, so that many scenes share one program
+    std::shared_ptr<const Features> furtherFeatures;
     bool estimateBias = true;   ///< beside the image; see estimatesBias() in method.h
     FilmLayout film;            ///< what it is to keep; see filmLayout() in method.h
     bool energyBalance = false; ///< count what becomes of the photons' flux

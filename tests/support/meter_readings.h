@@ -3,6 +3,7 @@
 
 #include "render/renderer.h"
 #include "support/meter_scenes.h"
+#include "support/shared_features.h"
 #include "support/test_kernels.h"
 #include "support/wrong_rules.h"
 
@@ -38,6 +39,7 @@ inline Reading measure(const Scene& scene, const Method& method, unsigned passes
     settings.variant = method.variant;
     settings.map = method.map;
     settings.controlOptions += optionOf(method.rule);
+    settings.furtherFeatures = test::surfaceFeatures();
     settings.photonsPerPass = photons;
     Renderer renderer(testDevice(), scene, settings);
     for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);

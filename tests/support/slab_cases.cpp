@@ -1,4 +1,5 @@
 #include "support/slab_cases.h"
+#include "support/shared_features.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -75,6 +76,7 @@ RenderSettings settingsOf(const SlabMethod& method) {
     settings.direct = method.direct;
     settings.quasiSpecular = method.split;
     settings.quasiSpecularOverridesScene = true;
+    settings.furtherFeatures = test::mediumFeatures();
     settings.photonsPerPass = 10000;
     settings.radiusScale = 0.3; // light is even across the plate, so a wide kernel would help nothing and cost much
     return settings;

@@ -1,4 +1,5 @@
 #include "support/wrong_learning.h"
+#include "support/shared_features.h"
 
 #include "render/renderer.h"
 #include "support/test_kernels.h"
@@ -44,6 +45,7 @@ std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSet
 MeanAndError meanOfImage(const Scene& scene, DirectLight direct, bool wrongly, unsigned passesPerBatch) {
     RenderSettings settings;
     settings.direct = direct;
+    settings.furtherFeatures = test::sharedFeatures(scene);
     settings.photonsPerPass = 16000;
     const std::vector<int> one(size_t{scene.sensor.width} * scene.sensor.height, 0);
     return renderGroups(scene, settings, one, 10, passesPerBatch, wrongly ? wronglyLearned(scene, settings) : nullptr)
