@@ -329,6 +329,16 @@ ReadScene readScene(const SceneDocument& document, const std::string& path, cons
     return read;
 }
 
+ReadScene readAboutItsOrigin(const SceneDocument& document, const std::string& path, const LoadChoice& choice) {
+    glm::dvec3 origin;
+    {
+        ReadScene read = readScene(document, path, choice, glm::dvec3(0));
+        origin = chooseOrigin(read.scene);
+        if (origin == read.scene.origin) return read;
+    } // its meshes, which may be large, are gone before the second reading
+    return readScene(document, path, choice, origin);
+}
+
 } // namespace
 
 Scene loadScene(const std::string& path, const std::vector<std::pair<std::string, std::string>>& parameters,
@@ -344,11 +354,7 @@ Scene loadScene(const std::string& path, const std::vector<std::pair<std::string
 }
 
 Scene loadScene(const SceneDocument& document, const std::string& path, const LoadChoice& choice) {
-    ReadScene read = readScene(document, path, choice, glm::dvec3(0));
-    if (const glm::dvec3 origin = chooseOrigin(read.scene); origin != read.scene.origin) {
-        read.scene = {}; // its meshes may be large
-        read = readScene(document, path, choice, origin);
-    }
+    ReadScene read = readAboutItsOrigin(document, path, choice);
     if (read.withoutArea) throw InputError(*read.withoutArea);
     return std::move(read.scene);
 }
