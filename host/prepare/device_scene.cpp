@@ -247,7 +247,11 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings, co
     SceneGeometry own;
     if (!known) own = prepareGeometry(scene);
     const SceneGeometry& geometry = known ? *known : own;
-    SceneTree tree = known ? known->tree : std::move(own.tree); // instances are written into it
+    SceneTree tree; // instances are written into it
+    if (known)
+        tree = known->tree;
+    else
+        tree = std::move(own.tree);
     out.warnings = findWarnings(scene, geometry.borders);
     out.surfaceArea = scatteringArea(scene);
     out.features = findFeatures(scene, materials, out.emitters, out.media, geometry.borderTrees);
