@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace quasilux {
 
@@ -15,22 +16,22 @@ constexpr double secondMomentAllowed = 1.02;
 
 float brightness(const Rgb& color) { return color.r + color.g + color.b; }
 
-// Where a coordinate lies among corners that are 1 apart: in which gap, and how far along.
+// Where a coordinate lies among corners that are 1 apart: between which two, and how far along.
 struct Between {
-    unsigned first;
+    unsigned first, second;
     double along;
 };
 
 Between amongRows(unsigned row, unsigned height, unsigned down) {
     const double place = double(row) * down / (height - 1);
     const unsigned first = std::min(static_cast<unsigned>(place), down - 1);
-    return {first, place - first};
+    return {first, first + 1, place - first};
 }
 
 Between amongColumns(unsigned column, unsigned width, unsigned across) {
     const double place = (column + 0.5) * across / width - 0.5;
-    return place < 0 ? Between{across - 1, place + 1}
-                     : Between{static_cast<unsigned>(place), place - std::floor(place)};
+    const unsigned first = place < 0 ? across - 1 : static_cast<unsigned>(place);
+    return {first, first + 1 == across ? 0 : first + 1, place - std::floor(place)};
 }
 
 // Of a pixel as a solid angle, up to a factor; one at a pole has a little of it.
@@ -40,7 +41,7 @@ double weightOfRow(unsigned row, unsigned height) {
 }
 
 // Beside a pole the cosine runs as the angle squared: there the density is never to fall faster than the radiance.
-void raisePole(std::vector<float>& pole, const std::vector<float>& next) {
+void raisePole(std::span<float> pole, std::span<const float> next) {
     for (size_t k = 0; k < pole.size(); ++k) pole[k] = std::max(pole[k], next[k]);
 }
 
@@ -71,23 +72,19 @@ EnvironmentCells::EnvironmentCells(const EnvironmentImage& image, unsigned down)
         for (unsigned column = 0; column < image.width; ++column) {
             const Between c = amongColumns(column, image.width, across_);
             const double value = brightness(image.pixels[size_t(row) * image.width + column]);
-            const size_t upper = size_t(r.first) * across_, lower = upper + across_;
-            const unsigned next = c.first + 1 == across_ ? 0 : c.first + 1;
+            const size_t upper = size_t(r.first) * across_, lower = size_t(r.second) * across_;
             const double above = solidAngle * (1 - r.along), below = solidAngle * r.along;
             add(upper + c.first, above * (1 - c.along), value);
-            add(upper + next, above * c.along, value);
+            add(upper + c.second, above * c.along, value);
             add(lower + c.first, below * (1 - c.along), value);
-            add(lower + next, below * c.along, value);
+            add(lower + c.second, below * c.along, value);
         }
     }
     weights_.resize(sums.size());
     for (size_t k = 0; k < sums.size(); ++k) weights_[k] = static_cast<float>(shares[k] > 0 ? sums[k] / shares[k] : 0);
-    for (unsigned k = 0; k < across_; ++k) {
-        float* column = weights_.data() + k;
-        column[0] = std::max(column[0], column[across_]);
-        column[size_t(down_) * across_] =
-            std::max(column[size_t(down_) * across_], column[size_t(down_ - 1) * across_]);
-    }
+    const auto rowOf = [&](unsigned row) { return std::span(weights_).subspan(size_t(row) * across_, across_); };
+    raisePole(rowOf(0), rowOf(1));
+    raisePole(rowOf(down_), rowOf(down_ - 1));
 }
 
 double EnvironmentCells::secondMoment() const {
@@ -97,10 +94,10 @@ double EnvironmentCells::secondMoment() const {
         const double solidAngle = weightOfRow(row, image_->height);
         for (unsigned column = 0; column < image_->width; ++column) {
             const Between c = amongColumns(column, image_->width, across_);
-            const unsigned next = c.first + 1 == across_ ? 0 : c.first + 1;
-            const float *upper = weights_.data() + size_t(r.first) * across_, *lower = upper + across_;
-            const double density = std::lerp(std::lerp<double>(upper[c.first], upper[next], c.along),
-                                             std::lerp<double>(lower[c.first], lower[next], c.along), r.along);
+            const float *upper = weights_.data() + size_t(r.first) * across_,
+                        *lower = weights_.data() + size_t(r.second) * across_;
+            const double density = std::lerp(std::lerp<double>(upper[c.first], upper[c.second], c.along),
+                                             std::lerp<double>(lower[c.first], lower[c.second], c.along), r.along);
             const double value = brightness(image_->pixels[size_t(row) * image_->width + column]);
             densities += solidAngle * density;
             sum += solidAngle * value;

@@ -26,6 +26,10 @@ struct Flag {
     const char* define;
     const char* text;
 };
+// What decides the classes of photons, and is no option of kernels.
+constexpr std::array scatteringKinds = {&Features::genuineDiffuse, &Features::quasiSpecular, &Features::specular,
+                                        &Features::genuineDiffuseMedia, &Features::quasiSpecularMedia};
+
 constexpr std::array flags = {
     Flag{&Features::spheres, "HAS_SPHERES", "spheres"},
     Flag{&Features::nullPrimitives, "HAS_NULL_PRIMITIVES", "null surfaces"},
@@ -96,8 +100,7 @@ Features Features::generic() {
     for (unsigned type = 0; type < phaseNames.size(); ++type) all.phases.insert(type);
     for (const auto& flag : flags) all.*flag.member = true;
     all.hiddenEmitters = false;
-    all.genuineDiffuse = all.quasiSpecular = all.specular = true;
-    all.genuineDiffuseMedia = all.quasiSpecularMedia = true;
+    for (const auto kind : scatteringKinds) all.*kind = true;
     return all;
 }
 
@@ -108,9 +111,7 @@ Features Features::with(const Features& further) const {
     all.phases.insert(further.phases.begin(), further.phases.end());
     for (const auto& flag : flags) all.*flag.member |= further.*flag.member;
     all.hiddenEmitters = hiddenEmitters;
-    for (const auto kind : {&Features::genuineDiffuse, &Features::quasiSpecular, &Features::specular,
-                            &Features::genuineDiffuseMedia, &Features::quasiSpecularMedia})
-        all.*kind |= further.*kind;
+    for (const auto kind : scatteringKinds) all.*kind |= further.*kind;
     return all;
 }
 
