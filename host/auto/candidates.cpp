@@ -147,12 +147,9 @@ private:
     std::vector<std::string> known_;
 };
 
-// By the main variant and BDD 0 a split that follows everything comes to the standard method, which is among those
-// tried last.
-std::vector<Variant> variantsOf(const RenderSettings& start, unsigned bdd, const std::string& split,
-                                const Freedom& freedom) {
+// With the start's first: that of the other may be much noisier than short trials show.
+std::vector<Variant> variantsOf(const RenderSettings& start, const Freedom& freedom) {
     if (!freedom.variant) return {start.variant};
-    if (split == "all" && bdd == 0) return {Variant::alternative};
     return {start.variant, start.variant == Variant::main ? Variant::alternative : Variant::main};
 }
 
@@ -185,8 +182,10 @@ std::vector<RenderSettings> methods(const RenderSettings& start, const Scene& sc
     const auto addSplits = [&](std::vector<std::string> splits) {
         if (!freedom.split) splits = {start.quasiSpecular};
         for (const unsigned bdd : freedom.bdd ? std::vector{0u, 1u} : std::vector{start.bdd})
-            for (const auto& split : splits)
-                for (const Variant variant : variantsOf(start, bdd, split, freedom)) {
+            for (const Variant variant : variantsOf(start, freedom))
+                for (const auto& split : splits) {
+                    // That comes to the standard method, which is among those tried last.
+                    if (bdd == 0 && split == "all" && variant == Variant::main && freedom.variant) continue;
                     RenderSettings method = start;
                     method.bdd = bdd;
                     method.variant = variant;

@@ -62,7 +62,8 @@ PilotMeasure RendererPilot::measure(const std::vector<float>& brightness) const 
     const SceneReport& report = renderer_->report();
     PilotMeasure pilot =
         measurePilot(renderer_->develop(), hasMedia_, photons + camera, brightness, radianceByFlux(report));
-    if (report.photonClasses.empty()) pilot.noiseOfPhotons = 0; // of caustics that paths find
+    pilot.findsCaustics = report.photonClasses.empty();
+    if (pilot.findsCaustics) pilot.noiseOfPhotons = 0;
     pilot.secondsOfPhotons = photons + gatheringSeconds(camera);
     pilot.radius = radiusOf(report);
     pilot.secondsWithRadius = std::max(0.0, camera - cameraSecondsWithoutDiscs());

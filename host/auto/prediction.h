@@ -17,6 +17,7 @@ struct PilotMeasure {
     std::vector<double> noise, bias; ///< by tile; the bias of a tile is net of noise and may come out below 0
     double noiseOfPhotons = 0;       ///< share of the noise that more camera paths with the same photons do not lower
     double noiseOfCaustics = 0;      ///< share of the noise that is in their component
+    bool findsCaustics = false;      ///< camera paths find them, none come from photons
     double causticsByPaths =
         0;                  ///< relMSE of their noise at most, did one camera path a pixel find them (noiseOfFinding)
     double causticsMet = 0; ///< as many equal ones would have their noise, were they met one by one
@@ -60,8 +61,11 @@ private:
 /// their radii explain, count as one.
 std::vector<double> predictedErrors(const std::vector<PilotMeasure>& pilots, double seconds);
 
-/// As it would be with so many times the camera paths of a pixel in a pass, one of which gathers for all.
+/// As it would be with so many times the camera paths of a pixel in a pass, one of which gathers for all. Nets make them
+/// more even, but for the caustics that they find, of which the last events decide.
 PilotMeasure withCameraPaths(PilotMeasure pilot, double factor);
+
+inline constexpr unsigned mostCameraPaths = 64; ///< that are chosen
 
 /// Camera paths of a pixel in a pass, a power of 2, with which a render of so many seconds by this pilot's settings,
 /// which have `cameraPaths` of them, has the least error. Photons, which all paths of a pass share, cost the same

@@ -54,6 +54,7 @@ SearchResult Search::run(const RenderSettings& settings, std::unique_ptr<Pilot> 
     if (begun && stop_.relativeError)
         report_.horizon = std::min(limit, world_.clock() + secondsToError(first.measure, *stop_.relativeError, limit));
     startPassSeconds_ = first.measure.secondsPerPass;
+    startPathSeconds_ = first.pilot->secondsOfPath();
     note(first, "chosen");
     report_.chosen = first.row;
 
@@ -184,7 +185,7 @@ bool Search::raceOfNumbers(double seconds) {
 void Search::race(const std::vector<RenderSettings>& candidates, unsigned fewest, double leastGain, double seconds) {
     const double end = world_.clock() + seconds, middle = world_.clock() + seconds / 2;
     Field field = enter(candidates, fewest, leastGain, middle, end);
-    renderAll(field, fewest, mostAtFirst, middle);
+    renderAll(field, fewest, mostAtFirst, field.size() > 2 ? middle : end);
     halve(field, end);
     if (field.empty()) return;
     best_ = std::move(field.front());
@@ -217,14 +218,16 @@ bool Search::renderAll(Field& field, unsigned passes, unsigned most, double end)
     return true;
 }
 
-// Until one is left. All have the same time, so those that are left have twice as many passes each time.
+// Until one is left. All have the same time, so those that are left have twice as many passes each time, or more where
+// there was little time before.
 void Search::halve(Field& field, double end) {
     giveUpWorst(field, (field.size() + 1) / 2);
     while (field.size() > 1) {
         unsigned passes = mostPasses;
         for (const auto& contender : field) passes = std::min(passes, contender.measure.passes);
         const double rounds = std::ceil(std::log2(field.size())), now = world_.clock();
-        const bool goesOn = renderAll(field, passes, std::min(2 * passes, mostPasses), now + (end - now) / rounds);
+        const unsigned most = std::min(std::max(2 * passes, mostAtFirst), mostPasses);
+        const bool goesOn = renderAll(field, passes, most, now + (end - now) / rounds);
         giveUpWorst(field, goesOn && !interrupted() ? (field.size() + 1) / 2 : 1);
     }
 }
@@ -246,6 +249,7 @@ void Search::openContender(Field& field, const RenderSettings& settings, unsigne
     contender.leastGain = leastGain;
     contender.settings = settings;
     contender.settings.seed = start_.seed + pilotSeed;
+    contender.settings.cameraPaths = pathsOfTrial(settings);
     // There may be too little memory for another renderer beside the others.
     if (!dare(contender, [&] { contender.pilot = world_.open(contender.settings); })) return;
     contender.row = rowOf(settings, contender.pilot->photonsPerPass());
@@ -258,6 +262,15 @@ void Search::openContender(Field& field, const RenderSettings& settings, unsigne
         return noteFailure(contender);
     openingSeconds_ = contender.pilot->openingSeconds();
     if (isKnown) field.push_back(std::move(contender));
+}
+
+// Without photons a pass of one path takes a fraction of the start's, and knows as little of light that paths seldom
+// meet. So it has as many as the start's pass has time for.
+unsigned Search::pathsOfTrial(const RenderSettings& settings) const {
+    unsigned paths = settings.cameraPaths;
+    if (settings.caustics != CausticLight::paths || !freedom_.cameraPaths) return paths;
+    while (paths < mostCameraPaths && 2 * paths * startPathSeconds_ <= startPassSeconds_) paths *= 2;
+    return paths;
 }
 
 bool Search::isWithinBounds(const RenderSettings& settings) const {

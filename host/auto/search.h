@@ -77,6 +77,7 @@ private:
     /// is none.
     bool renderAll(Field& field, unsigned passes, unsigned most, double end);
     void halve(Field& field, double end);
+    unsigned pathsOfTrial(const RenderSettings& settings) const;
     bool isWithinBounds(const RenderSettings& settings) const;
     std::vector<RenderSettings> untried(const std::vector<RenderSettings>& candidates) const;
     size_t rowOf(const RenderSettings& settings, unsigned photons);
@@ -101,7 +102,7 @@ private:
     StopRule stop_;
     RenderSettings start_;
     unsigned startPhotons_ = 0;
-    double startPassSeconds_ = 0;
+    double startPassSeconds_ = 0, startPathSeconds_ = 0; ///< of a pass, of a camera path of each pixel beside photons
     double openingSeconds_ = 0;  ///< of the last contender; its kernels are those of the start
     Contender best_;             ///< without a pilot before the first race
     double causticsByPaths_ = 0; ///< PilotMeasure's, the largest of the pilots by photons

@@ -7,8 +7,10 @@ RenderSettings settingsFromScene(const Scene& scene) {
     const SceneSettings& said = scene.settings;
     RenderSettings settings;
     settings.emission = Emission::guided;
-    // A meter is often small: paths from it find what reaches it by quasi-specular lobes, photons hardly ever meet it.
-    if (isIrradiance(scene.sensor.meter)) settings.variant = Variant::alternative;
+    // Quasi-caustic photons are few, and one of them in a narrow lobe is a bright dot that a short trial seldom meets.
+    // Camera paths find the same light by samples of emitters along the chain. And what is small, as meters are, photons
+    // hardly ever meet.
+    settings.variant = Variant::alternative;
     if (said.bdd) settings.bdd = *said.bdd;
     if (said.variant) settings.variant = *said.variant;
     if (said.direct) settings.direct = *said.direct;

@@ -14,7 +14,7 @@ namespace quasilux {
 
 struct RenderSettings {
     unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
-    Variant variant = Variant::main;
+    Variant variant = Variant::main;          ///< settingsFromScene: alternative
     DirectLight direct = DirectLight::emitters;
     CausticLight caustics = CausticLight::photons;
     MapOrder map = MapOrder::photons;
