@@ -53,7 +53,7 @@ inline void addUvAovs(float* sums, const Surface* s, float weight, const Ray* be
 }
 #endif
 
-inline Surface addAovs(float* sums, const Ray* ray, Hit hit, float weight, __global const PrimitiveBlock* blocks,
+inline Surface addAovs(float* sums, const Ray* ray, const Hit* hit, float weight, __global const PrimitiveBlock* blocks,
                        __global const uint* tables, const SceneTables* scene) {
     const Surface s = surfaceAt(hit, ray->origin, ray->direction, blocks, tables, scene);
     __global const Lobe* lobes = SCENE_TABLE(tables, scene, Lobe, lobes) + s.firstLobe;
@@ -75,12 +75,12 @@ inline Surface addAovs(float* sums, const Ray* ray, Hit hit, float weight, __glo
 inline int meetsSurface(Ray ray, Hit hit, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                         __global const uint* tables, const SceneTables* scene) {
     for (uint event = 0; event < PATH_EVENTS_MAX && hit.primitive != QL_NONE; ++event) {
-        const Surface s = surfaceAt(hit, ray.origin, ray.direction, blocks, tables, scene);
+        const Surface s = surfaceAt(&hit, ray.origin, ray.direction, blocks, tables, scene);
         if (!s.isNull) return 1;
         const float tMax = ray.tMax - hit.t;
         ray = leavingRay(&s, ray.direction);
         ray.tMax = tMax;
-        hit = intersectClosest(nodes, blocks, ray);
+        hit = intersectClosest(nodes, blocks, &ray);
     }
     return 0;
 }
@@ -100,9 +100,9 @@ __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveB
         const float2 lens = lensNumbers(pixel, sample, seed);
         const Ray ray = cameraRay(camera, pixel, place.offset, lens);
         if (isBeyondImage(&ray)) continue;
-        const Hit hit = intersectClosest(nodes, blocks, ray);
+        const Hit hit = intersectClosest(nodes, blocks, &ray);
         if (hit.primitive == QL_NONE) continue;
-        const Surface s = addAovs(sums, &ray, hit, place.weight, blocks, tables, &params.scene);
+        const Surface s = addAovs(sums, &ray, &hit, place.weight, blocks, tables, &params.scene);
 #ifdef HAS_UV_LAYERS
         const Ray besideX = cameraRay(camera, pixel, place.offset + (float2)(1, 0), lens);
         const Ray besideY = cameraRay(camera, pixel, place.offset + (float2)(0, 1), lens);

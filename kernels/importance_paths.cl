@@ -231,7 +231,7 @@ inline int looksThrough(const ImportanceState* state) {
 }
 
 /* A surface that the path has come to; 0 where it ends. */
-inline int meetImportanceSurface(const World* world, ImportancePath* path, ImportanceState* state, Hit hit) {
+inline int meetImportanceSurface(const World* world, ImportancePath* path, ImportanceState* state, const Hit* hit) {
     const SceneTables* scene = &world->params->scene;
     const Surface s = surfaceAt(hit, state->ray.origin, state->ray.direction, world->blocks, world->tables, scene);
     __global const Shape* shape = SCENE_TABLE(world->tables, scene, Shape, shapes) + s.shape;
@@ -240,10 +240,10 @@ inline int meetImportanceSurface(const World* world, ImportancePath* path, Impor
     isHidden = s.isHidden && looksThrough(state);
 #endif
     if (s.emitter != QL_NONE && s.front && !isHidden)
-        meetEmitter(world, path, state, s.emitter, (hit.primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
-                    hit.t, s.geometricNormal, placeOf(&s), s.position);
+        meetEmitter(world, path, state, s.emitter, (hit->primitive & PRIMITIVE_INDEX_MASK) - shape->firstPrimitive,
+                    hit->t, s.geometricNormal, placeOf(&s), s.position);
     if (s.isNull || isHidden) {
-        passImportance(world, state, &s, hit.t);
+        passImportance(world, state, &s, hit->t);
         return 1;
     }
     if (s.lobeCount == 0) return 0;
@@ -262,7 +262,7 @@ inline int meetImportanceSurface(const World* world, ImportancePath* path, Impor
     if (state->gathers || (kinds & SCATTER_GENUINE_DIFFUSE && state->d == world->params->bdd))
         storeVertex(path, state, s.position, importanceFace(s.geometricNormal));
     if (kinds != SCATTER_SPECULAR) sampleEmitterFor(world, path, state, &s, &frame, wo, lobes, &choice);
-    return scatterImportance(world, state, &s, &frame, wo, lobes, &choice, hit.t);
+    return scatterImportance(world, state, &s, &frame, wo, lobes, &choice, hit->t);
 }
 
 #ifdef HAS_MEDIA
@@ -330,8 +330,8 @@ inline int followImportancePath(const World* world, ImportancePath* path, Import
         hit = segment.hit;
     } else
 #endif
-        hit = intersectClosest(world->nodes, world->blocks, state->ray);
-    if (hit.primitive != QL_NONE) return meetImportanceSurface(world, path, state, hit);
+        hit = intersectClosest(world->nodes, world->blocks, &state->ray);
+    if (hit.primitive != QL_NONE) return meetImportanceSurface(world, path, state, &hit);
     __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
     const uint surroundings = emitterOfSurroundings(emitters, scene->emitterCount);
     if (surroundings != QL_NONE && !looksThrough(state))

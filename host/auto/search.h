@@ -103,9 +103,9 @@ private:
     RenderSettings start_;
     unsigned startPhotons_ = 0;
     double startPassSeconds_ = 0, startPathSeconds_ = 0; ///< of a pass, of a camera path of each pixel beside photons
-    double openingSeconds_ = 0;  ///< of the last contender; its kernels are those of the start
-    Contender best_;             ///< without a pilot before the first race
-    double causticsByPaths_ = 0; ///< PilotMeasure's, the largest of the pilots by photons
+    double openingSeconds_ = 0;                          ///< of the last contender; its kernels are those of the start
+    Contender best_;                                     ///< without a pilot before the first race
+    double causticsByPaths_ = 0;                         ///< PilotMeasure's, the largest of the pilots by photons
     SearchReport report_;
 };
 

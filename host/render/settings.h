@@ -13,8 +13,8 @@
 namespace quasilux {
 
 struct RenderSettings {
-    unsigned bdd = 0; ///< backward diffuse depth: genuine diffuse scatterings of a camera path
-    Variant variant = Variant::main;          ///< settingsFromScene: alternative
+    unsigned bdd = 0;                ///< backward diffuse depth: genuine diffuse scatterings of a camera path
+    Variant variant = Variant::main; ///< settingsFromScene: alternative
     DirectLight direct = DirectLight::emitters;
     CausticLight caustics = CausticLight::photons;
     MapOrder map = MapOrder::photons;

@@ -6,19 +6,25 @@
 __kernel void closestHits(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                           __global const float* rays, __global Hit* hits, uint count) {
     const size_t i = get_global_id(0);
-    if (i < count) hits[i] = intersectClosest(nodes, blocks, loadRay(rays, i));
+    if (i >= count) return;
+    const Ray ray = loadRay(rays, i);
+    hits[i] = intersectClosest(nodes, blocks, &ray);
 }
 
 __kernel void closestOpaqueHits(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                                 __global const float* rays, __global Hit* hits, uint count) {
     const size_t i = get_global_id(0);
-    if (i < count) hits[i] = intersectClosestOpaque(nodes, blocks, loadRay(rays, i));
+    if (i >= count) return;
+    const Ray ray = loadRay(rays, i);
+    hits[i] = intersectClosestOpaque(nodes, blocks, &ray);
 }
 
 __kernel void occlusion(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                         __global const float* rays, __global uint* isOccluded, uint count) {
     const size_t i = get_global_id(0);
-    if (i < count) isOccluded[i] = occluded(nodes, blocks, loadRay(rays, i));
+    if (i >= count) return;
+    const Ray ray = loadRay(rays, i);
+    isOccluded[i] = occluded(nodes, blocks, &ray);
 }
 
 __kernel void closestHits16(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,

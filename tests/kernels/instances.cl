@@ -28,23 +28,23 @@ __kernel void meetInstances(__global const BvhNode* nodes, __global const Primit
     const size_t i = get_global_id(0);
     if (i >= count) return;
     const Ray ray = loadRay(rays, i);
-    const Hit hit = intersectClosest(nodes, blocks, ray);
+    const Hit hit = intersectClosest(nodes, blocks, &ray);
     hits[i].t = hit.t;
     hits[i].primitive = hit.primitive == QL_NONE ? QL_NONE : hit.primitive & PRIMITIVE_INDEX_MASK;
     hits[i].instance = hit.instance == QL_NONE
                            ? QL_NONE
                            : (hit.instance - scene.instances) * INSTANCE_STEP * 4 / (uint)sizeof(Instance);
-    hits[i].isOccluded = occluded(nodes, blocks, ray);
+    hits[i].isOccluded = occluded(nodes, blocks, &ray);
     hits[i].returned = 0;
     if (hit.primitive == QL_NONE) return;
-    const Surface s = surfaceAt(hit, ray.origin, ray.direction, blocks, tables, &scene);
+    const Surface s = surfaceAt(&hit, ray.origin, ray.direction, blocks, tables, &scene);
     hits[i].patch = s.patch;
     hits[i].position = pack(s.position);
     hits[i].normal = pack(s.geometricNormal);
     Rng rng = rngMake(1, 2, 3, (uint)i);
     for (uint k = 0; k < DIRECTIONS; ++k) {
         const Ray leaving = leavingRay(&s, sampleUniformSphere(rngNext2(&rng)));
-        const Hit next = intersectClosest(nodes, blocks, leaving);
+        const Hit next = intersectClosest(nodes, blocks, &leaving);
         hits[i].returned += next.slot == hit.slot && next.instance == hit.instance;
     }
 }

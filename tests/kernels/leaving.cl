@@ -16,17 +16,18 @@ __kernel void leaveSurfaces(__global const BvhNode* nodes, __global const Primit
     Ray ray = loadRay(rays, i);
     ray.tMin = 0;
     ray.tMax = INFINITY;
-    const Hit hit = intersectClosest(nodes, blocks, ray);
+    const Hit hit = intersectClosest(nodes, blocks, &ray);
     returned[i] = QL_NONE;
     if (hit.primitive == QL_NONE) return;
-    const Surface s = surfaceAt(hit, ray.origin, ray.direction, blocks, tables, &scene);
+    const Surface s = surfaceAt(&hit, ray.origin, ray.direction, blocks, tables, &scene);
     Rng rng = rngMake(1, 2, 3, (uint)i);
     uint met = 0;
     for (uint k = 0; k < DIRECTIONS; ++k) {
         const float3 direction = sampleUniformSphere(rngNext2(&rng));
         const int inwards = (dot(direction, s.geometricNormal) < 0) == s.front;
         if ((hit.primitive & PRIMITIVE_SPHERE_BIT) && inwards) continue;
-        met += intersectClosest(nodes, blocks, leavingRay(&s, direction)).slot == hit.slot;
+        const Ray leaving = leavingRay(&s, direction);
+        met += intersectClosest(nodes, blocks, &leaving).slot == hit.slot;
     }
     returned[i] = met;
 }

@@ -17,7 +17,7 @@ __kernel void tintsAtHits(__global const BvhNode* nodes, __global const Primitiv
     ray.direction = normalize(vload3(2 * i + 1, rays));
     ray.tMin = 0;
     ray.tMax = INFINITY;
-    const Hit hit = intersectClosest(nodes, blocks, ray);
-    const Surface s = surfaceAt(hit, ray.origin, ray.direction, blocks, tables, &scene);
+    const Hit hit = intersectClosest(nodes, blocks, &ray);
+    const Surface s = surfaceAt(&hit, ray.origin, ray.direction, blocks, tables, &scene);
     vstore3(s.tint[0], i, tints);
 }
