@@ -133,5 +133,18 @@ TEST(CameraPaths, PilotChangesToOtherNumbersAndBack) {
     EXPECT_NEAR(back.noiseOfPhotons, pilot.noiseOfPhotons, 1e-12);
 }
 
+// Caustics that paths find are as noisy on nets as off them. Control: those of photons, which all paths share.
+TEST(CameraPaths, CausticsThatTheyFindGainNothingByNets) {
+    PilotMeasure pilot = pilotOf(0.04, 0, 1, 16);
+    pilot.noiseOfCaustics = 0.5;
+    pilot.findsCaustics = true;
+    const PilotMeasure found = withCameraPaths(pilot, 16);
+    EXPECT_NEAR(found.noise[0] / pilot.noise[0], 0.5 / 16 + 0.5 / 32, 1e-12);
+    EXPECT_NEAR(found.noiseOfCaustics, 2. / 3, 1e-12);
+    EXPECT_NEAR(withCameraPaths(found, 1. / 16).noiseOfCaustics, 0.5, 1e-12);
+    pilot.findsCaustics = false;
+    EXPECT_NEAR(withCameraPaths(pilot, 16).noise[0] / pilot.noise[0], 1. / 32, 1e-12);
+}
+
 } // namespace
 } // namespace quasilux

@@ -141,7 +141,9 @@ TEST(CausticsByPaths, CountAsMetOnceBeforeTheyAre) {
     EXPECT_NEAR(noise(withRareCaustics(pilot, 40, 4)), 0.5 + 40. / 8, 1e-9);
     pilot.noiseOfCaustics = 0.5;
     pilot.causticsMet = 999;
-    EXPECT_NEAR(noise(withRareCaustics(pilot, 40, 1)), 0.25 + (999 * 0.25 + 20) / 1000, 1e-9);
+    const double caustics = (999 * 0.25 + 20) / 1000;
+    EXPECT_NEAR(noise(withRareCaustics(pilot, 40, 1)), 0.25 + caustics, 1e-9);
+    EXPECT_NEAR(withRareCaustics(pilot, 40, 1).noiseOfCaustics, caustics / (0.25 + caustics), 1e-9);
 }
 
 } // namespace

@@ -72,9 +72,9 @@ TEST(Search, MethodsAreDistinct) {
     std::vector<std::string> names;
     for (const auto& method : methods({}, scene, {true, true, true, false, false})) names.push_back(text(method, 1));
     const auto is = [](const char* method) { return std::string(method) + ", 1 photons/pass, radius 1"; };
-    EXPECT_THAT(names, testing::ElementsAre(is("BDD 0, main, split auto"), is("BDD 0, alternative, split auto"),
-                                            is("BDD 0, alternative, split all"), is("BDD 1, main, split auto"),
-                                            is("BDD 1, alternative, split auto"), is("BDD 1, main, split all"),
+    EXPECT_THAT(names, testing::ElementsAre(is("BDD 0, main, split auto"), is("BDD 0, alternative, split all"),
+                                            is("BDD 0, alternative, split auto"), is("BDD 1, main, split auto"),
+                                            is("BDD 1, main, split all"), is("BDD 1, alternative, split auto"),
                                             is("BDD 0, main, split none"), is("BDD 1, main, split none")));
 }
 
@@ -205,6 +205,33 @@ TEST(Search, TheBetterHalfGoesOn) {
     };
     EXPECT_THAT(passesOfOthers(2), testing::ElementsAre(4, 2, 1)); // of eight: four are left, two, one
     EXPECT_THAT(passesOfOthers(6), testing::ElementsAre(7));
+}
+
+// Two that were opened have what is left of the time for methods, not the half of it in which others might be opened.
+TEST(Search, TwoHaveTheWholeTime) {
+    const World world = [](const RenderSettings&) { return Truth{}; };
+    const auto report = search(world, 10, {false, false, true, false, false}).report; // 1.2 s for 2 (0.05 s + passes)
+    ASSERT_EQ(report.rows.size(), 2u);
+    EXPECT_EQ(report.rows[1].passes, 5u);
+    EXPECT_EQ(search(world, 6, {false, false, true, false, false}).report.rows[1].passes, 3u) << "control: less time";
+}
+
+// A path costs a fifth of the start's pass: a trial without photons has four in each of its own, unless their number is
+// given.
+TEST(Search, TrialsWithoutPhotonsHaveMorePaths) {
+    for (const bool isFree : {true, false}) {
+        unsigned withPhotons = 0, without = 0;
+        const World world = [&](const RenderSettings& s) {
+            unsigned& most = s.caustics == CausticLight::paths ? without : withPhotons;
+            most = std::max(most, s.cameraPaths);
+            Truth truth;
+            truth.shareOfPhotonSeconds = 0.8;
+            return truth;
+        };
+        search(world, 200, {true, true, true, false, false, isFree, true});
+        EXPECT_EQ(without, isFree ? 4u : 1u);
+        EXPECT_EQ(withPhotons, 1u);
+    }
 }
 
 // Photons and radius stay where another number is hardly better: by 1.2 in relMSE it must be. Control: it is.

@@ -37,8 +37,8 @@ void declareLight(MethodOptions method, SceneOptions& options) {
                  "Backward diffuse depth: genuine diffuse scatterings that a camera path follows before it takes "
                  "its light from the photon map, a count (default: the scene's, else 0)");
     method.choice<Variant>("--variant", options.variant,
-                           "Variant of the method: main or alternative (default: the scene's, else main; of "
-                           "irradiance meters alternative)");
+                           "Variant of the method: main or alternative (default: the scene's, else searched, else "
+                           "alternative)");
     method.command
         .add_option("--quasi-specular", options.quasiSpecular,
                     "Scattering followed like mirrors: auto, none, all, ids of bsdfs (or ID.LOBE) and media with "
