@@ -63,9 +63,9 @@ inline Surface addAovs(float* sums, const Ray* ray, const Hit* hit, float weight
     addTriple(sums + AOV_POSITION, weight * s.position);
     addTriple(sums + AOV_GEO_NORMAL, side * s.geometricNormal);
     addTriple(sums + AOV_SH_NORMAL, side * s.shadingNormal);
-    sums[AOV_DEPTH] += weight * (hit.t - ray->tMin); /* from the near clipping plane */
+    sums[AOV_DEPTH] += weight * (hit->t - ray->tMin); /* from the near clipping plane */
     const uint first = SCENE_TABLE(tables, scene, Shape, shapes)[s.shape].firstPrimitive;
-    sums[AOV_PRIM_INDEX] += weight * (float)((hit.primitive & PRIMITIVE_INDEX_MASK) - first);
+    sums[AOV_PRIM_INDEX] += weight * (float)((hit->primitive & PRIMITIVE_INDEX_MASK) - first);
     sums[AOV_SHAPE_INDEX] += weight * (float)(s.shape + 1);
     sums[AOV_COVERAGE] += weight;
     return s;

@@ -131,6 +131,7 @@ typedef struct {
     unsigned int lights;                            /* QL_NONE: by power alone */
     unsigned int lightBlockSize, lightBlockColumns; /* pixels of a row and column, blocks of a row */
     unsigned int aims, aimCount, aimSets;           /* AimSource records, and of how many sets */
+    unsigned int directEnvironment; /* of the EnvironmentMaps, the one by which direct light is sampled: 0 or 1 */
     ImportanceGrid importance;
 } Learned;
 

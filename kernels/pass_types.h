@@ -26,7 +26,7 @@ typedef struct {
     unsigned int textures, texels, uvs, attributes, lobeWeights, reliefs, roughness;
     unsigned int media, mediumPlanes;
     unsigned int emitters, emitterTriangles, emitterCount;
-    unsigned int environment; /* EnvironmentMap; there is one where an emitter is an EMITTER_ENVMAP */
+    unsigned int environment; /* two EnvironmentMaps; there are where an emitter is an EMITTER_ENVMAP */
     unsigned int goniograms;  /* words: each GoniogramTable with what it has; one for all luminaires of a type */
     unsigned int lightTree,
         lightTreeCount;           /* LightNode; number of emitters in it, the first of the table; 0: there is none */

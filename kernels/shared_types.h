@@ -330,7 +330,10 @@ typedef struct {
     float areaCdf;      /* share of the emitter's area up to and including this triangle; last = 1 */
 } EmitterTriangle;
 
-/* Radiance from outside, by direction (kernels/emitters/envmap.clh). The words of its tables follow from here on. */
+/* Radiance from outside, by direction (kernels/emitters/envmap.clh). The words of its tables are counted from here on.
+ * There are two, which share the texels: by the first one directions are sampled in proportion to the radiance, by the
+ * second to what exceeds its mean, for direct light that directions of the lobes find too (Karlik et al. 2019, "MIS
+ * Compensation"). */
 #define ENVMAP_BLOCK 64
 typedef struct {
     unsigned int width, height; /* pixels, at least 1 x 2 */
@@ -341,6 +344,7 @@ typedef struct {
     /* Floats, sums of probabilities: of the rows of cells; in each of them of its cells; of those every ENVMAP_BLOCK-th
      * and the last one. */
     unsigned int rows, columns, blocks;
+    float base; /* subtracted from the weights: 0, or their mean over the sphere */
 } EnvironmentMap;
 
 /* What the light of a GoniogramTable is sent from, about its own axes. */

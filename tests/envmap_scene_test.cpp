@@ -2,16 +2,21 @@
 // the ground. False-alarm rate of the renders 0.3 % each (Student t of 10 batches beyond 4 standard errors). Seeds are
 // fixed.
 #include "learn/guide.h"
+#include "render/renderer.h"
 #include "scene/skies/sky_image.h"
 #include "support/environment_images.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 #include "support/stored_photons.h"
+#include "support/test_kernels.h"
 #include "support/wrong_learning.h"
+#include "support/wrong_rules.h"
 
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
@@ -65,6 +70,70 @@ TEST(EnvmapRender, AFaceShowsTheIntegralByEmittersAndByPhotonsWhateverWasLearned
             EXPECT_LT(allowed, 0.03 * truth) << "too noisy to tell anything";
             EXPECT_GT(std::abs(result.mean - 1.05 * truth), allowed) << "negative control";
         }
+}
+
+std::shared_ptr<LearnedScene> learnedOf(const Scene& scene, const RenderSettings& settings) {
+    return std::make_shared<LearnedScene>(*Renderer(testDevice(), scene, settings).learned());
+}
+
+RenderSettings guided(const Scene& scene) {
+    RenderSettings settings;
+    settings.emission = Emission::guided;
+    settings.photonsPerPass = 4000;
+    settings.furtherFeatures = test::sharedFeatures(scene);
+    return settings;
+}
+
+// A sky whose zenith is dimmer than the rest: what exceeds its mean is a ring above the horizon, and the ground.
+EnvironmentImage dimZenith(float radiance) {
+    return imageOf(24, 13, [radiance](unsigned, unsigned r) {
+        const float v = r < 4 ? radiance : 2.f;
+        return Rgb{v, v, v};
+    });
+}
+
+TEST(EnvmapRender, IsTheSameBySamplesOfWhatExceedsTheMean) {
+    const EnvironmentImage sky = dimZenith(1.8f); // by radiance it is sampled nearly evenly
+    const Scene scene = cubeUnder(sky);
+    const double truth = 2 * 0.5 / pi * integral(sky, [](const dvec3& d) { return std::max(d.y, 0.0); }).y;
+    const std::vector<int> one(size_t{scene.sensor.width} * scene.sensor.height, 0);
+    RenderSettings settings = guided(scene);
+    const auto learned = learnedOf(scene, settings);
+    for (const unsigned map : {0u, 1u}) {
+        learned->tables.directEnvironment = map;
+        settings.controlOptions.clear();
+        const auto right = renderGroups(scene, settings, one, 10, 32, learned)[0];
+        const double allowed = 4 * right.standardError + 0.003 * truth;
+        EXPECT_NEAR(right.mean, truth, allowed) << map;
+        settings.controlOptions = optionOf(test::SkyRule::otherDensity);
+        const auto wrong = renderGroups(scene, settings, one, 10, 32, learned)[0];
+        if (map == 1) EXPECT_GT(std::abs(wrong.mean - truth), allowed + 4 * wrong.standardError) << "negative control";
+    }
+}
+
+// Through a hole in a roof a floor sees the zenith alone: samples are better by radiance. An open face's own directions
+// find the sky, dim or not.
+TEST(EnvmapLearning, SamplesWhatExceedsTheMeanWhereThatServes) {
+    const auto mapOf = [](const Scene& scene) { return learnedOf(scene, guided(scene))->tables.directEnvironment; };
+    EXPECT_EQ(mapOf(cubeUnder(dimZenith(0.2f))), 1u);
+    test::SceneFiles files;
+    writeImage(files, dimZenith(0.2f));
+    const auto roof = [](const char* scale, const char* place) {
+        return fmt::format(
+            R"(<shape type="rectangle"><transform name="to_world"><scale {}/><translate {} z="1"/></transform>
+            <bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>)",
+            scale, place);
+    };
+    const Scene room = loadScene(files.write(
+        "room.xml",
+        R"(<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/>
+        <transform name="to_world"><lookat origin="0,-1.5,0.5" target="0,0,0" up="0,0,1"/></transform>
+        <film type="hdrfilm"><rfilter type="box"/><integer name="width" value="32"/><integer name="height" value="32"/></film></sensor>
+        <emitter type="envmap"><string name="filename" value="sky.exr"/><transform name="to_world"><rotate x="1" angle="90"/></transform>
+        </emitter><shape type="rectangle"><transform name="to_world"><scale value="9"/></transform><bsdf type="diffuse"/></shape>)" +
+            roof(R"(x="4.4" y="9")", R"(x="-4.6")") + roof(R"(x="4.4" y="9")", R"(x="4.6")") +
+            roof(R"(x="0.2" y="4.4")", R"(y="-4.6")") + roof(R"(x="0.2" y="4.4")", R"(y="4.6")") + "</scene>"));
+    EXPECT_EQ(mapOf(room), 0u);
 }
 
 /// Flux of direct photons on the cube over that by `learn`ed sources, in standard errors of the difference from plain

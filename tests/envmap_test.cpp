@@ -94,8 +94,22 @@ TEST(EnvmapTable, LargerCellsSampleWhatHasNoContrast) {
     EXPECT_EQ(cellsDown(imageOf(200, 101, [](unsigned, unsigned) { return Rgb{1, 1, 1}; })), 100u) << "few pixels";
 }
 
+/// The map by which direct light may be sampled instead, as if there were no other.
+std::vector<uint32_t> secondMap(const std::vector<uint32_t>& words) {
+    return {words.begin() + sizeof(shared::EnvironmentMap) / sizeof(uint32_t), words.end()};
+}
+
+enum class By { radiance, whatExceedsTheMean };
+
+std::pair<shared::Emitter, std::vector<uint32_t>> sampledBy(const EnvironmentImage& image, By by) {
+    auto made = makeEnvmap(image, {0, 0, 0}, 1);
+    if (by == By::whatExceedsTheMean) made.second = secondMap(made.second);
+    return made;
+}
+
 /// p-value of `directions` against the density of `densityOf` over the image's own cosine and azimuth.
-double fit(const EnvironmentImage& image, const std::vector<dvec3>& directions, const EnvironmentImage& densityOf) {
+double fit(const EnvironmentImage& image, const std::vector<dvec3>& directions, const EnvironmentImage& densityOf,
+           By by = By::radiance) {
     const SampleGrid grid{-1, 1, -pi, pi, 24, 24};
     std::vector<uint64_t> counts(grid.cells() + 1);
     for (const dvec3& direction : directions) {
@@ -105,7 +119,7 @@ double fit(const EnvironmentImage& image, const std::vector<dvec3>& directions, 
     const auto points = gridQuadrature(grid, 40);
     std::vector<dvec3> towards;
     for (const QuadraturePoint& q : points) towards.push_back(image.axes * directionOf(q.u, q.v));
-    const auto [emitter, words] = makeEnvmap(densityOf, {0, 0, 0}, 1);
+    const auto [emitter, words] = sampledBy(densityOf, by);
     const auto pdfs = directionPdfs({emitter}, 0, {0, 0, 0}, towards, towards, words);
     std::vector<double> probabilities(grid.cells());
     for (size_t i = 0; i < points.size(); ++i) probabilities[points[i].cell] += pdfs[i] * points[i].weight;
@@ -117,8 +131,8 @@ double fit(const EnvironmentImage& image, const std::vector<dvec3>& directions, 
     return chiSquaredPValue(counts, probabilities);
 }
 
-std::vector<dvec3> sampledDirections(const EnvironmentImage& image) {
-    const auto [emitter, words] = makeEnvmap(image, {0, 0, 0}, 1);
+std::vector<dvec3> sampledDirections(const EnvironmentImage& image, By by = By::radiance) {
+    const auto [emitter, words] = sampledBy(image, by);
     std::vector<dvec3> directions;
     for (const SampledEmitter& s :
          sampleDirections({emitter}, {}, {0, 0, 0}, uniformNumbers(3 * sampleCount, 21), words))
@@ -133,6 +147,16 @@ TEST(EnvmapSampling, DirectionsFollowTheDensity) {
     std::rotate(wrong.pixels.begin(), wrong.pixels.begin() + 6, wrong.pixels.end());
     EXPECT_LT(fit(wrong, sampledDirections(images()[0].image), wrong), significanceLevel(statisticalTests))
         << "negative control: rows moved up by one";
+}
+
+// Karlik et al. 2019: directions in proportion to what exceeds the mean; to none in particular where nothing does.
+TEST(EnvmapSampling, DirectionsMayFollowWhatExceedsTheMean) {
+    for (const auto& [name, image] : images()) {
+        const auto directions = sampledDirections(image, By::whatExceedsTheMean);
+        EXPECT_GT(fit(image, directions, image, By::whatExceedsTheMean), significanceLevel(statisticalTests)) << name;
+        if (std::string(name) != "gradient") continue;
+        EXPECT_LT(fit(image, directions, image), significanceLevel(statisticalTests)) << "negative control";
+    }
 }
 
 TEST(EnvmapSampling, SamplesHaveTheRadianceAndDensityOfTheirDirection) {

@@ -10,7 +10,7 @@ struct Numbers {
     std::array<LearnedScene::Octave, DISTANCE_OCTAVES> octaves;
     double usualWorth, lightOfPhotons, effectiveShare, typicalFlux;
     shared::ImportanceGrid importance;
-    uint32_t isGuided, lightBlockSize;
+    uint32_t isGuided, lightBlockSize, directEnvironment, unused;
 };
 
 } // namespace
@@ -27,6 +27,7 @@ void saveLearned(StateSink& sink, const LearnedScene& learned) {
     numbers.importance = tables.importance;
     numbers.isGuided = tables.guide.isGuided;
     numbers.lightBlockSize = tables.lightBlockSize;
+    numbers.directEnvironment = tables.directEnvironment;
     sink.record("learned", numbers);
     sink.array("learned: sources", tables.guide.sources);
     sink.array("learned: leaves", tables.guide.leaves);
@@ -55,6 +56,7 @@ LearnedScene restoreLearned(const StateSource& source) {
     tables.directByPhotons.assign(direct.begin(), direct.end());
     tables.lights = source.array<shared::LightChoice>("learned: lights");
     tables.lightBlockSize = numbers.lightBlockSize;
+    tables.directEnvironment = numbers.directEnvironment;
     tables.aims = source.array<shared::AimSource>("learned: aims");
     tables.importance = numbers.importance;
     tables.importanceCells = source.array<uint32_t>("learned: importance");

@@ -14,6 +14,7 @@ namespace {
 
 constexpr uint64_t shareOfMemory = 4; // one part in so many
 constexpr unsigned pathsPerPixel = 16, fewestPaths = 8192, mostPaths = 262144;
+constexpr unsigned shareOfTrial = 4; // of these, one in so many
 constexpr unsigned photonRounds = 3;
 // Where more of the photons lie about what is gathered, all are stored: the noise of those few that stand for others
 // would not pay.
@@ -53,6 +54,18 @@ std::vector<double> pathWeights(const std::vector<shared::ImportancePath>& paths
         weights.push_back(scale > 0 ? 1 / (scale * static_cast<double>(paths.size())) : 0);
     }
     return weights;
+}
+
+// Of the direct light that a path finds, relative to the brightness of its pixel. Its mean is the same however emitters
+// are sampled, so the least one leaves the least noise.
+double secondMoment(const std::vector<shared::ImportancePath>& paths, const shared::Camera& camera) {
+    const auto weights = pathWeights(paths, camera);
+    double squares = 0;
+    for (size_t k = 0; k < paths.size(); ++k) {
+        const double value = weights[k] * paths[k].direct.weight;
+        if (std::isfinite(value)) squares += value * value;
+    }
+    return squares * static_cast<double>(paths.size());
 }
 
 // Is anything hidden, so that few of the photons matter that are not guided? Or else there is nothing to split or to
@@ -125,12 +138,33 @@ void Learning::upload() {
     buffers_.tables = Buffer<uint32_t>(device_, scene_.tables, "scene tables");
 }
 
+std::vector<shared::ImportancePath> Learning::tracePaths(const Buffer<shared::ImportancePath>& buffer, unsigned count,
+                                                         unsigned directEnvironment) {
+    shared::CameraParams params = params_;
+    params.scene.learned.directEnvironment = directEnvironment;
+    program_.kernel("traceImportancePaths")
+        .launch(count, buffers_.nodes, buffers_.blocks, buffers_.tables, buffer, params, count);
+    auto paths = buffer.read();
+    paths.resize(count);
+    return paths;
+}
+
+// Where directions of the lobes find the sky themselves, samples of it are better spent on what exceeds its mean; behind
+// a window they are not. A few paths that sample so show which it is.
+std::vector<shared::ImportancePath>
+Learning::tracePathsByBetterEnvironment(const Buffer<shared::ImportancePath>& buffer, unsigned count) {
+    if (!scene_.features.emitterTypes.contains(EMITTER_ENVMAP)) return tracePaths(buffer, count, 0);
+    const auto trial = tracePaths(buffer, count / shareOfTrial, 1);
+    auto paths = tracePaths(buffer, count, 0);
+    if (secondMoment(trial, params_.camera) >= secondMoment(paths, params_.camera)) return paths;
+    learned_.tables.directEnvironment = 1;
+    return tracePaths(buffer, count, 1);
+}
+
 void Learning::followImportance(bool directMayUsePhotons) {
     const unsigned count = importancePathCount(params_.camera, device_.info());
     const Buffer<shared::ImportancePath> buffer(device_, count, "importance paths");
-    program_.kernel("traceImportancePaths")
-        .launch(count, buffers_.nodes, buffers_.blocks, buffers_.tables, buffer, params_, count);
-    const auto paths = buffer.read();
+    const auto paths = tracePathsByBetterEnvironment(buffer, count);
     const auto weights = pathWeights(paths, params_.camera);
     std::vector<shared::EmissionRecord> records;
     std::vector<DirectFind> finds;

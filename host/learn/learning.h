@@ -68,6 +68,10 @@ public:
 private:
     std::vector<shared::EmissionPoint> invert(const std::vector<shared::EmissionRecord>& records,
                                               const std::vector<shared::GuideSource>& sources);
+    std::vector<shared::ImportancePath> tracePaths(const Buffer<shared::ImportancePath>& buffer, unsigned count,
+                                                   unsigned directEnvironment);
+    std::vector<shared::ImportancePath> tracePathsByBetterEnvironment(const Buffer<shared::ImportancePath>& buffer,
+                                                                      unsigned count);
     void makeImportance(const Buffer<shared::ImportancePath>& buffer, const std::vector<shared::ImportancePath>& paths,
                         const std::vector<double>& weights);
     void note(const RoundResult& result);

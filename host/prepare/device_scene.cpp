@@ -228,6 +228,7 @@ void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     scene.offsets.learned.lightBlockSize = learned.lightBlockSize;
     scene.offsets.learned.lightBlockColumns =
         (scene.camera.width + learned.lightBlockSize - 1) / learned.lightBlockSize;
+    scene.offsets.learned.directEnvironment = learned.directEnvironment;
     scene.tables = std::move(tables).take();
     setDirectByPhotons(scene, learned.directByPhotons);
     scene.isGuided = learned.guide.isGuided;

@@ -66,6 +66,7 @@ struct LearnedTables {
     std::vector<bool> directByPhotons;       ///< by emitter, or empty: none
     std::vector<shared::LightChoice> lights; ///< LIGHT_CHOICES for each block of pixels, or empty: nothing is known
     unsigned lightBlockSize = 1;
+    unsigned directEnvironment = 0;        ///< shared::Learned
     std::vector<shared::AimSource> aims;   ///< openings at which scattered photons are aimed
     shared::ImportanceGrid importance{};   ///< without `cells`
     std::vector<uint32_t> importanceCells; ///< none: nothing is known

@@ -4,6 +4,7 @@
 #include "scene/skies/sky_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -36,13 +37,19 @@ struct Probabilities {
     std::vector<float> rows, columns, blocks; // as shared::EnvironmentMap has them
 };
 
-Probabilities probabilitiesOf(const EnvironmentCells& of) {
+// Of the cells when `base` is taken off their weights.
+Probabilities probabilitiesOf(const EnvironmentCells& of, float base) {
+    const auto weightsOfRow = [&](unsigned row) {
+        auto weights = of.weightsOfRow(row);
+        for (float& weight : weights) weight = std::max(weight - base, 0.f);
+        return weights;
+    };
     Probabilities found;
     found.columns.reserve(size_t(of.down()) * of.across());
     std::vector<double> cells(of.across()), rows;
-    auto upper = of.weightsOfRow(0);
+    auto upper = weightsOfRow(0);
     for (unsigned row = 0; row < of.down(); ++row) {
-        auto lower = of.weightsOfRow(row + 1);
+        auto lower = weightsOfRow(row + 1);
         double all = 0;
         for (unsigned column = 0; column < of.across(); ++column) {
             const unsigned next = column + 1 == of.across() ? 0 : column + 1;
@@ -103,18 +110,22 @@ unsigned append(const std::vector<T>& records, std::vector<uint32_t>& words) {
 EnvironmentTable makeEnvironmentTable(const EnvironmentImage& image) {
     EnvironmentTable table;
     const EnvironmentCells cells(image);
-    const Probabilities probabilities = probabilitiesOf(cells);
     constexpr size_t headWords = sizeof(shared::EnvironmentMap) / sizeof(uint32_t);
-    table.words.reserve(headWords + 3 * image.pixels.size() + cells.weights().size() + probabilities.rows.size() +
-                        probabilities.columns.size() + probabilities.blocks.size());
-    table.words.resize(headWords);
-    shared::EnvironmentMap head{image.width, image.height, 0, cells.across(), cells.down(), 0, 0, 0, 0};
-    head.texels = append(image.pixels, table.words);
-    if (!cells.weights().empty()) head.weights = append(cells.weights(), table.words);
-    head.rows = append(probabilities.rows, table.words);
-    head.columns = append(probabilities.columns, table.words);
-    head.blocks = append(probabilities.blocks, table.words);
-    std::memcpy(table.words.data(), &head, sizeof head);
+    const shared::EnvironmentMap dimensions{image.width, image.height, 0, cells.across(), cells.down(), 0, 0, 0, 0, 0};
+    std::array<shared::EnvironmentMap, 2> heads{dimensions, dimensions};
+    heads[1].base = static_cast<float>(cells.meanWeight());
+    table.words.resize(heads.size() * headWords);
+    for (size_t k = 0; k < heads.size(); ++k) {
+        const auto before = static_cast<unsigned>(k * headWords);
+        const Probabilities probabilities = probabilitiesOf(cells, heads[k].base);
+        const auto appended = [&](const auto& records) { return append(records, table.words) - before; };
+        heads[k].texels = k == 0 ? appended(image.pixels) : heads[0].texels - before;
+        if (!cells.weights().empty()) heads[k].weights = k == 0 ? appended(cells.weights()) : heads[0].weights - before;
+        heads[k].rows = appended(probabilities.rows);
+        heads[k].columns = appended(probabilities.columns);
+        heads[k].blocks = appended(probabilities.blocks);
+    }
+    std::memcpy(table.words.data(), heads.data(), sizeof heads);
     table.meanRadiance = meanRadiance(image);
     table.radianceByFlux = radianceByFlux(image);
     return table;

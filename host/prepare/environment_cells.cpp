@@ -107,6 +107,16 @@ double EnvironmentCells::secondMoment() const {
     return sum > 0 ? squares * densities / (sum * sum) : 1;
 }
 
+double EnvironmentCells::meanWeight() const {
+    double sum = 0, solidAngles = 0;
+    for (unsigned row = 0; row <= down_; ++row) {
+        const double solidAngle = weightOfRow(row, down_ + 1);
+        for (const float weight : weightsOfRow(row)) sum += solidAngle * weight;
+        solidAngles += solidAngle * across_;
+    }
+    return sum / solidAngles;
+}
+
 std::vector<float> EnvironmentCells::weightsOfRow(unsigned row) const {
     if (!weights_.empty()) {
         const auto first = weights_.begin() + std::ptrdiff_t(row) * across_;

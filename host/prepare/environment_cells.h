@@ -18,8 +18,10 @@ public:
     unsigned down() const { return down_; }
     /// Of the corners of larger cells, `across` a row, `down` + 1 rows; none where cells are those between the pixels.
     const std::vector<float>& weights() const { return weights_; }
-    /// At the corners of a row.
+    /// At the corners of a row, but for the base.
     std::vector<float> weightsOfRow(unsigned row) const;
+    /// Mean of the weights over the sphere.
+    double meanWeight() const;
 
 private:
     EnvironmentCells(const EnvironmentImage& image, unsigned down);

@@ -6,7 +6,7 @@ inline EmitterData dataOf(__global const EmitterTriangle* triangles, __global co
     EmitterData data;
     data.triangles = triangles;
 #ifdef HAS_EMITTER_ENVMAP
-    data.environment = (__global const EnvironmentMap*)words;
+    data.environment = data.directEnvironment = (__global const EnvironmentMap*)words;
 #endif
 #ifdef HAS_EMITTER_GONIOGRAM
     data.goniograms = words;

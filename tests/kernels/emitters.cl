@@ -4,7 +4,7 @@
 inline EmitterData dataOf(__global const EmitterTriangle* triangles, __global const uint* environment) {
     EmitterData data;
     data.triangles = triangles;
-    data.environment = (__global const EnvironmentMap*)environment;
+    data.environment = data.directEnvironment = (__global const EnvironmentMap*)environment;
     return data;
 }
 

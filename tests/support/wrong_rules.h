@@ -37,6 +37,9 @@ enum class SamplingRule { right, fourEverywhere, firstGathers };
 /// Axes of lobes, or a mistake: those of anisotropic ones follow from the normal alone.
 enum class SurfaceRule { right, axesByNormal };
 
+/// Samples of a sky, or a mistake: directions of lobes are weighed against the density of the other map of it.
+enum class SkyRule { right, otherDensity };
+
 /// Compiler options; none where it is the right one.
 inline std::string optionOf(LawRule rule) {
     return rule == LawRule::right ? "" : fmt::format(" -DLAW_RULE={}", static_cast<int>(rule));
@@ -49,6 +52,9 @@ inline std::string optionOf(SamplingRule rule) {
 }
 inline std::string optionOf(SurfaceRule rule) {
     return rule == SurfaceRule::right ? "" : fmt::format(" -DSURFACE_RULE={}", static_cast<int>(rule));
+}
+inline std::string optionOf(SkyRule rule) {
+    return rule == SkyRule::right ? "" : fmt::format(" -DSKY_RULE={}", static_cast<int>(rule));
 }
 inline std::string optionOf(PhotonRule rule) {
     return rule == PhotonRule::right ? "" : fmt::format(" -DPHOTON_RULE={}", static_cast<int>(rule));
