@@ -136,6 +136,7 @@ TEST(CameraPaths, PilotChangesToOtherNumbersAndBack) {
 // Caustics that paths find are as noisy on nets as off them. Control: those of photons, which all paths share.
 TEST(CameraPaths, CausticsThatTheyFindGainNothingByNets) {
     PilotMeasure pilot = pilotOf(0.04, 0, 1, 16);
+    pilot.noiseOfPhotons = 0;
     pilot.noiseOfCaustics = 0.5;
     pilot.findsCaustics = true;
     const PilotMeasure found = withCameraPaths(pilot, 16);

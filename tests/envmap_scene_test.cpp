@@ -107,7 +107,8 @@ TEST(EnvmapRender, IsTheSameBySamplesOfWhatExceedsTheMean) {
         EXPECT_NEAR(right.mean, truth, allowed) << map;
         settings.controlOptions = optionOf(test::SkyRule::otherDensity);
         const auto wrong = renderGroups(scene, settings, one, 10, 32, learned)[0];
-        if (map == 1) EXPECT_GT(std::abs(wrong.mean - truth), allowed + 4 * wrong.standardError) << "negative control";
+        if (map == 0) continue;
+        EXPECT_GT(std::abs(wrong.mean - truth), allowed + 4 * wrong.standardError) << "negative control";
     }
 }
 
