@@ -37,7 +37,7 @@ TEST(Search, FindsWhatIsBetter) {
     const Found found = search(world, 200);
     EXPECT_EQ(found.settings.bdd, 1u);
     EXPECT_EQ(found.settings.quasiSpecular, "none");
-    EXPECT_THAT(found.report.line(), HasSubstr("auto: BDD 1, main, split none"));
+    EXPECT_THAT(found.report.line(), HasSubstr("auto: BDD 1, alternative, split none"));
 }
 
 // What was interrupted before anything was compared says so, and not that there was no time; once settings are chosen
@@ -72,10 +72,11 @@ TEST(Search, MethodsAreDistinct) {
     std::vector<std::string> names;
     for (const auto& method : methods({}, scene, {true, true, true, false, false})) names.push_back(text(method, 1));
     const auto is = [](const char* method) { return std::string(method) + ", 1 photons/pass, radius 1"; };
-    EXPECT_THAT(names, testing::ElementsAre(is("BDD 0, main, split auto"), is("BDD 0, alternative, split auto"),
-                                            is("BDD 0, alternative, split all"), is("BDD 1, main, split auto"),
-                                            is("BDD 1, main, split all"), is("BDD 1, alternative, split auto"),
-                                            is("BDD 0, main, split none"), is("BDD 1, main, split none")));
+    EXPECT_THAT(names,
+                testing::ElementsAre(is("BDD 0, main, split auto"), is("BDD 0, alternative, split auto"),
+                                     is("BDD 0, alternative, split all"), is("BDD 1, alternative, split auto"),
+                                     is("BDD 1, main, split auto"), is("BDD 1, main, split all"),
+                                     is("BDD 0, alternative, split none"), is("BDD 1, alternative, split none")));
 }
 
 std::string optionsOf(const Scene& scene, const RenderSettings& method) {
