@@ -110,20 +110,31 @@ unsigned append(const std::vector<T>& records, std::vector<uint32_t>& words) {
 EnvironmentTable makeEnvironmentTable(const EnvironmentImage& image) {
     EnvironmentTable table;
     const EnvironmentCells cells(image);
-    constexpr size_t headWords = sizeof(shared::EnvironmentMap) / sizeof(uint32_t);
-    const shared::EnvironmentMap dimensions{image.width, image.height, 0, cells.across(), cells.down(), 0, 0, 0, 0, 0};
-    std::array<shared::EnvironmentMap, 2> heads{dimensions, dimensions};
-    heads[1].base = static_cast<float>(cells.meanWeight());
-    table.words.resize(heads.size() * headWords);
-    for (size_t k = 0; k < heads.size(); ++k) {
-        const auto before = static_cast<unsigned>(k * headWords);
-        const Probabilities probabilities = probabilitiesOf(cells, heads[k].base);
-        const auto appended = [&](const auto& records) { return append(records, table.words) - before; };
-        heads[k].texels = k == 0 ? appended(image.pixels) : heads[0].texels - before;
-        if (!cells.weights().empty()) heads[k].weights = k == 0 ? appended(cells.weights()) : heads[0].weights - before;
-        heads[k].rows = appended(probabilities.rows);
-        heads[k].columns = appended(probabilities.columns);
-        heads[k].blocks = appended(probabilities.blocks);
+    const auto mean = static_cast<float>(cells.meanWeight());
+    const std::array<Probabilities, 2> probabilities{probabilitiesOf(cells, 0), probabilitiesOf(cells, mean)};
+    constexpr unsigned headWords = sizeof(shared::EnvironmentMap) / sizeof(uint32_t);
+    size_t words = 2 * headWords + 3 * image.pixels.size() + cells.weights().size();
+    for (const auto& p : probabilities) words += p.rows.size() + p.columns.size() + p.blocks.size();
+    table.words.reserve(words);
+    table.words.resize(2 * size_t{headWords});
+    const unsigned texels = append(image.pixels, table.words),
+                   weights = cells.weights().empty() ? 0 : append(cells.weights(), table.words);
+    std::array<shared::EnvironmentMap, 2> heads{};
+    for (unsigned k = 0; k < 2; ++k) {
+        const unsigned before = k * headWords; // offsets are from each head on
+        const unsigned rows = append(probabilities[k].rows, table.words) - before,
+                       columns = append(probabilities[k].columns, table.words) - before,
+                       blocks = append(probabilities[k].blocks, table.words) - before;
+        heads[k] = {image.width,
+                    image.height,
+                    texels - before,
+                    cells.across(),
+                    cells.down(),
+                    weights > 0 ? weights - before : 0,
+                    rows,
+                    columns,
+                    blocks,
+                    k == 0 ? 0 : mean};
     }
     std::memcpy(table.words.data(), heads.data(), sizeof heads);
     table.meanRadiance = meanRadiance(image);

@@ -33,8 +33,12 @@ GuideTables cornerGuide(const EmitterTables& emitters) {
     return guide;
 }
 
+std::shared_ptr<LearnedScene> learnedOf(const Scene& scene, const RenderSettings& settings) {
+    return std::make_shared<LearnedScene>(*Renderer(testDevice(), scene, settings).learned());
+}
+
 std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSettings& settings) {
-    auto learned = std::make_shared<LearnedScene>(*Renderer(testDevice(), scene, settings).learned());
+    auto learned = learnedOf(scene, settings);
     learned->tables.guide = cornerGuide(flattenScene(scene).emitters);
     learned->tables.aims.clear();
     learned->tables.seenCells = {0};

@@ -17,6 +17,9 @@ std::vector<GuideSample> samplesWithin(double side, size_t count);
 /// Photons begin nearly all in a hundredth of each emitter's numbers, which serves nothing.
 GuideTables cornerGuide(const EmitterTables& emitters);
 
+/// What a renderer of these settings learns, to be changed.
+std::shared_ptr<LearnedScene> learnedOf(const Scene& scene, const RenderSettings& settings);
+
 /// That guide; and no place is said to be gathered from, so that most photons are not stored.
 std::shared_ptr<LearnedScene> wronglyLearned(const Scene& scene, const RenderSettings& settings);
 
