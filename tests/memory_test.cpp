@@ -15,6 +15,7 @@ namespace quasilux {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using Arguments = std::vector<std::string>;
 
 /// Share by which a forecast may miss.
@@ -154,10 +155,18 @@ TEST_F(MemoryTest, RenderThatDoesNotFitDoesNotStart) {
     Arguments tight = within(needed - (1u << 20));
     tight.insert(tight.begin(), "render");
     expectRefused(tight, "1.0 MiB too little");
-    expectRefused(tight, "use fewer --photons (now 98304), a smaller film (now 128 x 128)");
-    Arguments tiny = within(1000); // less than the scene alone: nothing is compiled for it
+    const std::string advice =
+        expectRefused(tight, "--photons (now 98304; more passes make up for them) or --map camera");
+    Arguments fewer = tight; // as many as it says fit; a tenth more do not
+    const unsigned photons = std::stoul(advice.substr(advice.find("at most ") + 8));
+    fewer.insert(fewer.end(), {"--photons", std::to_string(photons)});
+    EXPECT_EQ(run(fewer).exitCode, 0) << advice;
+    fewer.back() = std::to_string(photons * 11 / 10);
+    expectRefused(fewer, "too little");
+    std::filesystem::remove(folder / "limited.exr");
+    Arguments tiny = within(1000); // less than the scene alone: nothing is compiled for it, and photons do not matter
     tiny.insert(tiny.begin(), "render");
-    expectRefused(tiny, "in one buffer");
+    EXPECT_THAT(expectRefused(tiny, "in one buffer"), Not(HasSubstr("--photons")));
     Arguments points = within(1u << 20);
     points.insert(points.begin(), "render");
     points.insert(points.end(), {"--map", "camera"});

@@ -22,15 +22,20 @@ uint64_t pixelsOf(const DeviceScene& scene) { return uint64_t(scene.camera.width
 
 std::string mebibytes(uint64_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024 * 1024)); }
 
-std::string advice(const DeviceScene& scene, const RenderSettings& settings) {
+// `photons`: of a pass, that fit.
+std::string advice(const DeviceScene& scene, const RenderSettings& settings, std::optional<uint64_t> photons) {
     const FilmLayout layout = filmLayout(scene.features, settings);
     std::string parts = layout.components ? "components" : "";
     if (layout.bias) parts += parts.empty() ? "bias" : ",bias";
     const std::string without = parts.empty() ? "" : fmt::format(" or --without {}", parts);
-    return fmt::format(
-        "use fewer --photons (now {}), a smaller film (now {} x {}){}, simpler meshes (now {} triangles), "
-        "or a device with more memory",
-        photonsPerPass(settings, scene.camera), scene.camera.width, scene.camera.height, without, scene.triangles);
+    const std::string fewer =
+        photons ? fmt::format("at most {} --photons (now {}; more passes make up for them) or --map camera, which "
+                              "stores none, ",
+                              *photons, photonsPerPass(settings, scene.camera))
+                : "";
+    return fmt::format("use {}a smaller film (now {} x {}){}, simpler meshes (now {} triangles), "
+                       "or a device with more memory",
+                       fewer, scene.camera.width, scene.camera.height, without, scene.triangles);
 }
 
 /// The three largest, for the user to see what it is.
@@ -42,6 +47,12 @@ std::string largest(const BufferSizes& sizes) {
     for (size_t k = 0; k < std::min<size_t>(3, sorted.size()); ++k)
         text += fmt::format("{}{} {}", k ? ", " : "", sorted[k].second, mebibytes(sorted[k].first));
     return text;
+}
+
+bool fits(const BufferSizes& sizes, const DeviceInfo& device) {
+    return sumOf(sizes) <= device.globalMemory && std::all_of(sizes.begin(), sizes.end(), [&](const auto& size) {
+               return size.second <= device.maximumAllocation;
+           });
 }
 
 } // namespace
@@ -89,20 +100,40 @@ uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings) 
     return imageBytes(scene, settings) + pixelsOf(scene) * ofEstimate;
 }
 
+std::optional<uint64_t> photonsThatFit(const DeviceScene& scene, const RenderSettings& settings, uint64_t stored,
+                                       const DeviceInfo& device) {
+    const unsigned all = photonsPerPass(settings, scene.camera);
+    RenderSettings fewer = settings;
+    const auto fit = [&](unsigned photons) {
+        fewer.photonsPerPass = photons;
+        const auto ofThese = static_cast<uint64_t>(double(stored) * photons / all);
+        return fits(planPass(scene, fewer, ofThese, device), device);
+    };
+    uint64_t least = 0, most = all; // least fits, or nothing is known of it
+    while (most - least > most / 1000 + 1) {
+        const uint64_t middle = (least + most) / 2;
+        (fit(static_cast<unsigned>(middle)) ? least : most) = middle;
+    }
+    if (least == 0) return {};
+    uint64_t unit = 1; // of two digits
+    while (least / unit >= 100) unit *= 10;
+    return least / unit * unit;
+}
+
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
-               const RenderSettings& settings) {
+               const RenderSettings& settings, std::optional<uint64_t> photons) {
     for (const auto& [label, bytes] : sizes)
         if (bytes > device.maximumAllocation)
             throw InputError(
                 fmt::format("buffer '{}' needs {}, but device {} allows {} in one buffer, {} too little: {}", label,
                             mebibytes(bytes), device.name, mebibytes(device.maximumAllocation),
-                            mebibytes(bytes - device.maximumAllocation), advice(scene, settings)));
+                            mebibytes(bytes - device.maximumAllocation), advice(scene, settings, photons)));
     const uint64_t sum = sumOf(sizes);
     if (sum > device.globalMemory)
         throw InputError(
             fmt::format("the render needs {} of device memory, but device {} has {}, {} too little (largest: {}): {}",
                         mebibytes(sum), device.name, mebibytes(device.globalMemory),
-                        mebibytes(sum - device.globalMemory), largest(sizes), advice(scene, settings)));
+                        mebibytes(sum - device.globalMemory), largest(sizes), advice(scene, settings, photons)));
 }
 
 } // namespace quasilux

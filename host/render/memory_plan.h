@@ -6,6 +6,7 @@
 #include "render/settings.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace quasilux {
 
@@ -30,8 +31,14 @@ uint64_t imageBytes(const DeviceScene& scene, const RenderSettings& settings);
 /// The same while its error is estimated.
 uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings);
 
-/// Throws InputError that says by how much the buffers exceed the device's memory, and what to do.
+/// Photons of a pass of --map photons for which the device has room, where one of all of them stores `stored`; none if
+/// it has no room even for the rest.
+std::optional<uint64_t> photonsThatFit(const DeviceScene& scene, const RenderSettings& settings, uint64_t stored,
+                                       const DeviceInfo& device);
+
+/// Throws InputError that says by how much the buffers exceed the device's memory, and what to do: `photons` of a pass
+/// would fit, if that is known.
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
-               const RenderSettings& settings);
+               const RenderSettings& settings, std::optional<uint64_t> photons = {});
 
 } // namespace quasilux

@@ -13,7 +13,8 @@ PassPhotons::PassPhotons(const PassContext& context, const std::function<void(co
     const RenderSettings& settings = context.settings;
     const PhotonForecast expected = forecastPhotons(context, context.program, compile);
     const BufferSizes sizes = planPass(flat, settings, expected.photons, context.device.info());
-    checkFits(sizes, context.device.info(), flat, settings);
+    const DeviceInfo& device = context.device.info();
+    checkFits(sizes, device, flat, settings, photonsThatFit(flat, settings, expected.photons, device));
     forecast_ = forecastOf(context, sizes, sumOf(sizes) - sumOf(planScene(flat, settings, context.device.info())));
     stage_.emplace(context.device, context.program, context.geometry, context.photons, context.classes,
                    storesDepth(flat, settings), expected.photons);

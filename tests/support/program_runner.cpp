@@ -116,7 +116,8 @@ std::vector<std::string> CommandLineTest::filesInFolder() const {
     return names;
 }
 
-void CommandLineTest::expectRefused(const std::vector<std::string>& arguments, const std::string& message) const {
+std::string CommandLineTest::expectRefused(const std::vector<std::string>& arguments,
+                                           const std::string& message) const {
     const auto before = filesInFolder();
     const Outcome outcome = run(arguments);
     SCOPED_TRACE(testing::PrintToString(arguments));
@@ -125,6 +126,7 @@ void CommandLineTest::expectRefused(const std::vector<std::string>& arguments, c
     EXPECT_THAT(outcome.errors, HasSubstr(message));
     EXPECT_EQ(outcome.output, "");
     EXPECT_EQ(filesInFolder(), before);
+    return outcome.errors;
 }
 
 } // namespace quasilux

@@ -38,9 +38,9 @@ protected:
     /// Runs it on a terminal of its own; all that it writes there.
     Outcome runOnTerminal(std::vector<std::string> arguments) const;
 
-    /// Bad input: exit code 2, a message that holds `message`, nothing on stdout, and no file that was not there
+    /// Bad input: exit code 2, a message, returned, that holds `message`, nothing on stdout, and no file that was not there
     /// before.
-    void expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;
+    std::string expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;
 
     TemporaryFolder temporary;
     std::filesystem::path root = temporary.path(), folder = root / "work";
