@@ -9,9 +9,8 @@ namespace quasilux {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
-
 std::string_view trim(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r\n";
     const size_t first = text.find_first_not_of(blanks);
     if (first == std::string_view::npos) return {};
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
