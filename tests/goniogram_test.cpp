@@ -1,5 +1,5 @@
-// Luminaire files: IES LM-63 of every edition, type and symmetry, EULUMDAT of every symmetry. What is refused:
-// goniogram_errors_test and goniogram_makers_test.
+// Luminaire files: IES LM-63 of every edition, type and symmetry, EULUMDAT of every symmetry. What breaks a rule:
+// goniogram_makers_test, what is refused: goniogram_errors_test.
 #include "support/luminaire_files.h"
 #include "support/scene_files.h"
 

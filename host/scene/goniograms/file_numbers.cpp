@@ -8,6 +8,9 @@
 namespace quasilux {
 
 std::vector<std::string_view> splitLines(std::string_view text) {
+    // Editors begin UTF-8 by a byte order mark, which is no part of the first line.
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    if (text.substr(0, mark.size()) == mark) text.remove_prefix(mark.size());
     std::vector<std::string_view> lines;
     while (!text.empty()) {
         const size_t end = std::min(text.find_first_of("\r\n"), text.size());

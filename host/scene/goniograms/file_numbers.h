@@ -9,7 +9,7 @@
 
 namespace quasilux {
 
-/// Lines without their ends: LF, CR LF, or CR alone.
+/// Lines without their ends, LF, CR LF, or CR alone, and without a byte order mark.
 std::vector<std::string_view> splitLines(std::string_view text);
 
 /// Whether it begins like a number; what it is worth, parseNumber says.
