@@ -1,4 +1,5 @@
-// Luminaire files that break a rule of their format as makers' files do, and are read all the same, with a warning.
+// Luminaire files that break a rule of their format as makers' files do, and are read all the same, with a warning;
+// and a floodlight as programs convert it.
 #include "support/luminaire_files.h"
 
 #include <cmath>
@@ -158,6 +159,38 @@ TEST(GoniogramOfMakers, VerticalAnglesOfAFloodlightFromZeroAreMirrored) {
             }
         EXPECT_THAT(quarter.warnings, ElementsAre(HasSubstr(":6: vertical angles begin at 0")));
     }
+}
+
+// The same light as a file of type B and of type C, as programs convert them: tan V = cos C tan gamma, sin H = -sin C
+// sin gamma.
+TEST(GoniogramOfMakers, AFloodlightIsTheSameInTypesBAndC) {
+    const auto light = [](double v, double h) {
+        return 1000 * std::exp(-v * v / 200 - h * h / 1800) * std::exp(v / 60);
+    };
+    IesText b, c;
+    b.type = 2;
+    b.vertical.clear();
+    b.horizontal.clear();
+    for (int angle = -90; angle <= 90; ++angle) {
+        b.vertical.push_back(angle);
+        b.horizontal.push_back(angle);
+    }
+    b.candela = light;
+    c.vertical.clear();
+    c.horizontal.clear();
+    for (int angle = 0; angle <= 90; ++angle) c.vertical.push_back(angle);
+    for (int angle = 0; angle <= 360; ++angle) c.horizontal.push_back(angle);
+    c.candela = [&](double gamma, double turn) {
+        const double across = std::sin(gamma * degree);
+        return light(std::atan2(across * std::cos(turn * degree), std::cos(gamma * degree)) / degree,
+                     std::asin(-across * std::sin(turn * degree)) / degree);
+    };
+    const Goniogram ofB = luminaireOf(b), ofC = luminaireOf(c);
+    for (const double gamma : {5.0, 20.0, 40.0})
+        for (double turn = 10; turn < 360; turn += 20) {
+            const double expected = ofC.intensity(directionAt(turn, gamma));
+            EXPECT_NEAR(ofB.intensity(directionAt(turn, gamma)), expected, 0.01 * expected + 1) << turn << " " << gamma;
+        }
 }
 
 TEST(GoniogramOfMakers, WhatIsLeftOfADarkSignalMayBeNegative) {

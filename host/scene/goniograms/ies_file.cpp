@@ -257,9 +257,9 @@ private:
         setSphere(out_, angles.vertical, std::move(planes), true);
     }
 
-    // Type A: half planes about a vertical pole, by horizontal angle. Type B: about a horizontal one, by vertical
-    // angle. In a luminaire that looks along its axis +z, +y is up and +x to its left, so horizontal angles run towards
-    // -x.
+    // Type A: half planes about a pole, by horizontal angle. Type B: about another one, by vertical angle. In LM-63 the
+    // photometric horizontal is C0 and gamma 90 of type C and horizontal 0 and vertical 90 of type B, and horizontal
+    // angles run clockwise, against C: vertical angles go towards C0, +x, and horizontal ones towards C270, +y.
     void setTypeAOrB(bool isTypeA, IesAngles angles, std::vector<HalfPlane> planes) {
         if (angles.horizontal.front() >= 0) mirrorHorizontally(angles, planes);
         if (angles.vertical.front() >= 0) mirrorVertically(angles, planes);
@@ -278,7 +278,7 @@ private:
         }
         out_.isOfAxis = false;
         out_.axes =
-            isTypeA ? glm::dmat3({0, 0, -1}, {1, 0, 0}, {0, 1, 0}) : glm::dmat3({0, 0, -1}, {0, -1, 0}, {-1, 0, 0});
+            isTypeA ? glm::dmat3({0, 0, -1}, {0, -1, 0}, {1, 0, 0}) : glm::dmat3({0, 0, -1}, {-1, 0, 0}, {0, 1, 0});
         setSphere(out_, fromPole, std::move(half), false);
     }
 
