@@ -256,7 +256,7 @@ Goniogram readEulumdat(const std::string& path, const std::string& content, cons
     for (const char* what : {"number of the luminaire", "name of the file", "date"}) lines.text(what);
     goniogram.shape = readLuminousArea(lines);
     lines.skipNumber("downward flux fraction DFF");
-    lines.skipNumber("light output ratio LORL");
+    goniogram.statedRatio = lines.numberOr(0, "light output ratio LORL");
     const double factor = lines.numberOr(1, "conversion factor for luminous intensities");
     if (factor == 0) lines.fail("conversion factor for luminous intensities: 0; expected a number above 0.");
     lines.skipNumber("tilt of the luminaire during measurement");

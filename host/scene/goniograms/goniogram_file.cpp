@@ -63,6 +63,13 @@ void checkMagnitudes(const Goniogram& goniogram) {
                              mostOfLamps));
 }
 
+Goniogram checked(Goniogram goniogram) {
+    checkMagnitudes(goniogram);
+    makeUtf8(goniogram.luminaire);
+    for (LampSet& set : goniogram.lampSets) makeUtf8(set.name);
+    return goniogram;
+}
+
 } // namespace
 
 Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet,
@@ -78,12 +85,13 @@ Goniogram readGoniogram(const std::string& path, const SourceLocation& where, si
     if (ending == ".ies" && lampSet != firstLampSet)
         throw InputError(
             where, fmt::format("set of lamps number {} of '{}'; IES LM-63 files have one, remove it.", lampSet, path));
-    Goniogram goniogram =
-        ending == ".ldt" ? readEulumdat(path, content, where, lampSet) : readIes(path, content, mayRead);
-    checkMagnitudes(goniogram);
-    makeUtf8(goniogram.luminaire);
-    for (LampSet& set : goniogram.lampSets) makeUtf8(set.name);
-    return goniogram;
+    return checked(ending == ".ldt" ? readEulumdat(path, content, where, lampSet) : readIes(path, content, mayRead));
+}
+
+Goniogram readHeldGoniogram(const std::string& name, const std::string& content) {
+    return checked(readIes(name, content, [](const std::string&, const SourceLocation& where) {
+        throw InputError(where, "TILT= names a file, and there is none beside this one; expected NONE or INCLUDE.");
+    }));
 }
 
 } // namespace quasilux
