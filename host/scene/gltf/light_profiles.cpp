@@ -9,7 +9,7 @@ namespace quasilux {
 
 namespace {
 
-constexpr const char* extension = "EXT_lights_ies";
+constexpr const char* lightsExtension = "EXT_lights_ies";
 
 /// "a%20b" is "a b".
 std::string withoutPercents(const std::string& uri) {
@@ -47,7 +47,7 @@ std::string filenameOf(GltfContext& context, const GltfValues& profile, size_t i
     if (uri.empty() == (view < 0))
         throw InputError(where, "expected either 'uri' or 'bufferView', which holds the IES file.");
     if (view < 0 && uri.compare(0, 5, "data:") != 0) return withoutPercents(uri);
-    std::string name = fmt::format("{}: {}.lights[{}]", context.path, extension, index);
+    std::string name = fmt::format("{}: {}.lights[{}]", context.path, lightsExtension, index);
     std::string& content = context.parts.goniograms[name];
     if (!content.empty()) return name;
     if (view >= 0) {
@@ -62,16 +62,16 @@ std::string filenameOf(GltfContext& context, const GltfValues& profile, size_t i
 
 std::optional<LightProfile> lightProfileOf(GltfContext& context, const tinygltf::Node& node,
                                            const SourceLocation& where) {
-    const GltfValues light(node.extensions, extension, where);
+    const GltfValues light(node.extensions, lightsExtension, where);
     if (!light.isGiven()) return {};
     const int index = light.index("light");
-    const SourceLocation all = context.at(extension);
-    const tinygltf::Value* const list = GltfValues(context.model.extensions, extension, all).find("lights");
+    const SourceLocation all = context.at(lightsExtension);
+    const tinygltf::Value* const list = GltfValues(context.model.extensions, lightsExtension, all).find("lights");
     const size_t count = list && list->IsArray() ? list->ArrayLen() : 0;
     if (index < 0 || static_cast<size_t>(index) >= count)
-        throw InputError(
-            where, fmt::format("{}.lights[{}] does not exist; the file has {} of them.", extension, index, count));
-    const SourceLocation place = context.at(fmt::format("{}.lights", extension), static_cast<size_t>(index));
+        throw InputError(where, fmt::format("{}.lights[{}] does not exist; the file has {} of them.", lightsExtension,
+                                            index, count));
+    const SourceLocation place = context.at(fmt::format("{}.lights", lightsExtension), static_cast<size_t>(index));
     LightProfile profile;
     profile.filename = filenameOf(context, GltfValues(&list->Get(index), place), static_cast<size_t>(index), place);
     profile.multiplier = light.numberWithin("multiplier", 1, 0, 1e12);

@@ -95,7 +95,7 @@ private:
     static bool isBlank(std::string_view line) { return line.find_first_not_of(" \t\x1a") == std::string_view::npos; }
     static bool beginsNumber(std::string_view line) {
         const size_t first = line.find_first_not_of(" \t");
-        return first != std::string_view::npos && isNumber(line.substr(first));
+        return first != std::string_view::npos && beginsAsNumber(line.substr(first));
     }
 
     std::string path_;

@@ -22,7 +22,7 @@ std::vector<std::string_view> splitLines(std::string_view text) {
 }
 
 /// Whether it begins like one; what it is worth, parseNumber says.
-bool isNumber(std::string_view text) { return text.find_first_of("0123456789") == text.find_first_not_of("+-."); }
+bool beginsAsNumber(std::string_view text) { return text.find_first_of("0123456789") == text.find_first_not_of("+-."); }
 
 double NumberReader::numberFrom(const std::string& what, double lowest) {
     const double value = number(what);
@@ -110,7 +110,7 @@ std::vector<double> FileNumbers::increasing(const std::string& what, unsigned co
 }
 
 bool FileNumbers::isText(size_t further) const {
-    return next_ + further < pieces_.size() && !isNumber(pieces_[next_ + further].text);
+    return next_ + further < pieces_.size() && !beginsAsNumber(pieces_[next_ + further].text);
 }
 
 void FileNumbers::expectNumbers(const std::string& what) const {
@@ -122,7 +122,7 @@ void FileNumbers::finish(const std::string& what, std::vector<std::string>& warn
     if (next_ == pieces_.size()) return;
     const auto& [text, line] = pieces_[next_];
     const SourceLocation place{path_, line, 0};
-    if (isNumber(text))
+    if (beginsAsNumber(text))
         throw InputError(place, fmt::format("'{}' follows the last {}; expected the end of the file. The numbers of "
                                             "angles may be wrong.",
                                             text.substr(0, 40), what));

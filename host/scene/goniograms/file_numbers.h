@@ -13,7 +13,7 @@ namespace quasilux {
 std::vector<std::string_view> splitLines(std::string_view text);
 
 /// Whether it begins like a number; what it is worth, parseNumber says.
-bool isNumber(std::string_view text);
+bool beginsAsNumber(std::string_view text);
 
 /// Every query names what is read, for messages, and throws InputError at its line.
 class NumberReader {

@@ -314,11 +314,11 @@ private:
 
 /// Numbers as "0,5" of a file without points: commas separate numbers in LM-63, so it has too many of them.
 std::string withDecimalPoints(std::string text) {
-    const auto isDigit = [&](size_t k) { return k < text.size() && text[k] >= '0' && text[k] <= '9'; };
+    const auto digitAt = [&](size_t k) { return k < text.size() && text[k] >= '0' && text[k] <= '9'; };
     const size_t tilt = std::min(text.rfind("TILT"), text.size());
     if (text.find('.', tilt) != std::string::npos) return text;
     for (size_t k = tilt + 1; k + 1 < text.size(); ++k)
-        if (text[k] == ',' && isDigit(k - 1) && isDigit(k + 1)) text[k] = '.';
+        if (text[k] == ',' && digitAt(k - 1) && digitAt(k + 1)) text[k] = '.';
     return text;
 }
 
