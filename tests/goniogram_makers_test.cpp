@@ -222,6 +222,7 @@ TEST(GoniogramOfMakers, LinesOfEulumdatThatNothingDependsOnMayBeBlank) {
     text = replaced(text, "0.1\n0.2\n0.3\n", "\n\n\n");
     const Goniogram read = luminaireOf(text, "lamp.ldt");
     EXPECT_EQ(read.largest(), 100);
+    EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("lamp.ldt:24: the conversion factor")));
     EXPECT_EQ(read.shape.kind, LuminousShape::Kind::point);
     EXPECT_EQ(read.lampSets.at(0).watts, 0);
     EXPECT_EQ(read.directRatios[0], 0);

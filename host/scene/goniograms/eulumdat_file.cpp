@@ -257,7 +257,13 @@ Goniogram readEulumdat(const std::string& path, const std::string& content, cons
     goniogram.shape = readLuminousArea(lines);
     lines.skipNumber("downward flux fraction DFF");
     goniogram.statedRatio = lines.numberOr(0, "light output ratio LORL");
-    const double factor = lines.numberOr(1, "conversion factor for luminous intensities");
+    constexpr double unknown = -1;
+    double factor = lines.numberOr(unknown, "conversion factor for luminous intensities");
+    if (factor == unknown) {
+        factor = 1;
+        goniogram.warnings.push_back(lines.where().text() +
+                                     ": the conversion factor for luminous intensities is blank and taken for 1.");
+    }
     if (factor == 0) lines.fail("conversion factor for luminous intensities: 0; expected a number above 0.");
     lines.skipNumber("tilt of the luminaire during measurement");
     readLampSets(lines, goniogram);
