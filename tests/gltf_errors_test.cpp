@@ -12,6 +12,12 @@ using test::GltfFile;
 using testing::AllOf;
 using testing::HasSubstr;
 
+/// A luminaire of EXT_lights_ies at the first node.
+void addProfile(json& file, const json& profile) {
+    file["extensions"]["EXT_lights_ies"]["lights"] = {profile};
+    file["nodes"][0]["extensions"]["EXT_lights_ies"]["light"] = 0;
+}
+
 class GltfErrors : public testing::Test {
 protected:
     /// The message for a square, which `change` spoils.
@@ -72,6 +78,28 @@ TEST_F(GltfErrors, NameThePlace) {
          "ior is 0.5; expected 1 to"},
         {[](json& j) { j["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 2; },
          "KHR_lights_punctual.lights[2] does not exist"},
+        {[](json& j) { j["nodes"][0]["extensions"]["EXT_lights_ies"]["light"] = 0; },
+         "nodes[0]: EXT_lights_ies.lights[0] does not exist; the file has 0"},
+        {[](json& j) {
+             addProfile(j, {{"name", "none"}});
+         },
+         "EXT_lights_ies.lights[0]: expected either 'uri' or"},
+        {[](json& j) {
+             addProfile(j, {{"uri", "none.ies"}});
+         },
+         "nodes[0]: cannot read the luminaire file"},
+        {[](json& j) {
+             addProfile(j, {{"uri", "data:text/plain"}});
+         },
+         "the data URI has no comma"},
+        {[](json& j) {
+             addProfile(j, {{"uri", "data:;base64,SUVTTkE5MQo="}});
+         },
+         "EXT_lights_ies.lights[0]:1: the file has no line TILT=NONE"},
+        {[](json& j) {
+             addProfile(j, {{"bufferView", 99}});
+         },
+         "bufferViews[99] does not exist"},
         {[](json& j) { j["nodes"][0]["extras"]["ies"] = 5; }, "nodes[0].extras: 'ies' is no text"},
         {[](json& j) { j["nodes"][0]["extras"]["ies"] = "none.ies"; }, "nodes[0]: cannot read the luminaire file"},
         {[](json& j) { j["asset"]["version"] = "1.0"; }, "asset: glTF version 1.0; expected 2.0"},

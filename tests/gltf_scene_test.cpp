@@ -1,5 +1,6 @@
 // Lights, cameras, extras and what stands in for missing ones, of glTF files.
 #include "support/gltf_files.h"
+#include "support/luminaire_files.h"
 
 #include <fmt/format.h>
 #include <numbers>
@@ -125,6 +126,40 @@ TEST_F(GltfScene, LuminairesAndSettingsByExtras) {
     ASSERT_EQ(scene.grids.size(), 1u);
     EXPECT_EQ(scene.grids.front().ny, 3u);
     EXPECT_EQ(scene.sensor.meter, MeterKind::grid); // without a camera
+}
+
+// EXT_lights_ies: in a file, a buffer and a data URI. Its zero points along -z and C0 along +x of the node.
+TEST_F(GltfScene, LuminairesByTheirExtension) {
+    const std::string ies = test::IesText{}.text();
+    files.write("a lamp.ies", ies);
+    GltfFile file = square();
+    file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"EXT_lights_ies"};
+    std::string escaped;
+    for (const char letter : ies) escaped += letter == '\n' ? "%0a" : letter == ' ' ? "%20" : std::string(1, letter);
+    file.json["extensions"]["EXT_lights_ies"]["lights"] = {
+        {{"uri", "a%20lamp.ies"}},
+        {{"bufferView", file.view(ies.data(), ies.size())}, {"mimeType", "application/x-ies-lm-63"}},
+        {{"uri", "data:application/x-ies-lm-63," + escaped}}};
+    const auto add = [&](nlohmann::json light) {
+        file.addNode({{"extensions", {{"EXT_lights_ies", std::move(light)}}}});
+    };
+    for (const int light : {0, 1, 2, 1}) add({{"light", light}});
+    add({{"light", 0}, {"multiplier", 2}, {"color", {1, 0.5, 0}}});
+    add({{"light", 0}, {"multiplier", 0}});
+    const Scene scene = load(file);
+    ASSERT_EQ(scene.luminaireTypes.size(), 3u);
+    ASSERT_EQ(scene.pointEmitters.size(), 5u) << "one is off";
+    for (const PointEmitter& emitter : scene.pointEmitters) {
+        ASSERT_TRUE(emitter.luminaire);
+        EXPECT_LT(glm::length(emitter.luminaire->axes[2] - glm::dvec3(0, 0, -1)), 1e-9);
+        EXPECT_LT(glm::length(emitter.luminaire->axes[0] - glm::dvec3(1, 0, 0)), 1e-9);
+        EXPECT_EQ(scene.luminaireTypes[emitter.luminaire->type].goniogram.largest(), 100);
+    }
+    EXPECT_EQ(scene.pointEmitters[1].luminaire->type, scene.pointEmitters[3].luminaire->type) << "read once";
+    EXPECT_NEAR(scene.pointEmitters[0].intensity.g, 1, 1e-6) << "candela";
+    EXPECT_NEAR(scene.pointEmitters[4].intensity.r, 2, 1e-5) << "a factor of each channel";
+    EXPECT_NEAR(scene.pointEmitters[4].intensity.g, 1, 1e-5);
+    EXPECT_NEAR(scene.pointEmitters[4].intensity.b, 0, 1e-5);
 }
 
 TEST_F(GltfScene, WhatHasNoEffectIsListedOnce) {

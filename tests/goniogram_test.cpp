@@ -1,5 +1,5 @@
-// Luminaire files: IES LM-63 of every edition, type and symmetry, EULUMDAT of every symmetry. What is refused:
-// goniogram_errors_test.
+// Luminaire files: IES LM-63 of every edition, type and symmetry, EULUMDAT of every symmetry. What breaks a rule:
+// goniogram_makers_test, what is refused: goniogram_errors_test.
 #include "support/luminaire_files.h"
 #include "support/scene_files.h"
 
@@ -120,7 +120,8 @@ TEST(Goniogram, EverySymmetryOfTypeCIsTheWholeSphere) {
     EXPECT_EQ(goniogram.intensity(directionAt(10, 100)), 100);
 }
 
-/// A direction of a luminaire that looks along +z, up +y: `right` and `up` are components across.
+// As LM-63 has them: horizontal 0 and vertical 90 of type B is C0 and gamma 90 of type C, and horizontal angles run
+// clockwise seen from above, against C. So `up` is along +x and `right` along +y.
 TEST(Goniogram, TypesAAndBTurnAboutAVerticalAndAHorizontalPole) {
     for (const bool isTypeA : {true, false})
         for (const bool isSymmetric : {true, false}) {
@@ -133,7 +134,7 @@ TEST(Goniogram, TypesAAndBTurnAboutAVerticalAndAHorizontalPole) {
             const auto along = [&](double h, double v) {
                 const double right = isTypeA ? std::cos(v * degree) * std::sin(h * degree) : std::sin(h * degree);
                 const double up = isTypeA ? std::sin(v * degree) : std::cos(h * degree) * std::sin(v * degree);
-                return goniogram.intensity({-right, up, std::cos(h * degree) * std::cos(v * degree)});
+                return goniogram.intensity({up, right, std::cos(h * degree) * std::cos(v * degree)});
             };
             EXPECT_NEAR(along(30, 10), 500, 1e-6) << isTypeA << isSymmetric;
             EXPECT_NEAR(along(30, -45), 100, 1e-6) << isTypeA << isSymmetric;

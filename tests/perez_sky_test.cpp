@@ -102,6 +102,27 @@ TEST(WeatherFile, GivesTheHourAskedFor) {
     EXPECT_EQ(hour.radiation.dewPoint, 12.5);
 }
 
+// As files of several programs have it; EnergyPlus takes them too.
+TEST(WeatherFile, OtherLayoutsAreRead) {
+    const auto read = [](const std::string& content) {
+        return readWeatherHour("w.epw", content, 6, 21, 12, {"scene.xml", 1, 1});
+    };
+    const auto with = [](const std::string& from, const std::string& to) {
+        std::string content = weather;
+        return content.replace(content.find(from), from.size(), to);
+    };
+    for (const std::string& content : {"\xef\xbb\xbf" + weather, with("LOCATION", "Location"),
+                                       with("COMMENTS 2", "in two lines\n\nCOMMENTS 2"), with("COMMENTS 2\n", "")})
+        EXPECT_EQ(read(content).radiation.directNormal, 420.5) << content.substr(0, 400);
+    for (const char* year : {"0", "9999", " "})
+        EXPECT_EQ(read(head + hourLine(12, "420.5", "300", year)).time.year, 2006) << year;
+    for (const char* dewPoint : {",99.9,", ",999,", ",,"}) {
+        std::string content = head + hourLine(12, "420.5", "300");
+        EXPECT_EQ(read(content.replace(content.find(",12.5,"), 6, dewPoint)).radiation.dewPoint, Radiation{}.dewPoint);
+    }
+    EXPECT_THROW(read(head + hourLine(12, "99999", "300")), InputError) << "missing";
+}
+
 // Cut off anywhere, and with bytes changed at random: read, or an error that names the file, and no number that is not
 // finite.
 TEST(WeatherFile, AnyContentIsReadOrRefused) {
@@ -210,6 +231,7 @@ TEST(PerezSkyEmitter, SaysWhatIsWrong) {
     files.write("halves.epw", halves);
     files.write("no.epw", "DATA\n");
     files.write("empty.epw", "");
+    files.write("headless.epw", head.substr(0, head.find("DATA")) + hourLine(12, "5", "5"));
     const auto file = [](const std::string& name, int hour) {
         return "<string name=\"weather\" value=\"" + name +
                "\"/>\n<integer name=\"month\" value=\"6\"/><integer name=\"day\" value=\"21\"/><integer name=\"hour\" "
@@ -241,8 +263,9 @@ TEST(PerezSkyEmitter, SaysWhatIsWrong) {
         {file("short.epw", 12), {"short.epw:9:1", "has 5 fields"}},
         {file("word.epw", 12), {"word.epw:9:1", "much"}},
         {file("negative.epw", 12), {"negative.epw:9:1", "diffuse horizontal radiation is -1"}},
-        {file("halves.epw", 12), {"halves.epw:8:1", "the number of records an hour is 2; expected 1 to 1"}},
+        {file("halves.epw", 12), {"halves.epw:8:1", "the file has 2 records an hour; expected one"}},
         {file("no.epw", 12), {"no.epw:1:1", "begins with LOCATION"}},
+        {file("headless.epw", 12), {"headless.epw:1:1", "no line DATA PERIODS"}},
         {file("empty.epw", 12), {"begins with LOCATION"}},
         {file("none.epw", 12), {"scene.xml:5:1", "none.epw"}},
         {measured(1, 1) + "<float name=\"dewpoint\" value=\"1\"/>", {"Did you mean 'dew_point'"}}};

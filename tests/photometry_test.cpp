@@ -122,6 +122,8 @@ TEST_F(PhotometryCommandTest, PrintsFiguresAndWritesTheCurve) {
     EXPECT_NEAR(figures.at("lumens").get<double>(), 200 * pi, 1e-6);
     EXPECT_NEAR(figures.at("efficacy").get<double>(), 10 * pi, 1e-6);
     EXPECT_EQ(figures.at("lampLumens"), 1000);
+    EXPECT_NEAR(figures.at("statedLightOutputRatio").get<double>(), 0.8, 1e-12);
+    EXPECT_THAT(run({"photometry", "lamp.ldt"}).output, HasSubstr("leave the luminaire 62.8 %, by the file 80 %"));
     EXPECT_EQ(run({"photometry", "lamp.ldt", "--quiet"}).output, "");
 }
 

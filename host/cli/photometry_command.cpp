@@ -28,6 +28,7 @@ nlohmann::json photometryJson(const Goniogram& goniogram, const Photometry& figu
             {"absolute", goniogram.absolute},
             {"lamps", lamps.lamps},
             {"lampLumens", orNull(figures.lampLumens)},
+            {"statedLightOutputRatio", orNull(goniogram.statedRatio / 100)},
             {"luminousShape", goniogram.shape.text()},
             {"lumens", figures.lumens},
             {"upwardLumens", figures.upwardLumens},
@@ -45,8 +46,9 @@ void printHead(const Goniogram& goniogram, const Photometry& figures) {
     if (!goniogram.luminaire.empty()) fmt::print("luminaire: {}\n", goniogram.luminaire);
     fmt::print("luminous shape: {}\n", goniogram.shape.text());
     if (figures.lampLumens > 0)
-        fmt::print("lamps: {}, {:.6g} lm together; of these leave the luminaire {:.1f} %\n", lamps.lamps,
-                   figures.lampLumens, 100 * figures.lumens / figures.lampLumens);
+        fmt::print("lamps: {}, {:.6g} lm together; of these leave the luminaire {:.1f} %{}\n", lamps.lamps,
+                   figures.lampLumens, 100 * figures.lumens / figures.lampLumens,
+                   goniogram.statedRatio > 0 ? fmt::format(", by the file {:.4g} %", goniogram.statedRatio) : "");
     fmt::print("luminous flux: {:.6g} lm, upwards {:.1f} %\n", figures.lumens,
                100 * figures.upwardLumens / figures.lumens);
     if (figures.watts > 0) fmt::print("power: {:.6g} W, efficacy {:.4g} lm/W\n", figures.watts, figures.efficacy());

@@ -1,4 +1,4 @@
-// Meshes and images that a scene holds itself, where XML names files.
+// Meshes, images and IES files that a scene holds itself, where XML names files.
 #pragma once
 
 #include "scene/scene.h"
@@ -19,10 +19,11 @@ struct Image {
 };
 
 /// By the names under which elements mention them: `name` of <shape type="mesh">, `filename` of <texture
-/// type="bitmap">.
+/// type="bitmap"> and <emitter type="quasilux_ies">.
 struct EmbeddedParts {
     std::map<std::string, std::shared_ptr<const MeshSource>> meshes;
     std::map<std::string, Image> images;
+    std::map<std::string, std::string> goniograms; ///< contents of IES files
 };
 
 } // namespace quasilux

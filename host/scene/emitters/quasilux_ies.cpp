@@ -9,6 +9,13 @@ namespace quasilux {
 
 namespace {
 
+/// Content of an IES file that the scene holds, or null.
+const std::string* heldGoniogram(const LoadContext& context, const std::string& name) {
+    if (!context.embedded) return nullptr;
+    const auto found = context.embedded->goniograms.find(name);
+    return found == context.embedded->goniograms.end() ? nullptr : &found->second;
+}
+
 /// Index into Scene::luminaireTypes; of luminaires of a type the file is read once.
 unsigned typeOf(Properties& properties) {
     LoadContext& context = properties.context();
@@ -23,7 +30,8 @@ unsigned typeOf(Properties& properties) {
                          fmt::format("parameter 'lamp_set' is {}; expected a number from 1.", lampSet));
     const double metresPerUnit = properties.numberAbove("metres_per_unit", 1, 0, true);
     const bool fromShape = properties.boolean("luminous_shape", true);
-    const std::string path = context.files.resolve(name, where);
+    const std::string* const held = heldGoniogram(context, name);
+    const std::string path = held ? name : context.files.resolve(name, where);
     const auto [entry, isNew] =
         context.luminaireTypes.insert({{path, static_cast<size_t>(lampSet), metresPerUnit, fromShape},
                                        static_cast<unsigned>(context.scene.luminaireTypes.size())});
@@ -31,7 +39,8 @@ unsigned typeOf(Properties& properties) {
         const auto mayRead = [&](const std::string& named, const SourceLocation& whereNamed) {
             context.files.guard().admit(named, whereNamed);
         };
-        Goniogram goniogram = readGoniogram(path, where, static_cast<size_t>(lampSet), mayRead);
+        Goniogram goniogram =
+            held ? readHeldGoniogram(name, *held) : readGoniogram(path, where, static_cast<size_t>(lampSet), mayRead);
         context.scene.warnings.insert(context.scene.warnings.end(), goniogram.warnings.begin(),
                                       goniogram.warnings.end());
         context.scene.luminaireTypes.push_back({std::move(goniogram), metresPerUnit, fromShape});

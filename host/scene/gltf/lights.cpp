@@ -2,9 +2,12 @@
 
 #include "scene/gltf/elements.h"
 #include "scene/gltf/json_values.h"
+#include "scene/gltf/light_profiles.h"
+#include "scene/photometric_units.h"
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace quasilux {
 
@@ -58,14 +61,34 @@ Element punctualLight(GltfContext& context, const tinygltf::Light& light, const 
     return emitter;
 }
 
+Element luminaireOf(GltfContext& context, const std::string& filename, const std::string& name,
+                    const glm::dmat4& toWorld, const SourceLocation& where) {
+    Element emitter = newObject("emitter", "quasilux_ies", context.newId(name, "luminaire"), where);
+    addText(emitter, "filename", filename);
+    addMatrix(emitter, "to_world", lightAxes(toWorld, where));
+    return emitter;
+}
+
 /// By a file of its intensities; what a light at the same node says of its colour counts, its intensity does not.
 Element luminaire(GltfContext& context, const GltfValues& extras, const tinygltf::Light* light, const std::string& name,
                   const glm::dmat4& toWorld, const SourceLocation& where) {
-    Element emitter = newObject("emitter", "quasilux_ies", context.newId(name, "luminaire"), where);
-    addText(emitter, "filename", extras.text("ies"));
+    Element emitter = luminaireOf(context, extras.text("ies"), name, toWorld, where);
     if (extras.find("lumens")) addNumber(emitter, "lumens", extras.number("lumens", 0));
     if (light) addColor(emitter, "tint", colorOf(*light, where));
-    addMatrix(emitter, "to_world", lightAxes(toWorld, where));
+    return emitter;
+}
+
+/// Likewise of EXT_lights_ies, whose colour is a factor: it changes lumens, which a tint does not. Nothing where it is
+/// off.
+std::optional<Element> luminaire(GltfContext& context, const LightProfile& profile, const tinygltf::Light* light,
+                                 const std::string& name, const glm::dmat4& toWorld, const SourceLocation& where) {
+    const glm::dvec3& color = profile.color;
+    const glm::dvec3 tint = light ? color * colorOf(*light, where) : color;
+    const double factor = profile.multiplier * luminanceOf(color.x, color.y, color.z);
+    if (!(factor > 0) || tint == glm::dvec3(0)) return {};
+    Element emitter = luminaireOf(context, profile.filename, name, toWorld, where);
+    if (factor != 1) addNumber(emitter, "maintenance", factor);
+    if (tint != glm::dvec3(1)) addColor(emitter, "tint", tint);
     return emitter;
 }
 
@@ -82,6 +105,11 @@ bool addLight(GltfContext& context, const PlacedNode& placed, Element& scene) {
     if (extras.find("ies")) {
         scene.children.push_back(luminaire(context, extras, light, node.name, placed.toWorld, where));
         return true;
+    }
+    if (const auto profile = lightProfileOf(context, node, where)) {
+        auto emitter = luminaire(context, *profile, light, node.name, placed.toWorld, where);
+        if (emitter) scene.children.push_back(std::move(*emitter));
+        return emitter.has_value();
     }
     if (!light) return false;
     const SourceLocation place = context.at("KHR_lights_punctual.lights", static_cast<size_t>(index));

@@ -17,11 +17,17 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-const Names knownExtensions = {"EXT_mesh_gpu_instancing",    "KHR_lights_punctual",
-                               "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
-                               "KHR_materials_ior",          "KHR_materials_specular",
-                               "KHR_materials_transmission", "KHR_materials_volume",
-                               "KHR_mesh_quantization",      "KHR_texture_transform"};
+const Names knownExtensions = {"EXT_lights_ies",
+                               "EXT_mesh_gpu_instancing",
+                               "KHR_lights_punctual",
+                               "KHR_materials_clearcoat",
+                               "KHR_materials_emissive_strength",
+                               "KHR_materials_ior",
+                               "KHR_materials_specular",
+                               "KHR_materials_transmission",
+                               "KHR_materials_volume",
+                               "KHR_mesh_quantization",
+                               "KHR_texture_transform"};
 
 // tinygltf reads what is free of form, such as extras, by recursion.
 constexpr int maximumJsonNesting = 100;

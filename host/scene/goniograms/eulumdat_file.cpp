@@ -37,10 +37,15 @@ public:
         return parseNumber(line, where(), what);
     }
 
+    /// Where the line is blank, as programs leave what they do not know, it is `unknown`.
+    double numberOr(double unknown, const std::string& what) {
+        if (next_ == lines_.size() || !isBlank(lines_[next_])) return numberFrom(what, 0);
+        ++next_;
+        return unknown;
+    }
     /// A number that nothing depends on; the line may be blank.
     void skipNumber(const std::string& what) {
-        const bool isBlank = next_ < lines_.size() && lines_[next_].find_first_not_of(" \t") == std::string_view::npos;
-        if (isBlank)
+        if (next_ < lines_.size() && isBlank(lines_[next_]))
             ++next_;
         else
             number(what);
@@ -63,21 +68,36 @@ public:
         return values;
     }
 
+    /// Lines up to the first that is no number, or blank.
+    size_t numbersLeft() const {
+        const auto from = lines_.begin() + static_cast<std::ptrdiff_t>(next_);
+        const auto end = std::find_if(from, lines_.end(), [](std::string_view line) { return !beginsNumber(line); });
+        return static_cast<size_t>(end - from);
+    }
     size_t left() const { return lines_.size() - next_; }
 
-    void finish() {
-        for (; next_ < lines_.size(); ++next_)
-            if (lines_[next_].find_first_not_of(" \t\x1a") != std::string_view::npos)
-                throw InputError(
-                    SourceLocation{path_, static_cast<int>(next_) + 1, 0},
-                    "a line follows the last intensity; expected the end of the file. The numbers of angles "
-                    "may be wrong.");
+    void finish(std::vector<std::string>& warnings) {
+        rejectNegative("luminous intensity", warnings);
+        while (next_ < lines_.size() && isBlank(lines_[next_])) ++next_;
+        if (next_ == lines_.size()) return;
+        const SourceLocation place{path_, static_cast<int>(next_) + 1, 0};
+        if (beginsNumber(lines_[next_]))
+            throw InputError(place, "a line follows the last intensity; expected the end of the file. The numbers of "
+                                    "angles may be wrong.");
+        warnings.push_back(place.text() + ": text follows the last intensity and is left out.");
     }
 
     /// Of the line that was read last.
     SourceLocation where() const override { return {path_, static_cast<int>(next_), 0}; }
 
 private:
+    // Old systems mark the end of a text by Ctrl-Z.
+    static bool isBlank(std::string_view line) { return line.find_first_not_of(" \t\x1a") == std::string_view::npos; }
+    static bool beginsNumber(std::string_view line) {
+        const size_t first = line.find_first_not_of(" \t");
+        return first != std::string_view::npos && beginsAsNumber(line.substr(first));
+    }
+
     std::string path_;
     std::vector<std::string_view> lines_;
     size_t next_ = 0;
@@ -104,7 +124,7 @@ struct EulumdatCounts {
 
 EulumdatCounts readEulumdatCounts(EulumdatLines& lines) {
     lines.text("company");
-    lines.integer("type indicator Ityp", 0, 3);
+    lines.skipNumber("type indicator Ityp");
     EulumdatCounts counts{};
     counts.symmetry = lines.integer("symmetry indicator Isym", 0, 4);
     counts.planes = lines.integer("number of C-planes Mc", 1, mostPlanes);
@@ -116,21 +136,21 @@ EulumdatCounts readEulumdatCounts(EulumdatLines& lines) {
     if (counts.planes % divisor != 0)
         lines.fail(fmt::format("number of C-planes Mc: {}; expected a multiple of {} with symmetry {}.", counts.planes,
                                divisor, counts.symmetry));
-    lines.numberFrom("distance between C-planes Dc", 0);
+    lines.skipNumber("distance between C-planes Dc");
     counts.angles = lines.integer("number of angles Ng", 2, mostGammas);
-    lines.numberFrom("distance between angles Dg", 0);
+    lines.skipNumber("distance between angles Dg");
     return counts;
 }
 
 LuminousShape readLuminousArea(EulumdatLines& lines) {
     for (const char* what : {"length of the luminaire", "width of the luminaire", "height of the luminaire"})
-        lines.numberFrom(what, 0);
+        lines.skipNumber(what);
     LuminousShape shape;
-    shape.sizeC90 = metresPerMillimetre * lines.numberFrom("length or diameter of the luminous area", 0);
-    shape.sizeC0 = metresPerMillimetre * lines.numberFrom("width of the luminous area", 0);
+    shape.sizeC90 = metresPerMillimetre * lines.numberOr(0, "length or diameter of the luminous area");
+    shape.sizeC0 = metresPerMillimetre * lines.numberOr(0, "width of the luminous area");
     for (const char* what :
          {"luminous height, C0", "luminous height, C90", "luminous height, C180", "luminous height, C270"})
-        shape.height += metresPerMillimetre / 4 * lines.numberFrom(what, 0);
+        shape.height += metresPerMillimetre / 4 * lines.numberOr(0, what);
     using Kind = LuminousShape::Kind;
     if (shape.sizeC90 > 0 && shape.sizeC0 == 0) {
         shape.kind = Kind::uprightRod;
@@ -153,7 +173,7 @@ LampSet readLampSet(EulumdatLines& lines, bool& isAbsolute) {
     if (set.lumens == 0) lines.fail("total luminous flux of lamps: 0; expected lumens above 0.");
     lines.text("colour of the light");
     lines.text("colour rendering");
-    set.watts = lines.numberFrom("wattage including ballast", 0);
+    set.watts = lines.numberOr(0, "wattage including ballast");
     return set;
 }
 
@@ -173,7 +193,7 @@ void expectAt(const EulumdatLines& lines, double found, double expected) {
 
 /// The file lists the azimuths of all planes, but intensities only from plane `first` on, and those of C270 before C0.
 std::vector<HalfPlane> listedPlanes(EulumdatLines& lines, const EulumdatCounts& counts) {
-    const std::vector<double> all = lines.increasing("C-angles", counts.planes, 360 - 1e-6);
+    const std::vector<double> all = lines.increasing("C-angles", counts.planes, 360);
     expectAt(lines, all[0], 0);
     const unsigned first = counts.symmetry == aboutC90 ? 3 * counts.planes / 4 : 0;
     std::vector<HalfPlane> planes;
@@ -189,7 +209,20 @@ void mirrorAll(std::vector<HalfPlane>& planes, unsigned symmetry) {
     if (symmetry == aboutC0 || symmetry == aboutBoth) mirrorPlanes(planes, 0);
 }
 
-void readIntensities(EulumdatLines& lines, const EulumdatCounts& counts, double candelaPerUnit, Goniogram& goniogram) {
+/// Some files list all planes in spite of their symmetry: then it says nothing that they do not.
+void noticeAllPlanes(const EulumdatLines& lines, EulumdatCounts& counts, Goniogram& goniogram) {
+    const size_t angles = size_t(counts.planes) + counts.angles;
+    if (counts.listed() == counts.planes || lines.numbersLeft() != angles + size_t(counts.planes) * counts.angles)
+        return;
+    goniogram.warnings.push_back(
+        fmt::format("{}: the file has symmetry {} and intensities of {} planes, but lists those "
+                    "of all {}, which are taken.",
+                    lines.where().text(), counts.symmetry, counts.listed(), counts.planes));
+    counts.symmetry = asymmetric;
+}
+
+void readIntensities(EulumdatLines& lines, EulumdatCounts counts, double candelaPerUnit, Goniogram& goniogram) {
+    noticeAllPlanes(lines, counts, goniogram);
     std::vector<HalfPlane> planes = listedPlanes(lines, counts);
     const std::vector<double> polar = lines.increasing("gamma angles", counts.angles, 180);
     const size_t expected = size_t(counts.listed()) * counts.angles;
@@ -200,8 +233,8 @@ void readIntensities(EulumdatLines& lines, const EulumdatCounts& counts, double 
                         counts.listed(), counts.angles, expected, lines.left()));
     for (HalfPlane& plane : planes)
         for (unsigned k = 0; k < counts.angles; ++k)
-            plane.candela.push_back(candelaPerUnit * lines.numberFrom("luminous intensity", 0));
-    lines.finish();
+            plane.candela.push_back(candelaPerUnit * lines.intensity("luminous intensity"));
+    lines.finish(goniogram.warnings);
     mirrorAll(planes, counts.symmetry);
     goniogram.axes = axesOfTypeC();
     setSphere(goniogram, polar, std::move(planes), true);
@@ -222,16 +255,22 @@ Goniogram readEulumdat(const std::string& path, const std::string& content, cons
     goniogram.luminaire = lines.text("name of the luminaire");
     for (const char* what : {"number of the luminaire", "name of the file", "date"}) lines.text(what);
     goniogram.shape = readLuminousArea(lines);
-    lines.numberFrom("downward flux fraction DFF", 0);
-    lines.numberFrom("light output ratio LORL", 0);
-    const double factor = lines.numberFrom("conversion factor for luminous intensities", 0);
+    lines.skipNumber("downward flux fraction DFF");
+    goniogram.statedRatio = lines.numberOr(0, "light output ratio LORL");
+    constexpr double unknown = -1;
+    double factor = lines.numberOr(unknown, "conversion factor for luminous intensities");
+    if (factor == unknown) {
+        factor = 1;
+        goniogram.warnings.push_back(lines.where().text() +
+                                     ": the conversion factor for luminous intensities is blank and taken for 1.");
+    }
     if (factor == 0) lines.fail("conversion factor for luminous intensities: 0; expected a number above 0.");
     lines.skipNumber("tilt of the luminaire during measurement");
     readLampSets(lines, goniogram);
     if (lampSet < 1 || lampSet > goniogram.lampSets.size())
         throw InputError(where, fmt::format("there is no set of lamps number {} in '{}'; expected 1 to {}.", lampSet,
                                             path, goniogram.lampSets.size()));
-    for (double& ratio : goniogram.directRatios) ratio = lines.numberFrom("direct ratio DR", 0);
+    for (double& ratio : goniogram.directRatios) ratio = lines.numberOr(0, "direct ratio DR");
     const double candelaPerUnit = factor * goniogram.lampSets[goniogram.lampSet].lumens / 1000; // given as cd/klm
     readIntensities(lines, counts, candelaPerUnit, goniogram);
     return goniogram;

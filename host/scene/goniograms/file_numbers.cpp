@@ -8,6 +8,9 @@
 namespace quasilux {
 
 std::vector<std::string_view> splitLines(std::string_view text) {
+    // Editors begin UTF-8 by a byte order mark, which is no part of the first line.
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    if (text.substr(0, mark.size()) == mark) text.remove_prefix(mark.size());
     std::vector<std::string_view> lines;
     while (!text.empty()) {
         const size_t end = std::min(text.find_first_of("\r\n"), text.size());
@@ -18,10 +21,32 @@ std::vector<std::string_view> splitLines(std::string_view text) {
     return lines;
 }
 
+/// Whether it begins like one; what it is worth, parseNumber says.
+bool beginsAsNumber(std::string_view text) { return text.find_first_of("0123456789") == text.find_first_not_of("+-."); }
+
 double NumberReader::numberFrom(const std::string& what, double lowest) {
     const double value = number(what);
     if (value < lowest) fail(fmt::format("{}: {}; expected at least {}.", what, value, lowest));
     return value;
+}
+
+double NumberReader::intensity(const std::string& what) {
+    const double value = number(what);
+    largest_ = std::max(largest_, value);
+    if (value < least_) {
+        least_ = value;
+        whereLeast_ = where();
+    }
+    return std::max(value, 0.0);
+}
+
+void NumberReader::rejectNegative(const std::string& what, std::vector<std::string>& warnings) const {
+    constexpr double noise = 1e-3;
+    if (least_ == 0) return;
+    if (!(-least_ <= noise * largest_))
+        throw InputError(whereLeast_, fmt::format("{}: {}; expected at least 0.", what, least_));
+    warnings.push_back(fmt::format("{}: {}: {}; expected at least 0, to which what is negative is set.",
+                                   whereLeast_.text(), what, least_));
 }
 
 void NumberReader::addLarger(std::vector<double>& values, double value, const std::string& what) const {
@@ -84,12 +109,25 @@ std::vector<double> FileNumbers::increasing(const std::string& what, unsigned co
     return values;
 }
 
-void FileNumbers::finish(const std::string& what) const {
+bool FileNumbers::isText(size_t further) const {
+    return next_ + further < pieces_.size() && !beginsAsNumber(pieces_[next_ + further].text);
+}
+
+void FileNumbers::expectNumbers(const std::string& what) const {
+    for (size_t k = next_; k < pieces_.size(); ++k) parseNumber(pieces_[k].text, {path_, pieces_[k].line, 0}, what);
+}
+
+void FileNumbers::finish(const std::string& what, std::vector<std::string>& warnings) const {
+    rejectNegative(what, warnings);
     if (next_ == pieces_.size()) return;
-    throw InputError(
-        SourceLocation{path_, pieces_[next_].line, 0},
-        fmt::format("'{}' follows the last {}; expected the end of the file. The numbers of angles may be wrong.",
-                    pieces_[next_].text.substr(0, 40), what));
+    const auto& [text, line] = pieces_[next_];
+    const SourceLocation place{path_, line, 0};
+    if (beginsAsNumber(text))
+        throw InputError(place, fmt::format("'{}' follows the last {}; expected the end of the file. The numbers of "
+                                            "angles may be wrong.",
+                                            text.substr(0, 40), what));
+    warnings.push_back(fmt::format("{}: '{}' and what follows is left out; the last {} stands before it.", place.text(),
+                                   asMessage(std::string(text.substr(0, 40))), what));
 }
 
 } // namespace quasilux

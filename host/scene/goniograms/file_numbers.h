@@ -9,8 +9,11 @@
 
 namespace quasilux {
 
-/// Lines without their ends: LF, CR LF, or CR alone.
+/// Lines without their ends, LF, CR LF, or CR alone, and without a byte order mark.
 std::vector<std::string_view> splitLines(std::string_view text);
+
+/// Whether it begins like a number; what it is worth, parseNumber says.
+bool beginsAsNumber(std::string_view text);
 
 /// Every query names what is read, for messages, and throws InputError at its line.
 class NumberReader {
@@ -21,11 +24,19 @@ public:
     virtual SourceLocation where() const = 0;
 
     double numberFrom(const std::string& what, double lowest);
+    /// Not below 0, but for what is left of a dark signal, which becomes 0; `rejectNegative` says what is too much.
+    double intensity(const std::string& what);
+    /// Throws InputError where an intensity was further below 0 than a thousandth of the largest one.
+    void rejectNegative(const std::string& what, std::vector<std::string>& warnings) const;
     [[noreturn]] void fail(const std::string& message) const { throw InputError(where(), message); }
 
 protected:
     /// Adds one that is greater than the last of `values`.
     void addLarger(std::vector<double>& values, double value, const std::string& what) const;
+
+private:
+    double largest_ = 0, least_ = 0; ///< of the intensities
+    SourceLocation whereLeast_;
 };
 
 /// Numbers one after the other, however they are spread over lines.
@@ -42,8 +53,12 @@ public:
     std::vector<double> increasing(const std::string& what, unsigned count, double lowest, double highest);
     /// How many are left.
     size_t left() const { return pieces_.size() - next_; }
-    /// Throws InputError where there are more.
-    void finish(const std::string& what) const;
+    /// Whether so many pieces on text stands, and no number.
+    bool isText(size_t further) const;
+    /// Throws InputError at the first piece of those left that is no number.
+    void expectNumbers(const std::string& what) const;
+    /// Throws InputError where there are more numbers, and warns of other text.
+    void finish(const std::string& what, std::vector<std::string>& warnings) const;
     SourceLocation where() const override;
 
 private:

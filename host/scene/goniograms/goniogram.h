@@ -64,6 +64,7 @@ struct Goniogram {
     std::vector<LampSet> lampSets;         ///< at least one
     size_t lampSet = 0;                    ///< that the intensities are of
     std::array<double, 10> directRatios{}; ///< of EULUMDAT, for room indices 0.6 to 5; 0 elsewhere
+    double statedRatio = 0;                ///< of EULUMDAT: light output ratio in percent; 0: not said
     TiltTable tilt;
     LuminousShape shape;
 
@@ -98,5 +99,8 @@ using FileCheck = std::function<void(const std::string& path, const SourceLocati
 /// `mayRead` is asked about files that this one names.
 Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet = firstLampSet,
                         const FileCheck& mayRead = {});
+
+/// Of the content of an IES file that a scene holds under `name`, and that names no other file.
+Goniogram readHeldGoniogram(const std::string& name, const std::string& content);
 
 } // namespace quasilux

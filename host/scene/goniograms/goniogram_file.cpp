@@ -27,13 +27,6 @@ bool isUtf8(const std::string& text) {
     return true;
 }
 
-/// Editors begin UTF-8 by a byte order mark, which is no part of the first line.
-std::string withoutMark(std::string text) {
-    constexpr std::string_view mark = "\xef\xbb\xbf";
-    if (text.compare(0, mark.size(), mark) == 0) text.erase(0, mark.size());
-    return text;
-}
-
 /// Old files are in Latin-1. Without control characters, which no page may hold.
 void makeUtf8(std::string& text) {
     const bool isLatin1 = !isUtf8(text);
@@ -70,6 +63,13 @@ void checkMagnitudes(const Goniogram& goniogram) {
                              mostOfLamps));
 }
 
+Goniogram checked(Goniogram goniogram) {
+    checkMagnitudes(goniogram);
+    makeUtf8(goniogram.luminaire);
+    for (LampSet& set : goniogram.lampSets) makeUtf8(set.name);
+    return goniogram;
+}
+
 } // namespace
 
 Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet,
@@ -81,16 +81,17 @@ Goniogram readGoniogram(const std::string& path, const SourceLocation& where, si
                          fmt::format("'{}' has the ending '{}'; expected a luminaire's file, .ies (IES LM-63) or .ldt "
                                      "(EULUMDAT).",
                                      path, ending));
-    const std::string content = withoutMark(readFile(path, where, "luminaire"));
+    const std::string content = readFile(path, where, "luminaire");
     if (ending == ".ies" && lampSet != firstLampSet)
         throw InputError(
             where, fmt::format("set of lamps number {} of '{}'; IES LM-63 files have one, remove it.", lampSet, path));
-    Goniogram goniogram =
-        ending == ".ldt" ? readEulumdat(path, content, where, lampSet) : readIes(path, content, mayRead);
-    checkMagnitudes(goniogram);
-    makeUtf8(goniogram.luminaire);
-    for (LampSet& set : goniogram.lampSets) makeUtf8(set.name);
-    return goniogram;
+    return checked(ending == ".ldt" ? readEulumdat(path, content, where, lampSet) : readIes(path, content, mayRead));
+}
+
+Goniogram readHeldGoniogram(const std::string& name, const std::string& content) {
+    return checked(readIes(name, content, [](const std::string&, const SourceLocation& where) {
+        throw InputError(where, "TILT= names a file, and there is none beside this one; expected NONE or INCLUDE.");
+    }));
 }
 
 } // namespace quasilux

@@ -1,6 +1,7 @@
 #include "scene/goniograms/ies_file.h"
 
 #include "scene/goniograms/file_numbers.h"
+#include "scene/goniograms/ies_edition.h"
 #include "scene/goniograms/sphere_grid.h"
 #include "scene/xml/xml_document.h"
 
@@ -17,75 +18,6 @@ namespace {
 constexpr unsigned mostAnglesOfIes = 3601; // every tenth of a degree all the way round
 constexpr unsigned mostLamps = 100000, mostTilts = 1000;
 constexpr double metresPerFoot = 0.3048;
-
-enum class Edition { of1986, of1991, of1995, of2002, of2019 };
-constexpr std::pair<std::string_view, Edition> editionHeaders[] = {{"IESNA91", Edition::of1991},
-                                                                   {"IESNA:LM-63-1995", Edition::of1995},
-                                                                   {"IESNA:LM-63-2002", Edition::of2002},
-                                                                   {"IES:LM-63-2019", Edition::of2019}};
-constexpr std::string_view editionFormats[] = {"IES LM-63-1986", "IES LM-63-1991", "IES LM-63-1995", "IES LM-63-2002",
-                                               "IES LM-63-2019"};
-
-/// Without regard to case, which files have either way.
-bool isWord(std::string_view text, std::string_view word) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : int(c); };
-    return std::equal(text.begin(), text.end(), word.begin(), word.end(),
-                      [&](char a, char b) { return lower(a) == lower(b); });
-}
-
-std::string_view withoutBlanks(std::string_view text) {
-    const size_t first = text.find_first_not_of(" \t");
-    return first == std::string_view::npos ? std::string_view{}
-                                           : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// The rows of LM-63-1995 that the edition of 2002 gives another meaning, or none, after I. Ashdown, "Parsing the IESNA
-/// LM-63 photometric data file" (1998), where (width, length, height) are (-d, 0, -d) a sphere, (0, l, -d) and (w, 0,
-/// -d) cylinders that lie, (-w, l, h) and (w, -l, h) ellipses, and with -h ellipsoids. False for all others: circles,
-/// upright cylinders and boxes are the same in both tables.
-bool setShapeUntil1995(LuminousShape& shape, double width, double length, double height) {
-    using Kind = LuminousShape::Kind;
-    if (width * length < 0) { // one of them is negative: an ellipse
-        shape.kind = height < 0 ? Kind::ellipsoid : Kind::uprightRod;
-        return true;
-    }
-    if (height >= 0 || (width == 0) == (length == 0)) return false;
-    if (width < 0) {
-        shape.kind = Kind::ellipsoid;
-        shape.sizeC0 = shape.sizeC90;
-    } else if (length > 0) {
-        shape.kind = Kind::rodAlongC0;
-        shape.sizeC90 = shape.height;
-    } else if (width > 0) {
-        shape.kind = Kind::rodAlongC90;
-        shape.sizeC0 = shape.height;
-    } else {
-        return false; // (0, -l, -h) is in neither
-    }
-    return true;
-}
-
-/// What width (along C90), length (along C0) and height stand for, signs included, in units of `metres`.
-LuminousShape shapeOfLm63(Edition edition, double width, double length, double height, double metres) {
-    using Kind = LuminousShape::Kind;
-    LuminousShape shape;
-    shape.sizeC0 = std::abs(length) * metres;
-    shape.sizeC90 = std::abs(width) * metres;
-    shape.height = std::abs(height) * metres;
-    const bool isRound = width < 0 || length < 0;
-    if (edition < Edition::of2002 && setShapeUntil1995(shape, width, length, height)) return shape;
-    if (height < 0 && isRound) { // rounded also upright: an ellipsoid, or a cylinder that lies
-        shape.kind = width >= 0 ? Kind::rodAlongC90 : length >= 0 ? Kind::rodAlongC0 : Kind::ellipsoid;
-    } else if (isRound && !(width > 0) && !(length > 0)) {
-        shape.kind = Kind::uprightRod;
-        // Until 1995 one diameter says it.
-        if (length == 0) shape.sizeC0 = shape.sizeC90;
-        if (width == 0) shape.sizeC90 = shape.sizeC0;
-    } else {
-        shape.kind = width == 0 && length == 0 && height == 0 ? Kind::point : Kind::box;
-    }
-    return shape;
-}
 
 /// Beam angles of candela as the file lists them: `horizontal` half planes, or for type B what lies across.
 struct IesAngles {
@@ -115,16 +47,22 @@ public:
 private:
     SourceLocation lineAt(size_t index) const { return {out_.path, static_cast<int>(index) + 1, 0}; }
 
+    void warn(const std::string& where, const std::string& message) { out_.warnings.push_back(where + ": " + message); }
+
     void readHeader() {
-        const std::string_view first = lines_.empty() ? std::string_view{} : withoutBlanks(lines_[0]);
-        for (const auto& [name, edition] : editionHeaders)
-            if (isWord(first, name)) edition_ = edition;
-        // The edition of 1986 begins with any line.
-        if (edition_ == Edition::of1986 && (isWord(first.substr(0, 4), "IES:") || isWord(first.substr(0, 5), "IESNA")))
-            throw InputError(lineAt(0), fmt::format("'{}' is no known edition; expected IESNA91, IESNA:LM-63-1995, "
-                                                    "IESNA:LM-63-2002, IES:LM-63-2019 or, of 1986, none.",
-                                                    first.substr(0, 60)));
-        out_.format = editionFormats[static_cast<size_t>(edition_)];
+        size_t line = 0;
+        while (line + 1 < lines_.size() && withoutBlanks(lines_[line]).empty()) ++line;
+        const std::string_view first = lines_.empty() ? std::string_view{} : withoutBlanks(lines_[line]);
+        const std::optional<IesFirstLine> found = readIesFirstLine(first);
+        if (!found)
+            throw InputError(lineAt(line), fmt::format("'{}' is no known edition; expected IESNA91, IESNA:LM-63-1995, "
+                                                       "IESNA:LM-63-2002, IES:LM-63-2019 or, of 1986, none.",
+                                                       first.substr(0, 60)));
+        edition_ = found->edition;
+        out_.format = formatOf(edition_);
+        namesEdition_ = edition_ != IesEdition::of1986 || !found->isExact;
+        if (!found->isExact)
+            warn(lineAt(line).text(), fmt::format("'{}' is taken for {}.", first.substr(0, 60), out_.format));
     }
 
     /// What follows TILT=, around whose sign files have blanks.
@@ -139,11 +77,21 @@ private:
         for (size_t k = 0; k < lines_.size(); ++k) {
             const std::string_view line = withoutBlanks(lines_[k]);
             if (tiltOf(line)) return k;
-            if (isWord(line.substr(0, 11), "[LUMINAIRE]")) out_.luminaire = withoutBlanks(line.substr(11));
+            keepName(line);
         }
         throw InputError(SourceLocation{out_.path, static_cast<int>(lines_.size()), 0},
                          "the file has no line TILT=NONE, TILT=INCLUDE or TILT= with the name of a file; it is no IES "
                          "LM-63 file, or is cut off.");
+    }
+
+    /// Of several lines the first; a catalogue number where nothing else is said.
+    void keepName(std::string_view line) {
+        const bool isName = isWord(line.substr(0, 11), "[LUMINAIRE]");
+        if (!isName && !isWord(line.substr(0, 8), "[LUMCAT]")) return;
+        const std::string_view name = withoutBlanks(line.substr(isName ? 11 : 8));
+        if (name.empty() || (hasName_ || (!isName && !out_.luminaire.empty()))) return;
+        out_.luminaire = name;
+        hasName_ = isName;
     }
 
     void readTilt(FileNumbers& numbers) {
@@ -157,20 +105,27 @@ private:
         if (name.empty()) throw InputError(where, "TILT= says nothing; expected NONE, INCLUDE or the name of a file.");
         const std::string path = (std::filesystem::path(out_.path).parent_path() / name).string();
         if (mayRead_) mayRead_(path, where);
+        if (!std::filesystem::exists(path))
+            throw InputError(where,
+                             fmt::format("cannot read the tilt file '{}': there is no such file. Get it from who "
+                                         "made this one, or, where the luminaire is not tilted, write TILT=NONE.",
+                                         path));
         const std::string content = readFile(path, where, "tilt");
         FileNumbers numbers(path, splitLines(content), 0);
         readTilt(numbers);
-        numbers.finish("tilt factor");
+        numbers.finish("tilt factor", out_.warnings);
     }
 
     void readData(FileNumbers& numbers) {
         LampSet lamps;
         lamps.lamps = numbers.integer("number of lamps", 1, mostLamps);
         const double lumensPerLamp = numbers.number("lumens per lamp");
-        out_.absolute = lumensPerLamp == -1;
-        if (!(lumensPerLamp > 0) && !out_.absolute)
-            numbers.fail(fmt::format("lumens per lamp: {}; expected a number above 0, or -1 for absolute photometry.",
-                                     lumensPerLamp));
+        out_.absolute = !(lumensPerLamp > 0);
+        if (out_.absolute && lumensPerLamp != -1)
+            warn(numbers.where().text(),
+                 fmt::format("lumens per lamp: {}; expected a number above 0, or -1 for absolute "
+                             "photometry, as which it is taken.",
+                             lumensPerLamp));
         double factor = numbers.positive("candela multiplier");
         const unsigned verticalCount = numbers.integer("number of vertical angles", 2, mostAnglesOfIes);
         const unsigned horizontalCount = numbers.integer("number of horizontal angles", 1, mostAnglesOfIes);
@@ -189,67 +144,96 @@ private:
 
     /// What follows the ballast factor; 1 where the edition has it for something else.
     double readThirdFactor(FileNumbers& numbers) {
-        const double third = numbers.positive(edition_ < Edition::of2002    ? "ballast-lamp photometric factor"
-                                              : edition_ == Edition::of2002 ? "number for future use"
-                                                                            : "file generation type");
-        if (edition_ == Edition::of2002 && third != 1)
-            out_.warnings.push_back(fmt::format("{}: the number for future use is {}; it is no factor since 2002 and "
-                                                "is left out.",
-                                                numbers.where().text(), third));
+        if (edition_ >= IesEdition::of2002) {
+            const bool isOf2002 = edition_ == IesEdition::of2002;
+            const double third = numbers.number(isOf2002 ? "number for future use" : "file generation type");
+            if (isOf2002 && third != 1)
+                warn(numbers.where().text(), fmt::format("the number for future use is {}; it is no factor since 2002 "
+                                                         "and is left out.",
+                                                         third));
+            return 1;
+        }
+        const double third = numbers.positive("ballast-lamp photometric factor");
         // A file whose first line is damaged is taken for one of 1986.
-        if (edition_ == Edition::of1986 && third != 1)
-            out_.warnings.push_back(fmt::format("{}: the first line names no edition, so that the file is one of 1986 "
-                                                "and intensities are multiplied by its ballast-lamp photometric "
-                                                "factor, {}.",
-                                                numbers.where().text(), third));
-        return edition_ < Edition::of2002 ? third : 1;
+        if (!namesEdition_ && third != 1)
+            warn(numbers.where().text(), fmt::format("the first line names no edition, so that the file is one of 1986 "
+                                                     "and intensities are multiplied by its ballast-lamp photometric "
+                                                     "factor, {}.",
+                                                     third));
+        return third;
     }
 
     void readIntensities(FileNumbers& numbers, unsigned type, unsigned verticalCount, unsigned horizontalCount,
                          double factor) {
-        const size_t expected = size_t(verticalCount) + horizontalCount + size_t(verticalCount) * horizontalCount;
-        if (numbers.left() != expected)
-            numbers.fail(fmt::format("{} vertical and {} horizontal angles need {} numbers after this one: the angles, "
-                                     "and a candela value for each pair; the file has {}.",
-                                     verticalCount, horizontalCount, expected, numbers.left()));
+        expectCount(numbers, verticalCount, horizontalCount);
         const double least = type == 1 ? 0 : -90;
         IesAngles angles;
         angles.vertical = numbers.increasing("vertical angles", verticalCount, least, type == 1 ? 180 : 90);
-        if (type == 1) checkVertical(numbers, angles.vertical);
+        type == 1 ? checkVertical(numbers, angles.vertical) : checkVerticalOfAOrB(numbers, angles.vertical);
         angles.horizontal = numbers.increasing("horizontal angles", horizontalCount, least, type == 1 ? 360 : 90);
-        if (type == 1) checkHorizontal(numbers, angles.horizontal);
-        if (type != 1 && horizontalCount < 2)
-            numbers.fail("horizontal angles: one; expected at least two in photometry of type A or B.");
+        type == 1 ? checkHorizontal(numbers, angles.horizontal) : checkHorizontalOfAOrB(numbers, angles.horizontal);
         std::vector<HalfPlane> planes;
         for (const double angle : angles.horizontal) {
             planes.push_back({angle, {}});
             for (unsigned k = 0; k < verticalCount; ++k)
-                planes.back().candela.push_back(factor * numbers.numberFrom("candela value", 0));
+                planes.back().candela.push_back(factor * numbers.intensity("candela value"));
         }
-        numbers.finish("candela value");
-        if (type == 1) {
-            if (lacksEnd(angles.horizontal)) // setSphere closes the circle
-                out_.warnings.push_back(fmt::format("{}: horizontal angles end at {}, without 360; intensities there "
-                                                    "are taken to be those at 0.",
-                                                    numbers.where().text(), angles.horizontal.back()));
+        numbers.finish("candela value", out_.warnings);
+        if (type == 1)
             setTypeC(angles, std::move(planes));
-        } else
+        else
             setTypeAOrB(type == 3, angles, planes);
         if (!(out_.largest() > 0)) numbers.fail("every candela value is 0; a luminaire emits light.");
     }
 
-    static void checkVertical(const FileNumbers& numbers, const std::vector<double>& angles) {
-        if ((angles.front() != 0 && angles.front() != 90) || (angles.back() != 90 && angles.back() != 180))
-            numbers.fail(fmt::format("vertical angles from {} to {}; expected 0 to 90, 90 to 180, or 0 to 180 in "
-                                     "photometry of type C.",
-                                     angles.front(), angles.back()));
+    /// So that a wrong count is told as such. Text may follow: ERCO's files end with END.
+    static void expectCount(FileNumbers& numbers, unsigned verticalCount, unsigned horizontalCount) {
+        const size_t expected = size_t(verticalCount) + horizontalCount + size_t(verticalCount) * horizontalCount;
+        if (numbers.left() == expected || numbers.isText(expected)) return;
+        numbers.expectNumbers("angle or candela value");
+        numbers.fail(fmt::format("{} vertical and {} horizontal angles need {} numbers after this one: the angles, "
+                                 "and a candela value for each pair; the file has {}.",
+                                 verticalCount, horizontalCount, expected, numbers.left()));
     }
 
-    static void checkHorizontal(const FileNumbers& numbers, const std::vector<double>& angles) {
+    void checkVertical(const FileNumbers& numbers, const std::vector<double>& angles) {
         const double first = angles.front(), last = angles.back();
+        if (first != 0 && first < 90)
+            numbers.fail(fmt::format("vertical angles from {} to {}; expected 0 to 90, 90 to 180, or 0 to 180 in "
+                                     "photometry of type C.",
+                                     first, last));
+        // Until 1995 the standard leaves open where they end.
+        if ((first != 0 && first != 90) || (last != 90 && last != 180))
+            warn(numbers.where().text(), fmt::format("vertical angles from {} to {}; expected 0 to 90, 90 to 180, or 0 "
+                                                     "to 180. Beyond them it is dark.",
+                                                     first, last));
+    }
+
+    // Since 2002 angles must cover the whole half space, so that what begins at 0 is symmetric.
+    void checkVerticalOfAOrB(const FileNumbers& numbers, const std::vector<double>& angles) {
+        if (angles.front() >= 0)
+            warn(numbers.where().text(),
+                 fmt::format("vertical angles begin at {}; intensities below are taken to be those above.",
+                             angles.front()));
+    }
+
+    void checkHorizontalOfAOrB(const FileNumbers& numbers, const std::vector<double>& angles) {
+        if (angles.size() < 2)
+            numbers.fail("horizontal angles: one; expected at least two in photometry of type A or B.");
+        if (angles.front() > 0)
+            warn(numbers.where().text(), fmt::format("horizontal angles begin at {}; expected 0 or -90. They are taken "
+                                                     "to be the same on the other side.",
+                                                     angles.front()));
+    }
+
+    void checkHorizontal(const FileNumbers& numbers, const std::vector<double>& angles) {
+        const double first = angles.front(), last = angles.back();
+        if (lacksEnd(angles)) // setSphere closes the circle
+            return warn(numbers.where().text(), fmt::format("horizontal angles end at {}, without 360; intensities "
+                                                            "there are taken to be those at 0.",
+                                                            last));
         const bool isKnown =
-            (first == 0 && (last == 0 || last == 90 || last == 180 || last == 360 || lacksEnd(angles))) ||
-            (first == 90 && last == 270);
+            (first == 0 && (last == 0 || last == 90 || last == 180 || last == 360)) || (first == 90 && last == 270);
         if (!isKnown)
             numbers.fail(
                 fmt::format("horizontal angles from {} to {}; expected 0 alone, 0 to 90, 0 to 180, 0 to 360, or "
@@ -259,7 +243,7 @@ private:
 
     /// Angles all the way round but for the last, 360: it is no further on than others are apart.
     static bool lacksEnd(const std::vector<double>& angles) {
-        if (angles.front() != 0 || angles.back() <= 270 || angles.back() == 360) return false;
+        if (angles.front() != 0 || angles.back() <= 180 || angles.back() == 360) return false;
         double widest = 0;
         for (size_t k = 1; k < angles.size(); ++k) widest = std::max(widest, angles[k] - angles[k - 1]);
         return 360 - angles.back() <= widest * (1 + 1e-6);
@@ -273,11 +257,12 @@ private:
         setSphere(out_, angles.vertical, std::move(planes), true);
     }
 
-    // Type A: half planes about a vertical pole, by horizontal angle. Type B: about a horizontal one, by vertical
-    // angle. In a luminaire that looks along its axis +z, +y is up and +x to its left, so horizontal angles run towards
-    // -x.
+    // Type A: half planes about a pole, by horizontal angle. Type B: about another one, by vertical angle. In LM-63 the
+    // photometric horizontal is C0 and gamma 90 of type C and horizontal 0 and vertical 90 of type B, and horizontal
+    // angles run clockwise, against C: vertical angles go towards C0, +x, and horizontal ones towards C270, +y.
     void setTypeAOrB(bool isTypeA, IesAngles angles, std::vector<HalfPlane> planes) {
-        if (angles.horizontal.front() == 0) mirrorHorizontally(angles, planes);
+        if (angles.horizontal.front() >= 0) mirrorHorizontally(angles, planes);
+        if (angles.vertical.front() >= 0) mirrorVertically(angles, planes);
         const std::vector<double>&polar = isTypeA ? angles.vertical : angles.horizontal,
               &azimuth = isTypeA ? angles.horizontal : angles.vertical;
         const size_t rows = polar.size();
@@ -293,12 +278,13 @@ private:
         }
         out_.isOfAxis = false;
         out_.axes =
-            isTypeA ? glm::dmat3({0, 0, -1}, {1, 0, 0}, {0, 1, 0}) : glm::dmat3({0, 0, -1}, {0, -1, 0}, {-1, 0, 0});
+            isTypeA ? glm::dmat3({0, 0, -1}, {0, -1, 0}, {1, 0, 0}) : glm::dmat3({0, 0, -1}, {-1, 0, 0}, {0, 1, 0});
         setSphere(out_, fromPole, std::move(half), false);
     }
 
     static void mirrorHorizontally(IesAngles& angles, std::vector<HalfPlane>& planes) {
-        for (size_t k = 1, count = planes.size(); k < count; ++k) {
+        const size_t count = planes.size();
+        for (size_t k = angles.horizontal.front() > 0 ? 0 : 1; k < count; ++k) {
             angles.horizontal.push_back(-angles.horizontal[k]);
             planes.push_back({-planes[k].azimuth, planes[k].candela});
         }
@@ -307,16 +293,52 @@ private:
                   [](const HalfPlane& a, const HalfPlane& b) { return a.azimuth < b.azimuth; });
     }
 
+    static void mirrorVertically(IesAngles& angles, std::vector<HalfPlane>& planes) {
+        const std::vector<double> above = angles.vertical;
+        const auto first = above.rbegin(), last = above.rend() - (above.front() > 0 ? 0 : 1);
+        angles.vertical.clear();
+        std::transform(first, last, std::back_inserter(angles.vertical), [](double angle) { return -angle; });
+        angles.vertical.insert(angles.vertical.end(), above.begin(), above.end());
+        for (HalfPlane& plane : planes) {
+            std::vector<double> below(plane.candela.rbegin(), plane.candela.rbegin() + (last - first));
+            plane.candela.insert(plane.candela.begin(), below.begin(), below.end());
+        }
+    }
+
     const FileCheck& mayRead_;
     std::vector<std::string_view> lines_;
-    Edition edition_ = Edition::of1986;
+    IesEdition edition_ = IesEdition::of1986;
+    bool namesEdition_ = false, hasName_ = false;
     Goniogram out_;
 };
+
+/// Numbers as "0,5" of a file without points: commas separate numbers in LM-63, so it has too many of them.
+std::string withDecimalPoints(std::string text) {
+    const auto digitAt = [&](size_t k) { return k < text.size() && text[k] >= '0' && text[k] <= '9'; };
+    const size_t tilt = std::min(text.rfind("TILT"), text.size());
+    if (text.find('.', tilt) != std::string::npos) return text;
+    for (size_t k = tilt + 1; k + 1 < text.size(); ++k)
+        if (text[k] == ',' && digitAt(k - 1) && digitAt(k + 1)) text[k] = '.';
+    return text;
+}
 
 } // namespace
 
 Goniogram readIes(const std::string& path, const std::string& content, const FileCheck& mayRead) {
-    return IesReader(path, content, mayRead).read();
+    try {
+        return IesReader(path, content, mayRead).read();
+    } catch (const InputError&) {
+        const std::string withPoints = withDecimalPoints(content);
+        if (withPoints == content) throw;
+        std::optional<Goniogram> goniogram;
+        try {
+            goniogram = IesReader(path, withPoints, mayRead).read();
+        } catch (const InputError&) { // what is wrong is something else
+        }
+        if (!goniogram) throw;
+        goniogram->warnings.push_back(path + ": commas within numbers are taken for decimal points.");
+        return *goniogram;
+    }
 }
 
 } // namespace quasilux
