@@ -18,8 +18,8 @@ using testing::HasSubstr;
 
 /// A heterogeneous medium; `content` starts at line 5, column 1.
 std::string mediumOf(const std::string& content) {
-    return sceneWith("<shape type=\"cube\"><medium type=\"heterogeneous\" name=\"interior\">\n" + content +
-                     "</medium></shape>");
+    return sceneWith("<shape type=\"cube\"><bsdf type=\"null\"/><medium type=\"heterogeneous\" name=\"interior\">\n" +
+                     content + "</medium></shape>");
 }
 
 std::string grid(const std::string& name, const std::string& file, const std::string& more = "") {
@@ -88,9 +88,10 @@ TEST_F(Volumes, OneThatTwoMediaShareIsReadOnce) {
     SceneFiles unused;
     const Scene scene = load(R"(<volume name="sigma_t" type="constvolume"/></medium>
         <medium name="exterior" type="heterogeneous"><ref name="albedo" id="a"/></medium></shape>
-        <shape type="sphere"><medium name="interior" type="heterogeneous"><ref name="albedo" id="a"/></medium></shape>
+        <shape type="sphere"><bsdf type="null"/><medium name="interior" type="heterogeneous"><ref name="albedo" id="a"/></medium></shape>
         <volume type="gridvolume" id="b"><string name="filename" value="b.vol"/></volume>
-        <volume type="gridvolume" id="a"><string name="filename" value="a.vol"/></volume><shape type="cube"><medium
+        <volume type="gridvolume" id="a"><string name="filename" value="a.vol"/></volume><shape type="cube"><bsdf
+        type="null"/><medium
         name="interior" type="heterogeneous">)");
     ASSERT_EQ(scene.media.size(), 4u);
     EXPECT_EQ(scene.media[1].albedoVolume, scene.media[2].albedoVolume);
