@@ -254,6 +254,8 @@ TEST(Documents, ParametersOfFormerVersionsAreRead) {
     };
     EXPECT_NEAR(reflectance("0.5, 0.25 0").r, 0.21404f, 1e-5f);
     EXPECT_NEAR(reflectance("#804000").r, 0.21586f, 1e-5f);
+    const std::string named = R"(<bsdf type="diffuse"><rgb name="diffuseReflectance" value="0.25"/></bsdf>)";
+    EXPECT_FLOAT_EQ(load(named).bsdfs.at(0).front.at(0).device.reflectance.r, 0.25f);
     const auto textured = [](const std::string& filter, const std::string& gamma) {
         return R"(<bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" value="grey.pgm"/>)" +
                ("<string name=\"filterType\" value=\"" + filter + "\"/>" + gamma) + "</texture></bsdf>";
@@ -273,6 +275,7 @@ TEST(Documents, ParametersOfFormerVersionsAreRead) {
     EXPECT_THAT(test::errorOf(sceneOf("0.6.0", textured("ewa", R"(<float name="gamma" value="1.8"/>)"))),
                 testing::HasSubstr("gamma"));
     EXPECT_THAT(test::errorOf(sceneOf("3.0.0", textured("ewa", ""))), testing::HasSubstr("filter")) << "control";
+    EXPECT_THAT(test::errorOf(sceneOf("3.0.0", named)), testing::HasSubstr("diffuseReflectance")) << "control";
     EXPECT_THAT(
         test::errorOf(sceneOf("3.0.0", R"(<bsdf type="diffuse"><srgb name="reflectance" value="0.5"/></bsdf>)")),
         testing::HasSubstr("unknown element <srgb>"))

@@ -57,6 +57,7 @@ const BadBody badBodies[] = {
     {"BsdfOfMitsuba06",
      "<shape type=\"cube\">\n<bsdf type=\"roughdiffuse\"/></shape>",
      {"scene.xml:5:1: bsdf 'roughdiffuse' is not supported: it is of Mitsuba 0.x; use 'diffuse'"}},
+    {"Entity", "&header;", {"in <scene>; entities of XML are not read, use <include filename="}},
     {"FilmOfMitsuba06",
      "<sensor type=\"perspective\">\n<film type=\"tiledhdrfilm\"/></sensor>",
      {"scene.xml:5:1: film 'tiledhdrfilm' is not supported: it is of Mitsuba 0.x; use 'hdrfilm'"}},

@@ -124,6 +124,10 @@ void upgradeParameters(Element& element) {
     const std::string* const type = element.find("type");
     if (element.tag == "texture") upgradeTextureCoordinates(element);
     if (element.tag == "texture" && type && *type == "bitmap") upgradeBitmap(element);
+    // That of `diffuse` had two names.
+    Element* const color =
+        element.tag == "bsdf" && type && *type == "diffuse" ? find(element, "diffuse_reflectance") : nullptr;
+    if (color) setAttribute(*color, "name", "reflectance");
     // What lies outside of a metal: air, or nothing.
     if (element.tag == "bsdf" && type && isOneOf(*type, {"conductor", "roughconductor"}))
         drop(element, "ext_eta", {"1", "1.0", "air", "vacuum"});

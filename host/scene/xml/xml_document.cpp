@@ -145,10 +145,13 @@ private:
                                              parent.tag));
             parent.instructions.push_back(parseInstruction(child.value(), where));
         } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-            const std::string text = child.value();
-            throw InputError(
-                positions.at(child.offset_debug()),
-                fmt::format("text '{}' in <{}>; values are written as attributes.", text.substr(0, 40), parent.tag));
+            std::string text = child.value();
+            text.erase(0, text.find_first_not_of(" \t\r\n"));
+            throw InputError(positions.at(child.offset_debug()),
+                             fmt::format("text '{}' in <{}>; {}.", text.substr(0, 40), parent.tag,
+                                         text.starts_with('&')
+                                             ? "entities of XML are not read, use <include filename=\"…\"/>"
+                                             : "values are written as attributes"));
         } else if (child.type() == pugi::node_element) {
             if (leavesOut(child, parent, positions)) return;
             Element element = convert(child, &parent, positions, depth + 1);
