@@ -33,7 +33,7 @@ protected:
     std::string error(const std::string& content) const {
         return errorOf(files_.write("scene.xml", mediumOf(content)));
     }
-    void write(const std::string& name, const std::string& content) const { files_.write(name, content); }
+    std::string write(const std::string& name, const std::string& content) const { return files_.write(name, content); }
 
 private:
     SceneFiles files_;
@@ -153,6 +153,17 @@ TEST_F(Volumes, HostileFilesAreRefusedAtTheLineThatNamesThem) {
     write("flat.vol", volFile({1, 1, 1}, 1, {1}, {0, 0, 0, 0, 1, 1}));
     EXPECT_THAT(error(grid("sigma_t", "flat.vol", "<boolean name=\"use_grid_bbox\" value=\"true\"/>")),
                 HasSubstr("scene.xml:6:1: the volume's box has no extent"));
+}
+
+TEST_F(Volumes, TheDensityOfFormerVersionsIsTheExtinction) {
+    write("a.vol", volFile({3, 2, 1}, 1, {0, 1, 2, 3, 4, 5}, {0, 0, 0, 3, 2, 1}));
+    const std::string former = "<string name=\"method\" value=\"woodcock\"/>" + grid("density", "a.vol");
+    std::string scene = mediumOf(former);
+    EXPECT_THAT(error(former), HasSubstr("method")) << "control";
+    scene.replace(scene.find("3.0.0"), 5, "0.6.0");
+    const Scene upgraded = loadScene(write("scene06.xml", scene));
+    EXPECT_NEAR(upgraded.media.at(0).sigmaT.r, 2.5, 1e-6);
+    expectBox(upgraded.volumes.at(0).device, {0, 0, 0}, {3, 2, 1});
 }
 
 TEST_F(Volumes, UnknownPluginsAndParameters) {

@@ -88,6 +88,21 @@ void upgradeBitmap(Element& element) {
     }
 }
 
+// The density that a cloud's albedo goes with is the extinction coefficient, and its grids lie where their files say.
+void upgradeCloud(Element& medium) {
+    const auto isDensity = [](const Element& child) {
+        return child.tag == "volume" && child.find("name") && child.get("name") == "density";
+    };
+    const auto density = std::find_if(medium.children.begin(), medium.children.end(), isDensity);
+    if (density == medium.children.end()) return;
+    setAttribute(*density, "name", "sigma_t");
+    drop(medium, "method", {"simpson", "woodcock"});
+    for (Element& child : medium.children)
+        if (child.tag == "volume" && child.find("type") && child.get("type") == "gridvolume" &&
+            !find(child, "use_grid_bbox"))
+            child.children.push_back({"boolean", {{"name", "use_grid_bbox"}, {"value", "true"}}, {}, {}, child.where});
+}
+
 } // namespace
 
 int majorVersion(const std::string& version) {
@@ -128,6 +143,7 @@ void upgradeParameters(Element& element) {
     Element* const color =
         element.tag == "bsdf" && type && *type == "diffuse" ? find(element, "diffuse_reflectance") : nullptr;
     if (color) setAttribute(*color, "name", "reflectance");
+    if (element.tag == "medium" && type && *type == "heterogeneous") upgradeCloud(element);
     // What lies outside of a metal: air, or nothing.
     if (element.tag == "bsdf" && type && isOneOf(*type, {"conductor", "roughconductor"}))
         drop(element, "ext_eta", {"1", "1.0", "air", "vacuum"});

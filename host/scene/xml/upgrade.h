@@ -15,7 +15,7 @@ int majorVersion(const std::string& version);
 void upgradeNames(Element& element);
 
 /// Parameters of that time: of textures uoffset, voffset, uscale and vscale become a `to_uv`, filters and gamma what is
-/// like them; the index outside of metals goes where it says nothing; `diffuse` has one name for its reflectance. To be called with the children in place.
+/// like them; the index outside of metals goes where it says nothing; `diffuse` has one name for its reflectance, and a cloud for its extinction coefficient. To be called with the children in place.
 void upgradeParameters(Element& element);
 
 /// Whether upgradeNames knows the tag, though Mitsuba 3 does not.
