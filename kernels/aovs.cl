@@ -71,12 +71,20 @@ inline Surface addAovs(float* sums, const Ray* ray, const Hit* hit, float weight
     return s;
 }
 
-/* Does the ray meet anything but null surfaces? */
+/* Is the surface more than a passage for light from behind it, and not hidden from the camera? */
+inline int isSeen(const Surface* s) {
+#ifdef HAS_HIDDEN_EMITTERS
+    if (s->isHidden) return 0;
+#endif
+    return !s->isNull;
+}
+
+/* Does the ray meet anything that is seen? */
 inline int meetsSurface(Ray ray, Hit hit, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                         __global const uint* tables, const SceneTables* scene) {
     for (uint event = 0; event < PATH_EVENTS_MAX && hit.primitive != QL_NONE; ++event) {
         const Surface s = surfaceAt(&hit, ray.origin, ray.direction, blocks, tables, scene);
-        if (!s.isNull) return 1;
+        if (isSeen(&s)) return 1;
         const float tMax = ray.tMax - hit.t;
         ray = leavingRay(&s, ray.direction);
         ray.tMax = tMax;

@@ -171,6 +171,21 @@ TEST(Aovs, AlphaPassesNullSurfacesAndIsOneBeforeSurroundings) {
         << "no diffuse light";
 }
 
+TEST(Aovs, AlphaPassesTheEmittersThatAreHidden) {
+    const std::string light = rectangle(R"(<scale x="0.25"/><translate x="0.25" z="1"/>)", "<emitter type=\"area\"/>");
+    for (const bool hide : {false, true}) {
+        Scene scene = sceneOf(light + twoShapes, "<emitter type=\"constant\"/>");
+        scene.hideEmitters = hide;
+        const std::vector<float> alpha = channelsOf(scene).at("A");
+        EXPECT_EQ(alpha.at(9), 1) << "a shape";
+        EXPECT_EQ(alpha.at(11), hide ? 0 : 1) << "the surroundings";
+        EXPECT_EQ(alpha.at(12), 1) << "the light, and a shape behind it";
+        scene = sceneOf(light);
+        scene.hideEmitters = hide;
+        EXPECT_EQ(channelsOf(scene).at("A").at(12), hide ? 0 : 1) << "the light alone";
+    }
+}
+
 void resize(Sensor& sensor, unsigned width, unsigned height) {
     sensor.width = sensor.filmWidth = width;
     sensor.height = sensor.filmHeight = height;

@@ -4,6 +4,7 @@
 
 #include "support/loaded_bsdf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
 
@@ -67,6 +68,8 @@ TEST(RoughConductor, WhatMitsubaClampsIsTakenWithAWarning) {
     EXPECT_THAT(scene.warnings,
                 testing::IsSupersetOf({testing::HasSubstr("'alpha' is 0, which is taken as 0.0001"),
                                        testing::HasSubstr("'eta' of bsdf 'roughconductor' has a negative")}));
+    const auto ofAlpha = [](const std::string& warning) { return warning.find("'alpha") != std::string::npos; };
+    EXPECT_EQ(std::count_if(scene.warnings.begin(), scene.warnings.end(), ofAlpha), 1) << "one parameter, one warning";
 }
 
 TEST(PhongBsdf, LobesAndWidth) {
@@ -243,6 +246,18 @@ TEST(NormalMapBsdf, BendsTheNormalsOfItsMaterial) {
         <boolean name="use_shadowing_function" value="false"/><bsdf type="diffuse"/></bsdf></bsdf></bsdf>)");
     EXPECT_EQ(both.frontRelief.value().flags, 0u);
     EXPECT_EQ(both.backRelief.value().flags, RELIEF_MIRRORED);
+}
+
+TEST(NormalMapBsdf, TakesAColourThatIsTheSameEverywhere) {
+    for (const std::string normals :
+         {R"(<rgb name="normalmap" value="0.6,0.5,1"/>)",
+          R"(<spectrum name="normalmap" type="srgb"><rgb name="color" value="0.6,0.5,1"/></spectrum>)"}) {
+        const Scene scene = load("<shape type=\"rectangle\"><bsdf type=\"normalmap\">" + normals +
+                                 "<bsdf type=\"diffuse\"/></bsdf></shape>");
+        const auto& texture = scene.textures.at(scene.bsdfs.at(0).frontRelief.value().texture).device;
+        expectRgb(texture.color0, 0.6f, 0.5f, 1);
+        expectRgb(texture.color1, 0.6f, 0.5f, 1);
+    }
 }
 
 TEST(BumpMapBsdf, TakesNumbersOfABitmap) {

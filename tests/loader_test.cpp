@@ -236,6 +236,52 @@ TEST(Documents, NamesOfMitsuba0AreUpgraded) {
         << "control: not of version 3";
 }
 
+TEST(Documents, ParametersOfFormerVersionsAreRead) {
+    SceneFiles files;
+    files.write("grey.pgm", "P2 1 1 255 128");
+    const auto sceneOf = [&](const std::string& version, const std::string& bsdf) {
+        return files.write("scene.xml",
+                           "<scene version=\"" + version +
+                               R"("><sensor type="perspective"/><emitter type="point"/><shape type="rectangle">)" +
+                               bsdf + "</shape></scene>");
+    };
+    const auto load = [&](const std::string& bsdf) { return loadScene(sceneOf("0.6.0", bsdf)); };
+    const auto reflectance = [&](const std::string& value) {
+        return load("<bsdf type=\"diffuse\"><srgb name=\"reflectance\" value=\"" + value + "\"/></bsdf>")
+            .bsdfs.at(0)
+            .front.at(0)
+            .device.reflectance;
+    };
+    EXPECT_NEAR(reflectance("0.5, 0.25 0").r, 0.21404f, 1e-5f);
+    EXPECT_NEAR(reflectance("#804000").r, 0.21586f, 1e-5f);
+    const std::string named = R"(<bsdf type="diffuse"><rgb name="diffuseReflectance" value="0.25"/></bsdf>)";
+    EXPECT_FLOAT_EQ(load(named).bsdfs.at(0).front.at(0).device.reflectance.r, 0.25f);
+    const auto textured = [](const std::string& filter, const std::string& gamma) {
+        return R"(<bsdf type="diffuse"><texture name="reflectance" type="bitmap"><string name="filename" value="grey.pgm"/>)" +
+               ("<string name=\"filterType\" value=\"" + filter + "\"/>" + gamma) + "</texture></bsdf>";
+    };
+    const std::string linear = R"(<float name="gamma" value="1.0"/>)",
+                      automatic = R"(<float name="gamma" value="-1"/>)";
+    const auto texel = [&](const std::string& bsdf) { return load(bsdf).textures.at(0).texels.at(0).r; };
+    EXPECT_NEAR(texel(textured("ewa", linear)), 128 / 255.f, 1e-4f);
+    EXPECT_NEAR(texel(textured("trilinear", automatic)), 0.21586f, 1e-4f);
+    EXPECT_EQ(load(textured("nearest", "")).textures.at(0).device.filter, unsigned(TEXTURE_NEAREST));
+    const std::string metal =
+        R"(<bsdf type="conductor"><float name="extEta" value="1"/><rgb name="eta" value="2"/></bsdf>)";
+    EXPECT_FLOAT_EQ(load(metal).bsdfs.at(0).front.at(0).device.eta.r, 2);
+
+    const std::string denser = R"(<bsdf type="conductor"><float name="extEta" value="1.3"/></bsdf>)";
+    EXPECT_THAT(test::errorOf(sceneOf("0.6.0", denser)), testing::HasSubstr("ext_eta")) << "it would say something";
+    EXPECT_THAT(test::errorOf(sceneOf("0.6.0", textured("ewa", R"(<float name="gamma" value="1.8"/>)"))),
+                testing::HasSubstr("gamma"));
+    EXPECT_THAT(test::errorOf(sceneOf("3.0.0", textured("ewa", ""))), testing::HasSubstr("filter")) << "control";
+    EXPECT_THAT(test::errorOf(sceneOf("3.0.0", named)), testing::HasSubstr("diffuseReflectance")) << "control";
+    EXPECT_THAT(
+        test::errorOf(sceneOf("3.0.0", R"(<bsdf type="diffuse"><srgb name="reflectance" value="0.5"/></bsdf>)")),
+        testing::HasSubstr("unknown element <srgb>"))
+        << "control";
+}
+
 TEST(Documents, CommentsOtherInstructionsAndByteOrderMarkAreNoMatter) {
     SceneFiles files;
     const Scene scene = loadScene(

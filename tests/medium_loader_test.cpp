@@ -48,6 +48,21 @@ TEST(Medium, AUniformSpectrumIsItsNumber) {
     expectRgb(medium.albedo, 0.9f, 0.9f, 0.9f);
 }
 
+// As Mitsuba 0.x had them.
+TEST(Medium, ScatteringAndAbsorptionMakeExtinctionAndAlbedo) {
+    const MediumDescription medium = loadMedium(
+        R"(<rgb name="sigma_s" value="3,1,0"/><rgb name="sigma_a" value="1,1,0"/><float name="scale" value="2"/>)");
+    expectRgb(medium.sigmaT, 8, 4, 0);
+    expectRgb(medium.albedo, 0.75f, 0.5f, 0);
+}
+
+TEST(Medium, InAShapeWithoutABsdfNoLightEntersIt) {
+    const std::string inside = "<medium type=\"homogeneous\" name=\"interior\"/></shape>";
+    EXPECT_THAT(loadBody("<shape type=\"cube\" id=\"fog\">" + inside).warnings,
+                ElementsAre(HasSubstr("no light enters the medium in shape 'fog'")));
+    EXPECT_THAT(loadBody("<shape type=\"cube\"><bsdf type=\"null\"/>" + inside).warnings, testing::IsEmpty());
+}
+
 TEST(Medium, PhaseFunctions) {
     EXPECT_EQ(loadMedium(R"(<phase type="isotropic"/>)").phase, PHASE_ISOTROPIC);
     EXPECT_EQ(loadMedium(R"(<phase type="rayleigh"/>)").phase, PHASE_RAYLEIGH);
@@ -110,8 +125,9 @@ TEST(Medium, QuasiSpecularChoice) {
 
 TEST(Medium, SharedByReferenceItIsReadOnce) {
     const Scene scene = loadBody(R"(<medium type="homogeneous" id="fog"/>
-        <shape type="cube"><ref name="interior" id="fog"/></shape>
-        <shape type="sphere"><medium name="interior" type="homogeneous" id="milk"/><ref name="exterior" id="fog"/></shape>
+        <shape type="cube"><ref name="interior" id="fog"/><bsdf type="null"/></shape>
+        <shape type="sphere"><medium name="interior" type="homogeneous" id="milk"/><ref name="exterior" id="fog"/>
+          <bsdf type="null"/></shape>
         <emitter type="point"><ref id="milk"/></emitter>)");
     ASSERT_EQ(scene.media.size(), 2u);
     EXPECT_EQ(scene.media[0].id, "fog");
@@ -127,7 +143,8 @@ TEST(Medium, SharedByReferenceItIsReadOnce) {
 
 TEST(Medium, PhaseFunctionsCanBeReferredTo) {
     const Scene scene = loadBody(R"(<phase type="rayleigh" id="air"/>
-        <shape type="cube"><medium name="interior" type="homogeneous"><ref id="air"/></medium></shape>)");
+        <shape type="cube"><bsdf type="null"/>
+          <medium name="interior" type="homogeneous"><ref id="air"/></medium></shape>)");
     EXPECT_EQ(scene.media.at(0).phase, PHASE_RAYLEIGH);
     EXPECT_TRUE(scene.warnings.empty());
 }
@@ -189,8 +206,11 @@ TEST_P(RefusedMedium, IsRefusedAtItsPlace) {
 const BadMedium badMedia[] = {
     {"SigmaS",
      R"(<rgb name="sigma_s" value="1"/>)",
-     {"scene.xml:5:1: parameter 'sigma_s' of medium 'homogeneous' is not supported",
+     {"scene.xml:5:1: parameter 'sigma_s' of medium 'homogeneous' is not supported", "give both sigma_s and sigma_a",
       "sigma_t = sigma_a + sigma_s and albedo = sigma_s / sigma_t"}},
+    {"SigmaSWithAlbedo",
+     "<rgb name=\"sigma_s\" value=\"1\"/><rgb name=\"sigma_a\" value=\"1\"/><rgb name=\"albedo\" value=\"1\"/>",
+     {"scene.xml:5:1: medium 'homogeneous' has both sigma_s, sigma_a and albedo"}},
     {"SigmaA", R"(<rgb name="sigma_a" value="1"/>)", {"scene.xml:5:1: parameter 'sigma_a'", "sigma_t = sigma_a"}},
     {"NegativeExtinction",
      R"(<rgb name="sigma_t" value="1,-1,1"/>)",

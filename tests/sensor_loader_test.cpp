@@ -166,11 +166,14 @@ TEST(Integrator, DepthLimit) {
     EXPECT_EQ(depth(R"(<integrator type="volpath"/>)"), -1);
     EXPECT_EQ(depth(R"(<integrator type="direct"><integer name="emitter_samples" value="4"/></integrator>)"), 2);
     // Mitsuba's default of those for derivatives.
-    for (const std::string type : {"prb", "prb_basic", "prb_projective", "prbvolpath"}) {
+    for (const std::string type : {"prb", "prb_basic", "prb_projective", "prb_reparam", "prbvolpath"}) {
         EXPECT_EQ(depth("<integrator type=\"" + type + "\"/>"), 6) << type;
         EXPECT_EQ(depth("<integrator type=\"" + type + R"("><integer name="max_depth" value="-1"/></integrator>)"), -1);
     }
     EXPECT_EQ(depth(R"(<integrator type="direct_projective"><integer name="max_depth" value="7"/></integrator>)"), 2);
+    const std::string former = R"(<integer name="reparam_rays" value="8"/></integrator>)";
+    EXPECT_EQ(depth(R"(<integrator type="direct_reparam">)" + former), 2);
+    EXPECT_EQ(depth(R"(<integrator type="prb_reparam">)" + former), 6);
     const std::string aov =
         R"(<integrator type="aov"><string name="aovs" value="dd.y:depth"/><integrator type="direct"/></integrator>)";
     EXPECT_EQ(depth(aov), 2);
@@ -181,6 +184,23 @@ TEST(Integrator, DepthLimit) {
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_THAT(loadBody(R"(<integrator type="moment"><integrator type="path"/></integrator>)").warnings[0],
                 testing::HasSubstr("stderr.R"));
+}
+
+TEST(Integrator, FormerOnesForAllLightAreThePath) {
+    const std::string limit = R"(<integer name="max_depth" value="4"/>)";
+    for (const std::string type : {"bdpt", "vpl", "volpath_simple", "volpathsimple"})
+        EXPECT_EQ(loadBody("<integrator type=\"" + type + "\">" + limit +
+                           R"(<integer name="of_its_own" value="2"/></integrator>)")
+                      .maxDepth,
+                  4)
+            << type;
+    for (const std::string type : {"irrcache", "adaptive"})
+        EXPECT_EQ(loadBody("<integrator type=\"" + type +
+                           R"("><float name="of_its_own" value="1"/><integrator type="path">)" + limit +
+                           "</integrator></integrator>")
+                      .maxDepth,
+                  4)
+            << type;
 }
 
 TEST(Integrator, WhatHasNoEffectIsListed) {

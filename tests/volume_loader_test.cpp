@@ -18,8 +18,8 @@ using testing::HasSubstr;
 
 /// A heterogeneous medium; `content` starts at line 5, column 1.
 std::string mediumOf(const std::string& content) {
-    return sceneWith("<shape type=\"cube\"><medium type=\"heterogeneous\" name=\"interior\">\n" + content +
-                     "</medium></shape>");
+    return sceneWith("<shape type=\"cube\"><bsdf type=\"null\"/><medium type=\"heterogeneous\" name=\"interior\">\n" +
+                     content + "</medium></shape>");
 }
 
 std::string grid(const std::string& name, const std::string& file, const std::string& more = "") {
@@ -33,7 +33,7 @@ protected:
     std::string error(const std::string& content) const {
         return errorOf(files_.write("scene.xml", mediumOf(content)));
     }
-    void write(const std::string& name, const std::string& content) const { files_.write(name, content); }
+    std::string write(const std::string& name, const std::string& content) const { return files_.write(name, content); }
 
 private:
     SceneFiles files_;
@@ -88,9 +88,10 @@ TEST_F(Volumes, OneThatTwoMediaShareIsReadOnce) {
     SceneFiles unused;
     const Scene scene = load(R"(<volume name="sigma_t" type="constvolume"/></medium>
         <medium name="exterior" type="heterogeneous"><ref name="albedo" id="a"/></medium></shape>
-        <shape type="sphere"><medium name="interior" type="heterogeneous"><ref name="albedo" id="a"/></medium></shape>
+        <shape type="sphere"><bsdf type="null"/><medium name="interior" type="heterogeneous"><ref name="albedo" id="a"/></medium></shape>
         <volume type="gridvolume" id="b"><string name="filename" value="b.vol"/></volume>
-        <volume type="gridvolume" id="a"><string name="filename" value="a.vol"/></volume><shape type="cube"><medium
+        <volume type="gridvolume" id="a"><string name="filename" value="a.vol"/></volume><shape type="cube"><bsdf
+        type="null"/><medium
         name="interior" type="heterogeneous">)");
     ASSERT_EQ(scene.media.size(), 4u);
     EXPECT_EQ(scene.media[1].albedoVolume, scene.media[2].albedoVolume);
@@ -152,6 +153,17 @@ TEST_F(Volumes, HostileFilesAreRefusedAtTheLineThatNamesThem) {
     write("flat.vol", volFile({1, 1, 1}, 1, {1}, {0, 0, 0, 0, 1, 1}));
     EXPECT_THAT(error(grid("sigma_t", "flat.vol", "<boolean name=\"use_grid_bbox\" value=\"true\"/>")),
                 HasSubstr("scene.xml:6:1: the volume's box has no extent"));
+}
+
+TEST_F(Volumes, TheDensityOfFormerVersionsIsTheExtinction) {
+    write("a.vol", volFile({3, 2, 1}, 1, {0, 1, 2, 3, 4, 5}, {0, 0, 0, 3, 2, 1}));
+    const std::string former = "<string name=\"method\" value=\"woodcock\"/>" + grid("density", "a.vol");
+    std::string scene = mediumOf(former);
+    EXPECT_THAT(error(former), HasSubstr("method")) << "control";
+    scene.replace(scene.find("3.0.0"), 5, "0.6.0");
+    const Scene upgraded = loadScene(write("scene06.xml", scene));
+    EXPECT_NEAR(upgraded.media.at(0).sigmaT.r, 2.5, 1e-6);
+    expectBox(upgraded.volumes.at(0).device, {0, 0, 0}, {3, 2, 1});
 }
 
 TEST_F(Volumes, UnknownPluginsAndParameters) {

@@ -2,6 +2,7 @@
 
 #include "aov_types.h"
 #include "device/program.h"
+#include "prepare/device_scene.h"
 #include "render/method.h"
 #include "render/pass_params.h"
 #include "util/process_memory.h"
@@ -69,7 +70,7 @@ PlannedBuffer<float> sumsOf(size_t tile, size_t floats) { return {"aovs", tile *
 class Layers {
 public:
     Layers(const Scene& scene, size_t pixels)
-        : origin_(scene.origin), isBeforeSurroundings_(scene.surroundings.has_value()) {
+        : origin_(scene.origin), isBeforeSurroundings_(scene.surroundings && !hidesEmitters(scene)) {
         if (scene.sensor.pixelFormat.alpha) add({AOV_ALPHA, 1, "A"}, "", pixels);
         for (const AovLayer& wanted : scene.aovs) add(channelsOf(wanted.quantity), wanted.name + ".", pixels);
     }

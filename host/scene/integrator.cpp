@@ -37,11 +37,15 @@ IntegratorChoice readPath(Properties& properties) {
 /// Of integrators for derivatives, Mitsuba's default.
 constexpr int depthForDerivatives = 6;
 const Names ofSilhouettes = {"sppc", "sppp", "sppi", "guiding", "guiding_proj", "guiding_rounds", "project_seed"};
+/// Of those that Mitsuba had up to 3.4.
+const Names ofReparameterization = {"reparam_max_depth", "reparam_rays",       "reparam_kappa",
+                                    "reparam_exp",       "reparam_antithetic", "reparam_unroll"};
 
 IntegratorChoice readForDerivatives(Properties& properties) {
     properties.accept(sampling);
     properties.accept({"rr_depth"});
     if (properties.plugin() == "prb_projective") properties.accept(ofSilhouettes);
+    if (properties.plugin() == "prb_reparam") properties.accept(ofReparameterization);
     return {readDepthParameter(properties, depthForDerivatives), properties.boolean("hide_emitters", false)};
 }
 
@@ -51,7 +55,7 @@ IntegratorChoice readDirect(Properties& properties) {
     if (properties.plugin() == "direct") {
         properties.accept({"shading_samples", "emitter_samples", "bsdf_samples"});
     } else {
-        properties.accept(ofSilhouettes);
+        properties.accept(properties.plugin() == "direct_reparam" ? ofReparameterization : ofSilhouettes);
         properties.accept({"max_depth", "rr_depth"}); // read by Mitsuba, and replaced by 2
     }
     return {2, properties.boolean("hide_emitters", false)};
@@ -108,11 +112,18 @@ IntegratorChoice readNested(Properties& properties) {
     return choice;
 }
 
-/// Of Mitsuba 0.x, for all light.
+/// Of Mitsuba 0.x and 2, for all light.
 IntegratorChoice readFormer(Properties& properties) {
     const IntegratorChoice choice{readDepthParameter(properties), properties.boolean("hide_emitters", false)};
     properties.acceptAll();
     return choice;
+}
+
+/// Of Mitsuba 0.x, about the one whose image they compute.
+IntegratorChoice readFormerAround(Properties& properties) {
+    const Element* nested = properties.object("integrator");
+    properties.acceptAll();
+    return nested ? readIntegrator(*nested, properties.context()) : IntegratorChoice{};
 }
 
 struct IntegratorPlugin {
@@ -133,11 +144,18 @@ constexpr IntegratorPlugin integratorPlugins[] = {
     {"mlt", readFormer},
     {"pssmlt", readFormer},
     {"erpt", readFormer},
+    {"vpl", readFormer},
+    {"volpath_simple", readFormer},
+    {"volpathsimple", readFormer},
+    {"irrcache", readFormerAround},
+    {"adaptive", readFormerAround},
     {"prb", readForDerivatives},
     {"prb_basic", readForDerivatives},
     {"prb_projective", readForDerivatives},
+    {"prb_reparam", readForDerivatives},
     {"prbvolpath", readForDerivatives},
     {"direct_projective", readDirect},
+    {"direct_reparam", readDirect},
     {"ptracer", readPath},
 };
 

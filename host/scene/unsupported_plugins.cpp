@@ -9,9 +9,10 @@ struct Unsupported {
 };
 
 constexpr std::string_view noPolarisation = "light has no polarisation here; remove it";
+constexpr std::string_view formerFilm = "it is of Mitsuba 0.x; use 'hdrfilm'";
 constexpr std::string_view asMesh = "export the shape as a mesh, such as 'ply'";
 
-constexpr std::string_view ofFormer = "it is of Mitsuba 0.x; use 'diffuse', or 'principled' with specular 0";
+constexpr std::string_view roughDiffuse = "it is of Mitsuba 0.x; use 'diffuse', or 'principled' with specular 0";
 
 constexpr Unsupported unsupported[] = {
     {"shape", "sdfgrid", asMesh},
@@ -24,7 +25,7 @@ constexpr Unsupported unsupported[] = {
     {"bsdf", "polarizer", noPolarisation},
     {"bsdf", "retarder", noPolarisation},
     {"bsdf", "circular", noPolarisation},
-    {"bsdf", "roughdiffuse", ofFormer},
+    {"bsdf", "roughdiffuse", roughDiffuse},
     {"bsdf", "coating", "it is of Mitsuba 0.x; use 'plastic', or 'principled' with a clearcoat"},
     {"bsdf", "roughcoating", "it is of Mitsuba 0.x; use 'roughplastic', or 'principled' with a clearcoat"},
     {"bsdf", "mixturebsdf", "it is of Mitsuba 0.x; use 'blendbsdf'"},
@@ -39,6 +40,22 @@ constexpr Unsupported unsupported[] = {
     {"integrator", "emission", "use 'path' with max_depth 1"},
     {"integrator", "stokes", "light has no polarisation here; use the integrator within it"},
     {"integrator", "volprim_rf_basic", "radiance fields are not supported; use shapes"},
+    {"shape", "heightfield", asMesh},
+    {"shape", "hair", "it is of Mitsuba 0.x; use 'bsplinecurve'"},
+    {"emitter", "sky", "it is of Mitsuba 0.x; use 'sunsky' with sun_scale 0"},
+    {"emitter", "sun", "it is of Mitsuba 0.x; use 'sunsky' with sky_scale 0"},
+    {"emitter", "collimated", "it is of Mitsuba 0.x; use 'directionalarea' on a small shape"},
+    {"sensor", "telecentric", "it is of Mitsuba 0.x; use 'orthographic'"},
+    {"sensor", "perspective_rdist", "it is of Mitsuba 0.x; use 'perspective'"},
+    {"film", "tiledhdrfilm", formerFilm},
+    {"film", "mfilm", formerFilm},
+    {"film", "exrfilm", formerFilm},
+    {"texture", "scale", "it is of Mitsuba 0.x; use the texture within it, of scaled colours"},
+    {"texture", "gridtexture", "it is of Mitsuba 0.x; use 'checkerboard' or 'bitmap'"},
+    {"texture", "vertexcolors", "it is of Mitsuba 0.x; use 'mesh_attribute' with the name vertex_color"},
+    {"integrator", "ao", "use 'path' with max_depth 2 and the emitter 'constant'"},
+    {"integrator", "field", "it is of Mitsuba 0.x; use 'aov' with a layer such as dd:depth"},
+    {"integrator", "multichannel", "it is of Mitsuba 0.x; use 'aov' with layers such as dd:depth"},
     {"phase", "sggx", "use 'hg', or 'tabphase' with its mean over the fibres' directions"},
 };
 

@@ -29,15 +29,29 @@ BsdfLobes bend(Properties& properties, shared::Relief relief) {
     return lobes;
 }
 
+/// Index of a texture that is one colour everywhere, since normals are looked up in one.
+unsigned addUniformTexture(Rgb color, Properties& properties) {
+    TextureDescription texture;
+    texture.where = properties.where("normalmap");
+    texture.device.type = TEXTURE_CHECKERBOARD;
+    texture.device.color0 = texture.device.color1 = color;
+    texture.device.toU[0] = texture.device.toV[1] = 1;
+    std::vector<TextureDescription>& textures = properties.context().scene.textures;
+    textures.push_back(std::move(texture));
+    return static_cast<unsigned>(textures.size() - 1);
+}
+
 } // namespace
 
 BsdfLobes readNormalMap(Properties& properties) {
-    const Element* texture = properties.texture("normalmap");
-    if (!texture)
-        throw InputError(properties.element().where, "normalmap needs a <texture name=\"normalmap\"> of normals.");
     shared::Relief relief{};
     relief.type = RELIEF_NORMALS;
-    relief.texture = useColorTexture(*texture, properties.context());
+    if (const Element* texture = properties.texture("normalmap"))
+        relief.texture = useColorTexture(*texture, properties.context());
+    else if (properties.has("normalmap"))
+        relief.texture = addUniformTexture(properties.reflectance("normalmap", 0), properties);
+    else
+        throw InputError(properties.element().where, "normalmap needs a <texture name=\"normalmap\"> of normals.");
     return bend(properties, relief);
 }
 

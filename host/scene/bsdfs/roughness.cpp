@@ -11,8 +11,8 @@ namespace {
 constexpr double smallestAlpha = 1e-4; // as in Mitsuba: below, single precision cannot hold the distribution
 constexpr float defaultAlpha = 0.1f;
 
-float readAlpha(Properties& properties, const std::string& name, double missing, const std::string& smooth) {
-    const double alpha = properties.textureNumber(name, missing);
+float readAlpha(Properties& properties, const std::string& name, const std::string& smooth) {
+    const double alpha = properties.textureNumber(name, defaultAlpha);
     if (alpha < 0)
         throw InputError(properties.where(name),
                          fmt::format("parameter '{}' is {}; it must be at least 0.", name, alpha));
@@ -26,10 +26,9 @@ float readAlpha(Properties& properties, const std::string& name, double missing,
 }
 
 /// Of a texture its index and the mean.
-Scalar readAlphaOrTexture(Properties& properties, const std::string& name, double missing, const std::string& smooth,
-                          bool byTexture) {
+Scalar readAlphaOrTexture(Properties& properties, const std::string& name, const std::string& smooth, bool byTexture) {
     const Element* texture = byTexture ? properties.texture(name) : nullptr;
-    if (!texture) return {readAlpha(properties, name, missing, smooth), std::nullopt};
+    if (!texture) return {readAlpha(properties, name, smooth), std::nullopt};
     const unsigned index = useScalarTexture(*texture, properties.context());
     const Scene& scene = properties.context().scene;
     return {std::max(meanOfNumbers(scene.textures[index], scene, defaultAlpha), static_cast<float>(smallestAlpha)),
@@ -64,15 +63,15 @@ Roughness readRoughness(Properties& properties, const std::string& smooth, bool 
     if (anisotropic && (isGiven("alpha") || !isGiven("alpha_u") || !isGiven("alpha_v")))
         throw InputError(properties.where("alpha_u"), fmt::format("{}: give either alpha, or both alpha_u and alpha_v.",
                                                                   properties.element().get("type")));
-    const Scalar alpha = readAlphaOrTexture(properties, "alpha", defaultAlpha, smooth, byTexture);
-    const Scalar u = readAlphaOrTexture(properties, "alpha_u", alpha.value, smooth, byTexture);
-    const Scalar v = readAlphaOrTexture(properties, "alpha_v", alpha.value, smooth, byTexture);
+    const auto read = [&](const std::string& name) { return readAlphaOrTexture(properties, name, smooth, byTexture); };
+    const Scalar u = read(anisotropic ? "alpha_u" : "alpha");
+    const Scalar v = anisotropic ? read("alpha_v") : u;
     Roughness roughness;
     roughness.ggx = properties.choiceOfAnyCase("distribution", "beckmann", {"beckmann", "ggx"}) == "ggx";
     roughness.alphaU = static_cast<float>(u.value);
     roughness.alphaV = static_cast<float>(v.value);
-    roughness.alphaTextureU = anisotropic ? u.texture : alpha.texture;
-    roughness.alphaTextureV = anisotropic ? v.texture : alpha.texture;
+    roughness.alphaTextureU = u.texture;
+    roughness.alphaTextureV = v.texture;
     properties.accept({"sample_visible"});
     return roughness;
 }

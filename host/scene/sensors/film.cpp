@@ -1,4 +1,5 @@
 // <film type="hdrfilm">: size, crop window, what the image holds.
+#include "scene/plugin_lookup.h"
 #include "scene/sensors/sensors.h"
 
 #include <algorithm>
@@ -67,9 +68,7 @@ void readFilm(const Element& element, LoadContext& context, Sensor& sensor) {
     if (element.get("type") == "specfilm")
         throw InputError(element.where, "film 'specfilm' records spectral bands, and light is linear RGB here; use "
                                         "<film type=\"hdrfilm\">.");
-    if (element.get("type") != "hdrfilm" && element.get("type") != ldrName)
-        throw InputError(element.where, fmt::format("unknown film plugin '{}'.{}", element.get("type"),
-                                                    knownNames(element.get("type"), {"hdrfilm"})));
+    if (element.get("type") != "hdrfilm" && element.get("type") != ldrName) throwUnknownPlugin(element, {"hdrfilm"});
     Properties properties(element, context);
     sensor.filmWidth = readSize(properties, "width", sensor.filmWidth);
     sensor.filmHeight = readSize(properties, "height", sensor.filmHeight);

@@ -102,6 +102,11 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
                          fmt::format("{} bounds no medium; use another shape.", properties.describe()));
     if (interior) shape.interior = useMedium(*interior, context);
     if (exterior) shape.exterior = useMedium(*exterior, context);
+    if (interior && !bsdf)
+        context.warn(element.where,
+                     fmt::format("no light enters the medium in shape '{}', since a shape without a bsdf "
+                                 "is opaque; add <bsdf type=\"null\"/>.",
+                                 shape.id));
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
     if (needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
         checkTexCoords(shape, "bsdf");

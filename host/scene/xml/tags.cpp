@@ -43,9 +43,13 @@ const std::vector<Tag> tags = {
     {"lookat", TagKind::operation, {"origin", "target"}, {"up"}},
 };
 
-/// Part of Mitsuba 3 but not of quasilux, with what to do instead.
+/// Part of Mitsuba 3 or a version before but not of quasilux, with what to do instead.
 const std::vector<std::pair<std::string_view, std::string_view>> unsupportedTags = {
-    {"animation", "use one <transform>"},
+    {"animation", "is not supported yet; use one <transform>"},
+    {"luminaire", "is of Mitsuba 0.x; use <emitter>"},
+    {"camera", "is of Mitsuba 0.x; use <sensor>"},
+    {"subsurface", "is of Mitsuba 0.x; use a <medium> as the shape's interior"},
+    {"blackbody", "is of Mitsuba 0.x; use <texture type=\"blackbody\"> with a float 'temperature'"},
 };
 
 Names namesOf(const std::vector<Tag>& list) {
@@ -95,8 +99,7 @@ const Tag& tagOf(const Element& element) {
     for (const Tag& tag : tags)
         if (tag.name == element.tag) return tag;
     for (const auto& [name, advice] : unsupportedTags)
-        if (name == element.tag)
-            throw InputError(element.where, fmt::format("<{}> is not supported yet; {}.", name, advice));
+        if (name == element.tag) throw InputError(element.where, fmt::format("<{}> {}.", name, advice));
     throw InputError(element.where,
                      fmt::format("unknown element <{}>.{}", element.tag, knownNames(element.tag, namesOf(tags))));
 }

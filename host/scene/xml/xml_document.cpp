@@ -124,13 +124,13 @@ private:
         for (pugi::xml_attribute attribute : node.attributes())
             element.attributes.push_back({attribute.name(), substitute(attribute.value(), element.where)});
         if (!parent && element.find("version")) version_ = majorVersion(element.get("version"));
-        const bool isOld = version_ == 0 || version_ == 1;
+        const bool isOld = isOfFormerVersion();
         if (isOld) upgradeNames(element);
         if (element.tag == "spectrum" && element.find("type"))
             element.tag = "texture"; // one kind of plugin, as in Mitsuba
         checkElement(element, parent);
         for (pugi::xml_node child : node.children()) convertChild(child, element, positions, depth);
-        if (isOld) upgradeTextureCoordinates(element);
+        if (isOld) upgradeParameters(element);
         return element;
     }
 
@@ -145,10 +145,13 @@ private:
                                              parent.tag));
             parent.instructions.push_back(parseInstruction(child.value(), where));
         } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-            const std::string text = child.value();
-            throw InputError(
-                positions.at(child.offset_debug()),
-                fmt::format("text '{}' in <{}>; values are written as attributes.", text.substr(0, 40), parent.tag));
+            std::string text = child.value();
+            text.erase(0, text.find_first_not_of(" \t\r\n"));
+            throw InputError(positions.at(child.offset_debug()),
+                             fmt::format("text '{}' in <{}>; {}.", text.substr(0, 40), parent.tag,
+                                         text.starts_with('&')
+                                             ? "entities of XML are not read, use <include filename=\"…\"/>"
+                                             : "values are written as attributes"));
         } else if (child.type() == pugi::node_element) {
             if (leavesOut(child, parent, positions)) return;
             Element element = convert(child, &parent, positions, depth + 1);
@@ -165,12 +168,15 @@ private:
         }
     }
 
+    bool isOfFormerVersion() const { return version_ == 0 || version_ == 1; }
+
     /// Whether the element is unknown, and forgiven.
     bool leavesOut(pugi::xml_node node, const Element& parent, const TextPositions& positions) {
         Element element;
         element.tag = node.name();
         element.where = positions.at(node.offset_debug() - 1);
-        if (unknown_ == Unknown::refused || isKnownTag(element.tag) || parent.tag == "transform") return false;
+        const bool isKnown = isKnownTag(element.tag) || (isOfFormerVersion() && isFormerTag(element.tag));
+        if (unknown_ == Unknown::refused || isKnown || parent.tag == "transform") return false;
         try {
             tagOf(element);
         } catch (const InputError& error) {
