@@ -102,6 +102,9 @@ TEST(CausticsByPaths, AreRefusedWherePhotonsAreNeeded) {
     settings.variant = Variant::main;
     EXPECT_THAT(refusal(glass, settings), HasSubstr("--variant alternative"));
     settings = pathTracing();
+    settings.genericKernels = true;
+    EXPECT_THAT(refusal(glass, settings), HasSubstr("take --kernels scene"));
+    settings = pathTracing();
     settings.map = MapOrder::camera;
     EXPECT_THAT(refusal(glass, settings), HasSubstr("--map camera"));
     Scene spot = glass;

@@ -243,6 +243,31 @@ TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
     }
 }
 
+// All that comes by a place comes through a window that is known: once that is taken, no ray passes the place any more, and
+// what is left goes elsewhere.
+TEST(Aims, APlaceWhoseRaysAreTakenIsNone) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<shared::ImportancePath> paths(20000);
+    for (size_t k = 0; k < paths.size(); ++k) {
+        auto& path = paths[k] = {};
+        const double away = 0.5 * std::sqrt(std::abs(number(random))), turn = std::numbers::pi * number(random);
+        const bool here = k % 2 == 0;
+        path.vertices[0].position = here
+                                        ? shared::Packed3{float(away * std::cos(turn)), float(away * std::sin(turn)), 0}
+                                        : shared::Packed3{float(9 * number(random)), float(9 * number(random)), -40};
+        path.vertices[1].position = {float(3 * number(random)), float(3 * number(random)), here ? 50.0f : -20.0f};
+        path.vertices[0].weight = path.vertices[1].weight = path.vertices[1].found = 1;
+    }
+    const Opening window{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.5, 0.5};
+    const std::vector<double> weights(paths.size(), 1);
+    ASSERT_FALSE(findAims(paths, weights, {}, 50).empty()) << "the place is found where no window is known";
+    const auto sets = findAims(paths, weights, {window}, 50);
+    ASSERT_FALSE(sets.empty());
+    for (const auto& set : sets) ASSERT_FALSE(set.openings.empty());
+    EXPECT_EQ(sets[0].openings[0].halfU, window.halfU) << "the window is taken first";
+}
+
 // A patch of ground in the sun lights a room through a window. Light from outside comes to all of the patch, which
 // nothing is to be aimed at; and most of what is scattered brings nothing.
 TEST(Aims, FindTheWindowBeforeAPatchOfGroundInTheSun) {

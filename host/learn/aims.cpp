@@ -107,7 +107,8 @@ AimSet setAbout(const Opening& opening, const std::vector<UsefulRay>& rays) {
 
 double AimSet::density(const UsefulRay& ray) const {
     double sum = 0;
-    if (openings.front().faces) { // squares about one place
+    if (openings.empty()) return 0; // of a place that no ray passes by
+    if (openings.front().faces) {   // squares about one place
         const glm::dvec3& centre = openings.front().centre;
         if (!(glm::dot(centre - ray.position, ray.direction) > 0)) return 0;
         const double away = distance(ray, centre);

@@ -67,9 +67,13 @@ std::string whyNotCausticsByPaths(const Scene& scene, const Features& features, 
     byPaths.caustics = CausticLight::paths;
     if (settings.map == MapOrder::camera) return "--map camera is there for photons";
     if (features.irradianceMeter) return "irradiance meters count photons";
-    if (photonClasses(features, byPaths) != 0)
+    if (photonClasses(features, byPaths) != 0) {
+        byPaths.genericKernels = false;
+        if (settings.genericKernels && photonClasses(features, byPaths) == 0)
+            return "--kernels generic takes photons of all classes; take --kernels scene";
         return "photons of other classes are in use, and need them to bring all light; take --quasi-specular all, "
                "--variant alternative and --direct emitters with it";
+    }
     if (hasEmittersThatNoPathMeets(scene))
         return "the scene has emitters that no path can meet: points, parallel beams or luminaires";
     return {};
