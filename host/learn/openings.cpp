@@ -14,16 +14,17 @@ namespace quasilux {
 namespace {
 
 constexpr size_t raysLookedAt = 600;
-constexpr size_t candidates = 150;   // places that are tried for an opening's centre
-constexpr size_t fewestRays = 32;    // about a place that may be one
-constexpr double widestBall = 0.01;  // chance of passing it above which little is to be gained by aiming
-constexpr double mostCopies = 4;     // of a ray in a sample: a single one is no opening
-constexpr int refinements = 4;       // of the best place
-constexpr double margin = 1.25;      // of an opening's region to what its rays come through
-constexpr double muchNarrower = 0.5; // flux of a rectangle to that of a square that faces its rays
-constexpr double outliers = 0.01;    // share of the weight on either side that bounds leave out
-constexpr int turns = 16;            // of axes in a quarter
-constexpr int normals = 48;          // tried on a hemisphere, beside the world's axes
+constexpr size_t candidates = 150;      // places that are tried for an opening's centre
+constexpr size_t fewestRays = 32;       // about a place that may be one
+constexpr double widestBall = 0.01;     // chance of passing it above which little is to be gained by aiming
+constexpr double mostCopies = 4;        // of a ray in a sample: a single one is no opening
+constexpr int refinements = 4;          // of the best place
+constexpr double margin = 1.25;         // of an opening's region to what its rays come through
+constexpr double muchNarrower = 0.5;    // flux of a rectangle to that of a square that faces its rays
+constexpr double nearestOpening = 1e-3; // to where rays begin, relative to coordinates
+constexpr double outliers = 0.01;       // share of the weight on either side that bounds leave out
+constexpr int turns = 16;               // of axes in a quarter
+constexpr int normals = 48;             // tried on a hemisphere, beside the world's axes
 
 glm::dvec3 across(const UsefulRay& ray, const glm::dvec3& v) { return v - glm::dot(ray.direction, v) * ray.direction; }
 
@@ -59,11 +60,13 @@ struct Ball {
     double radius = 0, gain = 0;
 };
 
-// Probability with which a ray passes a ball by chance.
+// Probability with which a ray passes a ball by chance. All rays of a point pass it, however small a ball; but so near a
+// ray's beginning kernels, which compute in floats, could not tell where it passes.
 double byChance(const UsefulRay& ray, const glm::dvec3& centre, double r, double radius) {
     if (!ray.isScattered) return std::min(1.0, r * r / (radius * radius));
-    const glm::dvec3 offset = centre - ray.position;
-    return std::min(1.0, r * r / (4 * glm::dot(offset, offset)));
+    const double away = glm::distance(centre, ray.position);
+    if (away <= nearestOpening * (glm::length(centre) + glm::length(ray.position))) return 1;
+    return std::min(1.0, r * r / (4 * away * away));
 }
 
 // The best radius about a place.
