@@ -25,6 +25,7 @@ constexpr Rgb luminance{0.212671, 0.715160, 0.072169};
 struct Lamp {
     Point position;
     double intensity;
+    double height = -1; ///< of a luminaire along z about the position; a point emitter if below 0
 };
 
 struct Case {
@@ -58,23 +59,44 @@ double ofLamp(const Case& c, const Lamp& lamp, double extinction) {
 }
 
 double expected(const Case& c) {
+    constexpr int places = 200; // of a luminaire
     double sum = 0;
     for (const Lamp& lamp : c.lamps)
-        for (size_t k = 0; k < 3; ++k) sum += luminance[k] * ofLamp(c, lamp, c.extinction[k]);
+        for (int place = 0; place < (lamp.height > 0 ? places : 1); ++place)
+            for (size_t k = 0; k < 3; ++k) {
+                Lamp point = lamp;
+                if (lamp.height > 0) {
+                    point.position[2] += lamp.height * ((place + 0.5) / places - 0.5);
+                    point.intensity /= places;
+                }
+                sum += luminance[k] * ofLamp(c, point, c.extinction[k]);
+            }
     return sum;
 }
 
+/// Of one candela in all directions, a rod of this height or a point.
+std::string luminaireFile(double height) {
+    return fmt::format("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 {}\n1 1 0\n0 180\n0\n1 1\n", height);
+}
+
 Scene sceneOf(const Case& c) {
+    test::SceneFiles files;
     std::string lamps;
-    for (const auto& [p, intensity] : c.lamps)
-        lamps += fmt::format(R"(<emitter type="point"><point name="position" x="{}" y="{}" z="{}"/>
+    for (const auto& [p, intensity, height] : c.lamps)
+        if (height < 0)
+            lamps += fmt::format(R"(<emitter type="point"><point name="position" x="{}" y="{}" z="{}"/>
             <rgb name="intensity" value="{}"/></emitter>)",
-                             p[0], p[1], p[2], intensity);
+                                 p[0], p[1], p[2], intensity);
+        else
+            lamps += fmt::format(
+                R"(<emitter type="quasilux_ies"><string name="filename" value="{}"/><float name="lumens" value="{}"/>
+                <transform name="to_world"><translate x="{}" y="{}" z="{}"/></transform></emitter>)",
+                files.write(fmt::format("lamp{}.ies", height), luminaireFile(height)), 4 * pi * 683 * intensity, p[0],
+                p[1], p[2]);
     const std::string wall =
         fmt::format(R"(<shape type="disk"><transform name="to_world"><scale value="0.2"/><translate x="{}" z="{}"/>
             </transform><bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape>)",
                     c.beside, c.wall);
-    test::SceneFiles files;
     return loadScene(files.write(
         "scene.xml",
         fmt::format(
@@ -121,6 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Coloured", 0.1, {lamp}, {0.3, 1.2, 0.1}, -0.3},
                     Case{"EndsAtAWall", 0.1, {lamp}, {0.4, 0.4, 0.4}, 0.3, 0.35},
                     Case{"TwoLamps", 0.1, {lamp, {{0.2, 0.3, -0.8}, 0.7}}},
+                    Case{"Luminaires", 0.1, {{{0, 0, 0.3}, 2, 0.5}, {{-0.3, 0, -0.5}, 0.7, 0}}},
                     Case{"BesideASky",
                          0.1,
                          {lamp},
