@@ -246,6 +246,18 @@ TEST_F(CommandLineTest, InfoTellsWhatTheMapHolds) {
     EXPECT_GT(stored("alternative"), 3 * stored("main"));
 }
 
+TEST_F(CommandLineTest, InfoHasPowersInTheUnitsOfTheScene) {
+    const std::string body =
+        R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/>
+        <integer name="height" value="8"/></film></sensor><emitter type="point"/><shape type="sphere"/></scene>)";
+    const auto heading = [&](const std::string& instruction) {
+        write("units.xml", instruction + body);
+        return run({"info", "units.xml"}).output;
+    };
+    EXPECT_THAT(heading(""), HasSubstr("power (W)"));
+    EXPECT_THAT(heading("<?quasilux units=\"photometric\"?>"), HasSubstr("power (lm)"));
+}
+
 TEST(Names, OfComponentsAndSettings) {
     const std::vector<std::string> names{"direct", "caustic", "quasi_caustic", "diffuse", "emission"};
     for (unsigned i = 0; i < FILM_COMPONENTS; ++i) EXPECT_EQ(componentName(i), names[i]);

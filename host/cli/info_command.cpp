@@ -30,8 +30,8 @@ void printGeometry(const SceneReport& report) {
     fmt::print("photons per pass: {}\n", report.photonsPerPass);
 }
 
-void printEmitters(const SceneReport& report) {
-    TextTable table({"emitter", "type", "power (W)"});
+void printEmitters(const SceneReport& report, bool photometric) {
+    TextTable table({"emitter", "type", photometric ? "power (lm)" : "power (W)"});
     for (const auto& row : report.emitters) table.add({row.id, row.type, fmt::format("{:.6g}", row.power)});
     fmt::print("\n{}", table.text());
 }
@@ -141,7 +141,7 @@ void printText(const std::string& file, const RenderSettings& settings, const Se
     fmt::print("map: {}, in a trial pass {} records, {}\n", name(settings.map), renderer.counters().storedPoints,
                bytesText(renderer.counters().storedBytes));
     printGeometry(report);
-    printEmitters(report);
+    printEmitters(report, settings.photometric);
     printLobes(report);
     printMedia(report);
     printRadii(report);
