@@ -251,7 +251,7 @@ TEST_F(CommandLineTest, InfoHasPowersInTheUnitsOfTheScene) {
         R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/>
         <integer name="height" value="8"/></film></sensor><emitter type="point"/><shape type="sphere"/></scene>)";
     const auto heading = [&](const std::string& instruction) {
-        write("units.xml", instruction + body);
+        std::ofstream(folder / "units.xml") << instruction << body;
         return run({"info", "units.xml"}).output;
     };
     EXPECT_THAT(heading(""), HasSubstr("power (W)"));

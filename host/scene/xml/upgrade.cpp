@@ -59,9 +59,9 @@ void drop(Element& element, std::string_view name, std::initializer_list<std::st
         element.children.erase(element.children.begin() + (found - element.children.data()));
 }
 
-void setAttribute(Element& element, std::string_view name, std::string value) {
+void setAttribute(Element& element, std::string_view name, const std::string& value) {
     for (Attribute& attribute : element.attributes)
-        if (attribute.name == name) attribute.value = std::move(value);
+        if (attribute.name == name) attribute.value = value;
 }
 
 // <srgb>: numbers that are sRGB encoded. #rrggbb is so in <rgb> too.
