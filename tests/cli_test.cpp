@@ -247,15 +247,15 @@ TEST_F(CommandLineTest, InfoTellsWhatTheMapHolds) {
 }
 
 TEST_F(CommandLineTest, InfoHasPowersInTheUnitsOfTheScene) {
-    const std::string body =
-        R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/>
-        <integer name="height" value="8"/></film></sensor><emitter type="point"/><shape type="sphere"/></scene>)";
-    const auto heading = [&](const std::string& instruction) {
-        std::ofstream(folder / "units.xml") << instruction << body;
+    const auto informed = [&](const std::string& instruction) {
+        std::ofstream(folder / "units.xml")
+            << "<scene version=\"3.0.0\">" << instruction
+            << R"(<sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/>
+               </film></sensor><emitter type="point"/><shape type="sphere"/></scene>)";
         return run({"info", "units.xml"}).output;
     };
-    EXPECT_THAT(heading(""), HasSubstr("power (W)"));
-    EXPECT_THAT(heading("<?quasilux units=\"photometric\"?>"), HasSubstr("power (lm)"));
+    EXPECT_THAT(informed(""), HasSubstr("power (W)"));
+    EXPECT_THAT(informed("<?quasilux units=\"photometric\"?>"), HasSubstr("power (lm)"));
 }
 
 TEST(Names, OfComponentsAndSettings) {
