@@ -58,7 +58,8 @@ TEST(Weights, OutOfRangeAreTheNearestWithAWarning) {
     EXPECT_EQ(firstLobe(nothing).device.transmittance.g, 1);
     EXPECT_THAT(nothing.warnings, ElementsAre(HasSubstr("is -0.1; it is taken as 0")));
     const Scene medium = test::loadBody(
-        "<shape type=\"cube\"><medium type=\"homogeneous\" name=\"interior\"><phase type=\"blendphase\"><float "
+        "<shape type=\"cube\"><bsdf type=\"null\"/><medium type=\"homogeneous\" name=\"interior\"><phase "
+        "type=\"blendphase\"><float "
         "name=\"weight\" value=\"2\"/><phase type=\"hg\"/><phase type=\"rayleigh\"/></phase></medium></shape>");
     EXPECT_EQ(medium.media.at(0).g, 0) << "of 'rayleigh' alone";
     EXPECT_THAT(medium.warnings, ElementsAre(HasSubstr("is 2; it is taken as 1")));
