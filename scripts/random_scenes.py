@@ -4,7 +4,7 @@
 
 Scene k of a seed is always the same: a few shapes in cells of their own under transforms with mirrors and shears, with nested bsdfs, textures,
 lights, media and a sensor by the tables below. Means of the image and of blocks of 8 x 8 pixels are compared; what differs by more than 1 % and
-4.5 standard errors of the difference is rendered again for longer, and told of where it still does. Left out is what Mitsuba's path tracers do
+4.5 standard errors of the difference is rendered again for longer, and reported if it still differs. Left out is what Mitsuba's path tracers do
 not find, or is known to differ (docs/notes/validation.md): light of points by smooth mirrors and glass, blends of glass, normal maps that let
 light through. Scenes and images are kept in out/random_scenes/. Exit code 1 where something differs, fails or is refused.
 """

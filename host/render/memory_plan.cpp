@@ -100,6 +100,10 @@ uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings) 
     return imageBytes(scene, settings) + pixelsOf(scene) * ofEstimate;
 }
 
+namespace {
+
+/// Photons of a pass for which the device has room, where one of all of them stores `stored`; none if it has no room
+/// even for the rest.
 std::optional<uint64_t> photonsThatFit(const DeviceScene& scene, const RenderSettings& settings, uint64_t stored,
                                        const DeviceInfo& device) {
     const unsigned all = photonsPerPass(settings, scene.camera);
@@ -120,8 +124,12 @@ std::optional<uint64_t> photonsThatFit(const DeviceScene& scene, const RenderSet
     return least / unit * unit;
 }
 
+} // namespace
+
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
-               const RenderSettings& settings, std::optional<uint64_t> photons) {
+               const RenderSettings& settings, std::optional<uint64_t> stored) {
+    if (fits(sizes, device)) return;
+    const auto photons = stored ? photonsThatFit(scene, settings, *stored, device) : std::nullopt;
     for (const auto& [label, bytes] : sizes)
         if (bytes > device.maximumAllocation)
             throw InputError(

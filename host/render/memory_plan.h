@@ -31,14 +31,9 @@ uint64_t imageBytes(const DeviceScene& scene, const RenderSettings& settings);
 /// The same while its error is estimated.
 uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings);
 
-/// Photons of a pass of --map photons for which the device has room, where one of all of them stores `stored`; none if
-/// it has no room even for the rest.
-std::optional<uint64_t> photonsThatFit(const DeviceScene& scene, const RenderSettings& settings, uint64_t stored,
-                                       const DeviceInfo& device);
-
-/// Throws InputError that says by how much the buffers exceed the device's memory, and what to do: `photons` of a pass
-/// would fit, if that is known.
+/// Throws InputError that says by how much the buffers exceed the device's memory, and what to do. `stored`: photons
+/// that a pass stores; how many to trace, so that they fit, is said then.
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
-               const RenderSettings& settings, std::optional<uint64_t> photons = {});
+               const RenderSettings& settings, std::optional<uint64_t> stored = {});
 
 } // namespace quasilux

@@ -13,8 +13,7 @@ PassPhotons::PassPhotons(const PassContext& context, const std::function<void(co
     const RenderSettings& settings = context.settings;
     const PhotonForecast expected = forecastPhotons(context, context.program, compile);
     const BufferSizes sizes = planPass(flat, settings, expected.photons, context.device.info());
-    const DeviceInfo& device = context.device.info();
-    checkFits(sizes, device, flat, settings, photonsThatFit(flat, settings, expected.photons, device));
+    checkFits(sizes, context.device.info(), flat, settings, expected.photons);
     forecast_ = forecastOf(context, sizes, sumOf(sizes) - sumOf(planScene(flat, settings, context.device.info())));
     stage_.emplace(context.device, context.program, context.geometry, context.photons, context.classes,
                    storesDepth(flat, settings), expected.photons);

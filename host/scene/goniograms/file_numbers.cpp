@@ -21,6 +21,18 @@ std::vector<std::string_view> splitLines(std::string_view text) {
     return lines;
 }
 
+bool isWord(std::string_view text, std::string_view word) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : int(c); };
+    return std::equal(text.begin(), text.end(), word.begin(), word.end(),
+                      [&](char a, char b) { return lower(a) == lower(b); });
+}
+
+std::string_view withoutBlanks(std::string_view text) {
+    const size_t first = text.find_first_not_of(" \t");
+    return first == std::string_view::npos ? std::string_view{}
+                                           : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 /// Whether it begins like one; what it is worth, parseNumber says.
 bool beginsAsNumber(std::string_view text) { return text.find_first_of("0123456789") == text.find_first_not_of("+-."); }
 

@@ -12,6 +12,12 @@ namespace quasilux {
 /// Lines without their ends, LF, CR LF, or CR alone, and without a byte order mark.
 std::vector<std::string_view> splitLines(std::string_view text);
 
+/// Without regard to case, which files have either way.
+bool isWord(std::string_view text, std::string_view word);
+
+/// Without those about it.
+std::string_view withoutBlanks(std::string_view text);
+
 /// Whether it begins like a number; what it is worth, parseNumber says.
 bool beginsAsNumber(std::string_view text);
 

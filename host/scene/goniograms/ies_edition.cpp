@@ -1,5 +1,7 @@
 #include "scene/goniograms/ies_edition.h"
 
+#include "scene/goniograms/file_numbers.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,19 +69,6 @@ bool setShapeUntil1995(LuminousShape& shape, double width, double length, double
 }
 
 } // namespace
-
-/// Without regard to case, which files have either way.
-bool isWord(std::string_view text, std::string_view word) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : int(c); };
-    return std::equal(text.begin(), text.end(), word.begin(), word.end(),
-                      [&](char a, char b) { return lower(a) == lower(b); });
-}
-
-std::string_view withoutBlanks(std::string_view text) {
-    const size_t first = text.find_first_not_of(" \t");
-    return first == std::string_view::npos ? std::string_view{}
-                                           : text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 std::optional<IesFirstLine> readIesFirstLine(std::string_view line) {
     std::string text(line);

@@ -25,9 +25,4 @@ std::string formatOf(IesEdition edition);
 /// What width (along C90), length (along C0) and height stand for, signs included, in units of `metres`.
 LuminousShape shapeOfLm63(IesEdition edition, double width, double length, double height, double metres);
 
-/// Without regard to case, which files have either way.
-bool isWord(std::string_view text, std::string_view word);
-
-std::string_view withoutBlanks(std::string_view text);
-
 } // namespace quasilux

@@ -186,7 +186,7 @@ private:
         if (!(out_.largest() > 0)) numbers.fail("every candela value is 0; a luminaire emits light.");
     }
 
-    /// So that a wrong count is told as such. Text may follow: ERCO's files end with END.
+    /// A wrong count has a message of its own. Text may follow: ERCO's files end with END.
     static void expectCount(FileNumbers& numbers, unsigned verticalCount, unsigned horizontalCount) {
         const size_t expected = size_t(verticalCount) + horizontalCount + size_t(verticalCount) * horizontalCount;
         if (numbers.left() == expected || numbers.isText(expected)) return;

@@ -25,7 +25,8 @@ enum DataField : size_t {
 enum LocationField : size_t { latitudeField = 6, longitudeField, zoneField };
 constexpr size_t recordsField = 2; // of the line DATA PERIODS
 
-constexpr double missingRadiation = 9999, missingDewPoint = 99.9; // or more
+constexpr std::string_view locationWord = "LOCATION", dataPeriods = "DATA PERIODS"; // begin lines
+constexpr double missingRadiation = 9999, missingDewPoint = 99.9;                   // or more
 constexpr double mostOfField = 999999;
 constexpr int firstYear = 1950, lastYear = 2100, midYear = 2006; // that sun positions are known of; between leap years
 
@@ -75,16 +76,11 @@ int yearAt(const WeatherLine& line) {
     return year >= firstYear && year <= lastYear ? static_cast<int>(year) : midYear;
 }
 
-bool beginsWith(std::string_view line, std::string_view word) {
-    const auto upper = [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; };
-    return line.size() >= word.size() &&
-           std::equal(word.begin(), word.end(), line.begin(), [&](char a, char b) { return a == upper(b); });
-}
-
 /// Index of the first line of hours, after DATA PERIODS: the line 8, or a later one where a comment has several lines.
 size_t firstHour(const std::string& path, const std::vector<std::string_view>& lines) {
-    const auto found = std::find_if(lines.begin(), lines.end(),
-                                    [](std::string_view line) { return beginsWith(line, "DATA PERIODS"); });
+    const auto found = std::find_if(lines.begin(), lines.end(), [](std::string_view line) {
+        return isWord(line.substr(0, dataPeriods.size()), dataPeriods);
+    });
     const int number = static_cast<int>(found - lines.begin()) + 1;
     if (found == lines.end())
         throw InputError(SourceLocation{path, 1, 1},
@@ -104,7 +100,7 @@ WeatherHour readWeatherHour(const std::string& path, const std::string& content,
                             const SourceLocation& where) {
     const std::vector<std::string_view> lines = splitLines(content);
     const WeatherLine location{path, 1, splitFields(lines.empty() ? std::string_view() : lines.front())};
-    if (!beginsWith(location.fields.front(), "LOCATION"))
+    if (!isWord(location.fields.front().substr(0, locationWord.size()), locationWord))
         throw InputError(location.where(), "not an EnergyPlus weather file: its first line begins with LOCATION.");
     WeatherHour found;
     found.place.latitude = location.at(latitudeField, "the latitude", -90, 90);
