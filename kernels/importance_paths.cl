@@ -133,7 +133,7 @@ inline void foundBySample(const World* world, ImportancePath* path, ImportanceSt
     if (!any(wanted + other > 0)) return;
     shadow.tMax = shadowReach(&s->light, positionError);
     const float3 visible =
-        visibility(shadow, state->medium, world->nodes, world->blocks, world->tables, &world->params->scene);
+        visibility(shadow, state->medium, QL_NONE, world->nodes, world->blocks, world->tables, &world->params->scene);
     if (!any(visible > 0)) return;
     const float3 end = isinf(s->light.distance) ? position : position + s->light.distance * s->light.direction;
     const float found = meanOf(state->throughput * (wanted + other) * visible);
@@ -198,15 +198,15 @@ inline int scatterImportance(const World* world, ImportanceState* state, const S
     if (k == s->lobeCount) return 0;
     const LobeSample sample = tintedSample(s, lobes, k, wo, rest, rngNext2(&state->rng), TRANSPORT_RADIANCE);
     if (!sample.valid) return 0;
-    const float3 wi = toWorld(frame, sample.wi);
-    if (!sameSides(s, wi, sample.wi.z)) return 0;
     state->throughput *= sample.weight / choice->probability[k];
-#ifdef HAS_LOBE_PASSAGE
+#ifdef HAS_PASSING_LOBE
     if (LOBE_PASSES(lobes[k].type)) {
         passImportance(world, state, s, distance);
         return 1;
     }
 #endif
+    const float3 wi = toWorld(frame, sample.wi);
+    if (!sameSides(s, wi, sample.wi.z)) return 0;
     state->lobePdf = lobes[k].scattering == SCATTER_SPECULAR ? 0.f : choice->probability[k] * sample.pdfSolidAngle;
     noteScattering(state, lobes[k].scattering, world->params->bdd);
     state->ray = leavingRay(s, wi);

@@ -34,13 +34,21 @@ def name_of(text):
     return re.search(r"(\w+)\(", re.sub(r"__attribute__\(\(.*?\)\)\)?", "", text)).group(1)
 
 
+def is_pragma(line):
+    """One that has to stand first in its block, as FP_CONTRACT."""
+    return line.startswith("#pragma")
+
+
 ONE_LINE = re.compile(r"^(\w.*?\b(\w+)\(.*?\) \{)( .*\}.*)$")
 
 
 def instrument_file(path, source, counters):
     """Lines stay where they are. A function's head may be several lines, from the first that begins in column 0."""
-    lines, head, inside = [], "", None
-    for number, line in enumerate(source.split("\n"), 1):
+    lines, head, inside, waiting = [], "", None, ""
+    source = source.split("\n")
+    for number, line in enumerate(source, 1):
+        if waiting and not is_pragma(line):
+            line, waiting = waiting + line, ""
         if line[:1].isalpha() or line[:2] == "__":
             head = ""
         head += line.strip() + " "
@@ -50,7 +58,10 @@ def instrument_file(path, source, counters):
             inside = name_of(head)
         if inside and counted(line) and (is_function or BLOCK.match(line) or line.strip() == "{"):
             counters.append({"file": path, "line": number, "function": inside, "isFunction": is_function})
-            line += counter_at(len(counters) - 1)
+            if is_pragma(source[number]):
+                waiting = counter_at(len(counters) - 1)
+            else:
+                line += counter_at(len(counters) - 1)
         elif inside is None and (one := ONE_LINE.match(line)) and not line.startswith(("typedef", "struct")):
             counters.append({"file": path, "line": number, "function": name_of(line), "isFunction": True})
             line = one[1] + counter_at(len(counters) - 1) + one[3]

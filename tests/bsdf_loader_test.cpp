@@ -223,6 +223,29 @@ TEST(MaskBsdf, TextureOfNumbersWeighsEveryLobe) {
     EXPECT_TRUE(bsdf.isTextured());
 }
 
+TEST(ThinDielectricBsdf, LetsLightPassByALobeOfItsOwn) {
+    const std::string pane = R"(<bsdf type="thindielectric"><rgb name="specular_reflectance" value="0.5,0.5,0.5"/>
+        <texture type="checkerboard" name="specular_transmittance"/></bsdf>)";
+    const Bsdf bsdf = loadBsdf(pane);
+    for (const auto& side : {bsdf.front, bsdf.back}) {
+        ASSERT_EQ(side.size(), 2u);
+        EXPECT_EQ(side[0].device.type, unsigned(LOBE_THINDIELECTRIC));
+        EXPECT_FLOAT_EQ(side[0].device.reflectance.g, 0.5f);
+        EXPECT_FLOAT_EQ(side[0].device.transmittance.g, 0);
+        EXPECT_EQ(side[1].device.type, unsigned(LOBE_PANE));
+        EXPECT_FLOAT_EQ(side[1].device.reflectance.g, 0);
+        EXPECT_FLOAT_EQ(side[1].device.transmittance.g, 1);
+        EXPECT_EQ(side[1].device.reflectanceTexture, side[1].device.transmittanceTexture);
+        EXPECT_EQ(side[1].device.transmittanceTexture, 1u);
+        EXPECT_EQ(side[1].device.eta.r, side[0].device.eta.r);
+    }
+    EXPECT_TRUE(bsdf.letsPass());
+    const Bsdf bent =
+        loadBsdf(R"(<bsdf type="normalmap"><texture type="checkerboard" name="normalmap"/>)" + pane + "</bsdf>");
+    ASSERT_EQ(bent.front.size(), 1u) << "shadow rays do not know its normal";
+    EXPECT_FALSE(bent.letsPass());
+}
+
 TEST(BlendBsdf, NullPasses) {
     const Bsdf bsdf = loadBsdf(
         R"(<bsdf type="blendbsdf"><float name="weight" value="0.4"/><bsdf type="null"/><bsdf type="diffuse"/></bsdf>)");

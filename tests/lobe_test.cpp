@@ -289,5 +289,23 @@ TEST(ThinDielectric, sharesLightAsTheSeriesOfReflectionsAndDoesNotBendIt) {
     for (const SampledDirection& s : sampleLobe(lobe, outgoing(0.5), extremeNumbers(3))) EXPECT_FALSE(s.valid);
 }
 
+TEST(Pane, letsPassWhatTheSeriesOfReflectionsLeaves) {
+    shared::Lobe lobe = makeLobe(LOBE_PANE);
+    for (float eta : {1.5f, 1.001f, 2.4f})
+        for (double cosine : {1.0, 0.9, 0.7, 0.1, 0.01}) {
+            lobe.eta = {eta, eta, eta};
+            lobe.transmittance = {0.25f, 0.5f, 1};
+            const dvec3 wo = outgoing(cosine);
+            const double passes = 1 - paneBySeries(wo.z, double(eta));
+            EXPECT_NEAR(lobeAlbedos(lobe, {wo})[0].y, 0.5 * passes, 1e-6);
+            for (int transport : {radiance, flux}) {
+                const SampledDirection passed = sampleLobe(lobe, wo, {0.3f, 0.6f, 0.1f}, transport)[0];
+                EXPECT_EQ(passed.wi, -wo);
+                EXPECT_NEAR(passed.weight.x, 0.25 * passes, 1e-6);
+                EXPECT_EQ(passed.pdf, 0);
+            }
+        }
+}
+
 } // namespace
 } // namespace quasilux

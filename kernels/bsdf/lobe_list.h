@@ -23,7 +23,8 @@
     X(GGXSCHLICK, argument)                                                                                            \
     X(CLEARCOAT, argument)                                                                                             \
     X(THINGGX, argument)                                                                                               \
-    X(DIFFUSETRANSMISSION, argument)
+    X(DIFFUSETRANSMISSION, argument)                                                                                   \
+    X(PANE, argument)
 
 #define LOBE_ENUMERATOR(ID, argument) LOBE_##ID,
 enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
@@ -33,9 +34,11 @@ enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
     ((type) == LOBE_LAMBERT || (type) == LOBE_COATEDLAMBERT || (type) == LOBE_ROUGHCOATEDLAMBERT ||                    \
      (type) == LOBE_PRINCIPLEDDIFFUSE || (type) == LOBE_SHEEN || (type) == LOBE_DIFFUSETRANSMISSION)
 
-/* A lobe that lets light pass as if the surface were not there is no event of a path: neither a class nor a segment
- * begins. */
-#define LOBE_PASSES(type) ((type) == LOBE_PASSAGE)
+/* A lobe that lets light pass straight on is no event of a path: no class begins, and shadow rays pass too. */
+#define LOBE_PASSES(type) ((type) == LOBE_PASSAGE || (type) == LOBE_PANE)
+#if defined(HAS_LOBE_PASSAGE) || defined(HAS_LOBE_PANE)
+#define HAS_PASSING_LOBE
+#endif
 
 /* Lobes of microfacets whose roughness may differ along two axes, alphaU and alphaV. */
 #define LOBE_HAS_TWO_ALPHAS(type)                                                                                      \

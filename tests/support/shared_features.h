@@ -17,7 +17,8 @@ inline std::shared_ptr<const Features> surfaceFeatures() {
     static const auto shared = [] {
         Features some;
         some.lobes = {LOBE_LAMBERT,    LOBE_BECKMANN,       LOBE_PHONG,         LOBE_GGX,     LOBE_CONDUCTOR,
-                      LOBE_DIELECTRIC, LOBE_THINDIELECTRIC, LOBE_GGXDIELECTRIC, LOBE_PASSAGE, LOBE_BECKMANNDIELECTRIC};
+                      LOBE_DIELECTRIC, LOBE_THINDIELECTRIC, LOBE_GGXDIELECTRIC, LOBE_PASSAGE, LOBE_BECKMANNDIELECTRIC,
+                      LOBE_PANE};
         some.emitterTypes = {EMITTER_RECTANGLE, EMITTER_TRIANGLES,   EMITTER_SPHERE,
                              EMITTER_POINT,     EMITTER_DIRECTIONAL, EMITTER_CONSTANT};
         for (const auto ability :

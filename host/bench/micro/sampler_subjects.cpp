@@ -30,7 +30,7 @@ shared::Lobe makeLobe(unsigned type) {
 }
 
 bool isDelta(unsigned type) {
-    return type == LOBE_CONDUCTOR || type == LOBE_DIELECTRIC || type == LOBE_THINDIELECTRIC || type == LOBE_PASSAGE;
+    return type == LOBE_CONDUCTOR || type == LOBE_DIELECTRIC || type == LOBE_THINDIELECTRIC || LOBE_PASSES(type);
 }
 
 shared::Emitter makeEmitter(unsigned type) {

@@ -42,7 +42,26 @@ void dropBlackLobes(std::vector<LobeDescription>& lobes) {
     lobes.erase(std::remove_if(lobes.begin(), lobes.end(), black), lobes.end());
 }
 
+/// Makes what thin panes let pass lobes of their own, which shadow rays pass too. Where a texture bends the normal
+/// shadow rays would have to know the bent one: there a pane stays one lobe, and light behind it comes as photons.
+void splitPanes(std::vector<LobeDescription>& lobes, const std::optional<shared::Relief>& relief) {
+    if (relief) return;
+    for (size_t i = 0, before = lobes.size(); i < before; ++i) {
+        if (lobes[i].device.type != LOBE_THINDIELECTRIC) continue;
+        LobeDescription passing = lobes[i];
+        passing.name = "pane";
+        passing.device.type = LOBE_PANE;
+        passing.device.reflectance = {0, 0, 0};
+        passing.device.reflectanceTexture = passing.device.transmittanceTexture; // either tint is that of its light
+        lobes[i].device.transmittance = {0, 0, 0};
+        lobes[i].device.transmittanceTexture = 0;
+        lobes.push_back(std::move(passing));
+    }
+}
+
 int addBsdf(BsdfLobes lobes, std::string id, std::string plugin, const SourceLocation& where, Scene& scene) {
+    splitPanes(lobes.front, lobes.frontRelief);
+    splitPanes(lobes.back, lobes.backRelief);
     dropBlackLobes(lobes.front);
     dropBlackLobes(lobes.back);
     Bsdf bsdf;
