@@ -101,7 +101,7 @@ TEST(MicroBench, EverySamplerIsTimed) {
     const MicroReport report = measured("samplers");
     expectComplete(report);
     const auto cases = casesOf(report, "samplers");
-    EXPECT_EQ(cases.size(), 1u + 18u + 11u + 3u) << "numbers alone, lobes, emitters, phase functions";
+    EXPECT_EQ(cases.size(), 1u + 19u + 11u + 3u) << "numbers alone, lobes, emitters, phase functions";
     EXPECT_THAT(cases, testing::IsSupersetOf({"lobe ggxdielectric", "emitter sphere", "phase hg"}));
 }
 

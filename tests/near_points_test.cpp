@@ -6,6 +6,7 @@
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
+#include "support/vol_files.h"
 
 #include <array>
 #include <cmath>
@@ -36,6 +37,7 @@ struct Case {
     double g = 0;
     double wall = 2 * radius; ///< z of a black wall across the ray
     const char* further = ""; ///< of the scene
+    double slope = 0;         ///< extinction varies along z: by 1 + slope z / radius
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -53,7 +55,11 @@ double ofLamp(const Case& c, const Lamp& lamp, double extinction) {
         const double cosine = -along / distance;          // between the light and the way to the camera
         const double phase = (1 - c.g * c.g) / (4 * pi * std::pow(1 + c.g * c.g - 2 * c.g * cosine, 1.5));
         // dz = distance^2 / across d(angle), which takes the inverse square of the distance away
-        sum += phase * std::exp(-extinction * (z + along - entry + distance)) / across;
+        const double at = z + along, before = at - entry; // on the ray
+        const double density = 1 + c.slope * at / radius;
+        const double depth = before * (1 + c.slope * (at + entry) / 2 / radius) +
+                             distance * (1 + c.slope * (at + z) / 2 / radius); // both ways are straight
+        sum += phase * density * std::exp(-extinction * depth) / across;
     }
     return lamp.intensity * extinction * sum * (to - from) / steps;
 }
@@ -97,16 +103,27 @@ Scene sceneOf(const Case& c) {
         fmt::format(R"(<shape type="disk"><transform name="to_world"><scale value="0.2"/><translate x="{}" z="{}"/>
             </transform><bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape>)",
                     c.beside, c.wall);
+    std::string medium = fmt::format(R"(type="homogeneous"><rgb name="sigma_t" value="{},{},{}"/>)", c.extinction[0],
+                                     c.extinction[1], c.extinction[2]);
+    if (c.slope != 0) {
+        const auto least = float(1 - c.slope), most = float(1 + c.slope); // at z = -radius and radius
+        const float end = 2 * radius;
+        medium = fmt::format(
+            R"(type="heterogeneous"><volume name="sigma_t" type="gridvolume"><string name="filename" value="{}"/>
+            <boolean name="use_grid_bbox" value="true"/></volume><float name="scale" value="{}"/>)",
+            files.write("slope.vol", test::volFile({1, 1, 2}, 1, {least, most}, {-end, -end, -end, end, end, end})),
+            c.extinction[0]);
+    }
     return loadScene(files.write(
         "scene.xml",
         fmt::format(
             R"(<scene version="3.0.0"><integrator type="volpath"><integer name="max_depth" value="2"/></integrator>
         <sensor type="orthographic"><transform name="to_world"><scale x="1e-4" y="1e-4"/><translate x="{}" z="-3"/></transform>
         <film type="hdrfilm"><rfilter type="box"/><integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>
-        <shape type="sphere"><float name="radius" value="{}"/><bsdf type="null"/><medium name="interior" type="homogeneous">
-        <rgb name="sigma_t" value="{},{},{}"/><float name="albedo" value="1"/>
+        <shape type="sphere"><float name="radius" value="{}"/><bsdf type="null"/><medium name="interior" {}
+        <float name="albedo" value="1"/>
         <phase type="hg"><float name="g" value="{}"/></phase></medium></shape>{}{}{}</scene>)",
-            c.beside, radius, c.extinction[0], c.extinction[1], c.extinction[2], c.g, lamps, wall, c.further)));
+            c.beside, radius, medium, c.g, lamps, wall, c.further)));
 }
 
 MeanAndError measure(const Case& c, const std::string& split, const std::string& options = "") {
@@ -150,7 +167,9 @@ INSTANTIATE_TEST_SUITE_P(
                          {0.4, 0.4, 0.4},
                          0,
                          2 * radius,
-                         R"(<emitter type="constant"><rgb name="radiance" value="1e-4"/></emitter>)"}),
+                         R"(<emitter type="constant"><rgb name="radiance" value="1e-4"/></emitter>)"},
+                    Case{"DenserBehind", 0.1, {lamp}, {0.4, 0.4, 0.4}, 0, 2 * radius, "", 0.8},
+                    Case{"ThinnerBehind", 0.1, {lamp}, {0.4, 0.4, 0.4}, 0.6, 2 * radius, "", -0.8}),
     [](const auto& row) { return std::string(row.param.name); });
 
 /// From 64 on a tree chooses among emitters. All but one lie behind the ray's beginning, and outside the fog.
