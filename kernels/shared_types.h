@@ -293,7 +293,8 @@ typedef struct {
  * + (d . edgeU, d . edgeV) / (d . normal) in the direction d. */
 #define EMITTER_SPOT 7u
 /* As EMITTER_POINT, but for the intensity: radiance over cos^3 of the angle to `normal`, times the texture, which is
- * looked up as that of EMITTER_SPOT; none outside of its unit square. `area`: of the square, at depth 1. */
+ * looked up as that of EMITTER_SPOT; none outside of its unit square. `area`: of the square, at depth 1; cutoffAngle: of
+ * its corners from `normal`. */
 #define EMITTER_PROJECTOR 8u
 /* As EMITTER_TRIANGLES, but along the normals of the triangles only; radiance field holds the irradiance across the
  * beam; normal: that of all triangles, unit, or 0 where they differ. */

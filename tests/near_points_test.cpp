@@ -5,9 +5,11 @@
 // A standard error above 1.5 % decides nothing and fails: of samples at collisions alone it is 10 % and more.
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "support/shared_features.h"
 #include "support/test_kernels.h"
 #include "support/vol_files.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -26,7 +28,18 @@ constexpr Rgb luminance{0.212671, 0.715160, 0.072169};
 struct Lamp {
     Point position;
     double intensity;
-    double height = -1; ///< of a luminaire along z about the position; a point emitter if below 0
+    double height = -1;   ///< of a luminaire along z about the position; a point emitter if below 0
+    double spot = 0;      ///< degrees from the axis +x, beyond which a spot sends nothing; half of it is its beam
+    double projector = 0; ///< degrees between the sides of a square picture about the axis +x
+
+    /// Share of the intensity in a direction from the lamp.
+    double share(double x, double y, double z) const {
+        const double aside = std::hypot(y, z);
+        if (spot > 0) return std::clamp((spot - std::atan2(aside, x) * 180 / pi) / (spot / 2), 0.0, 1.0);
+        if (projector == 0) return 1;
+        const double side = x * std::tan(projector / 2 * pi / 180), cosine = x / std::hypot(x, aside);
+        return std::max(std::abs(y), std::abs(z)) <= side ? std::pow(cosine, -3) : 0;
+    }
 };
 
 struct Case {
@@ -59,7 +72,7 @@ double ofLamp(const Case& c, const Lamp& lamp, double extinction) {
         const double density = 1 + c.slope * at / radius;
         const double depth = before * (1 + c.slope * (at + entry) / 2 / radius) +
                              distance * (1 + c.slope * (at + z) / 2 / radius); // both ways are straight
-        sum += phase * density * std::exp(-extinction * depth) / across;
+        sum += lamp.share(c.beside - x, -y, along) * phase * density * std::exp(-extinction * depth) / across;
     }
     return lamp.intensity * extinction * sum * (to - from) / steps;
 }
@@ -88,8 +101,19 @@ std::string luminaireFile(double height) {
 Scene sceneOf(const Case& c) {
     test::SceneFiles files;
     std::string lamps;
-    for (const auto& [p, intensity, height] : c.lamps)
-        if (height < 0)
+    for (const auto& [p, intensity, height, spot, projector] : c.lamps)
+        if (spot > 0 || projector > 0)
+            lamps += fmt::format(
+                R"(<emitter type="{}"><rgb name="{}" value="{}"/>{}<transform name="to_world"><lookat
+                origin="{},{},{}" target="{},{},{}" up="0,0,1"/></transform></emitter>)",
+                spot > 0 ? "spot" : "projector", spot > 0 ? "intensity" : "irradiance",
+                spot > 0 ? intensity : intensity / pi,
+                spot > 0
+                    ? fmt::format(R"(<float name="cutoff_angle" value="{}"/><float name="beam_width" value="{}"/>)",
+                                  spot, spot / 2)
+                    : fmt::format(R"(<float name="fov" value="{}"/>)", projector),
+                p[0], p[1], p[2], p[0] + 1, p[1], p[2]);
+        else if (height < 0)
             lamps += fmt::format(R"(<emitter type="point"><point name="position" x="{}" y="{}" z="{}"/>
             <rgb name="intensity" value="{}"/></emitter>)",
                                  p[0], p[1], p[2], intensity);
@@ -126,6 +150,19 @@ Scene sceneOf(const Case& c) {
             c.beside, radius, medium, c.g, lamps, wall, c.further)));
 }
 
+/// Of all cases: one program serves them all.
+std::shared_ptr<const Features> featuresOfAll() {
+    static const auto shared = [] {
+        Features some = *test::mediumFeatures();
+        some.emitterTypes = {EMITTER_POINT, EMITTER_SPOT, EMITTER_PROJECTOR, EMITTER_GONIOGRAM, EMITTER_CONSTANT};
+        for (const auto ability : {&Features::chromaticMedia, &Features::heterogeneousMedia, &Features::directInMedia,
+                                   &Features::depthLimit, &Features::sharingMedia})
+            some.*ability = true;
+        return std::make_shared<const Features>(some);
+    }();
+    return shared;
+}
+
 MeanAndError measure(const Case& c, const std::string& split, const std::string& options = "") {
     const Scene scene = sceneOf(c);
     RenderSettings settings;
@@ -133,6 +170,7 @@ MeanAndError measure(const Case& c, const std::string& split, const std::string&
     settings.quasiSpecularOverridesScene = true;
     settings.variant = Variant::alternative;
     settings.photonsPerPass = 1000;
+    settings.furtherFeatures = featuresOfAll();
     settings.controlOptions += options;
     const std::vector<int> group(size_t(scene.sensor.width) * scene.sensor.height, 0);
     return renderGroups(scene, settings, group, 20, 16).front();
@@ -168,6 +206,10 @@ INSTANTIATE_TEST_SUITE_P(
                          0,
                          2 * radius,
                          R"(<emitter type="constant"><rgb name="radiance" value="1e-4"/></emitter>)"},
+                    Case{"Spot", 0.3, {{{-0.2, 0.05, 0.3}, 2, -1, 20}}},
+                    Case{"WideSpotAndAPoint", 0.3, {{{-0.2, 0.05, 0.3}, 2, -1, 120}, lamp}},
+                    Case{"SpotBeyondReachOfPoints", 0.5, {{{-1.2, 0.1, 0.3}, 2, -1, 12}}, {1, 1, 1}, 0.5},
+                    Case{"Projector", 0.3, {{{-0.2, 0.05, 0.3}, 2, -1, 0, 40}}},
                     Case{"DenserBehind", 0.1, {lamp}, {0.4, 0.4, 0.4}, 0, 2 * radius, "", 0.8},
                     Case{"ThinnerBehind", 0.1, {lamp}, {0.4, 0.4, 0.4}, 0.6, 2 * radius, "", -0.8}),
     [](const auto& row) { return std::string(row.param.name); });

@@ -152,6 +152,9 @@ double solidAngleOf(const PointEmitter& point, shared::Emitter& emitter) {
         const double area =
             1 / (double(glm::length(point.projector->picture.u)) * glm::length(point.projector->picture.v));
         emitter.area = static_cast<float>(area);
+        const double toCorner = std::hypot(0.5 / glm::length(point.projector->picture.u),
+                                           0.5 / glm::length(point.projector->picture.v)); // at depth 1
+        emitter.cutoffAngle = static_cast<float>(std::atan(toCorner));
         return area;
     }
     emitter.type = EMITTER_POINT;
