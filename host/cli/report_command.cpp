@@ -20,7 +20,7 @@ namespace quasilux {
 namespace {
 
 // Shares of the time that is left when their turn comes; what a part does not need the next ones have.
-constexpr double directShare = 0.25, observerShare = 1, gridShare = 3, pictureShare = 2;
+constexpr double directShare = 0.25, observerShare = 1, gridShare = 3, pictureShare = 0.5;
 // Of the precision asked for: the direct light at an eye is subtracted from all.
 constexpr double directNoise = 0.2;
 constexpr unsigned manyPasses = 1u << 30;
@@ -52,8 +52,9 @@ public:
         const bool hasPicture = scene_.sensor.meter == MeterKind::none;
         sharesLeft_ = (directShare + observerShare) * static_cast<double>(observers().size()) +
                       (scene_.grids.empty() ? 0 : gridShare) + (hasPicture ? pictureShare : 0);
-        if (!scene_.grids.empty()) measureOwnGrids();
+        // Observers are soon known, and leave their time to the grids; what those leave a picture can always use.
         for (const Observer& observer : observers()) measureObserver(observer);
+        if (!scene_.grids.empty()) measureOwnGrids();
         if (hasPicture) takePicture();
         if (isInterrupted())
             warn("the report was interrupted: parts of it are missing, or rendered for a shorter time");
