@@ -21,16 +21,16 @@ const char* const board = R"(<texture type="checkerboard" name="opacity"><float 
     <rgb name="color1" value="0.1,0.25,0.4"/></texture>)";
 
 /// `aside`: how far the lamp stands from the point above what the camera sees.
-Scene sheetScene(const std::string& bsdf, int maxDepth, double aside = 0) {
-    return placedScene(orthographicSensor("0,0,0.5", "0,0,0", 0.05, 4) + fmt::format(R"(
-<integrator type="path"><integer name="max_depth" value="{}"/></integrator>
+Scene sheetScene(const std::string& bsdf, int maxDepth, double aside = 0, const char* integrator = "path") {
+    return placedScene(orthographicSensor("0,0,0.5", "0,0,0", 0.05, 4) +
+                           fmt::format(R"(
+<integrator type="{}"><integer name="max_depth" value="{}"/></integrator>
 <shape type="rectangle"><transform name="to_world"></transform>
     <bsdf type="diffuse"><rgb name="reflectance" value="{}"/></bsdf></shape>
 <shape type="rectangle"><transform name="to_world"><scale value="2"/><translate z="1"/></transform>
     {}</shape>
 <emitter type="point"><rgb name="intensity" value="{}"/><transform name="to_world"><translate x="{}" z="{}"/></transform></emitter>)",
-                                                                                     maxDepth, floorReflectance, bsdf,
-                                                                                     intensity, aside, height),
+                                       integrator, maxDepth, floorReflectance, bsdf, intensity, aside, height),
                        Placement{});
 }
 
@@ -99,10 +99,11 @@ double seenThrough(double transmittance) {
 }
 const double slanted = paneTransmittance(height / std::hypot(aside, height));
 
-MeanAndError renderPane(DirectLight direct, int maxDepth = -1, MapOrder map = MapOrder::photons) {
+MeanAndError renderPane(DirectLight direct, int maxDepth = -1, MapOrder map = MapOrder::photons,
+                        const char* integrator = "path") {
     return renderScene(sheetScene(R"(<bsdf type="thindielectric"><float name="int_ior" value="1.5"/>
         <float name="ext_ior" value="1"/><rgb name="specular_reflectance" value="0"/></bsdf>)",
-                                  maxDepth, aside),
+                                  maxDepth, aside, integrator),
                        direct, map, direct == DirectLight::photons ? 640'000 : 10'000);
 }
 
@@ -128,6 +129,13 @@ TEST(LightThroughAPane, IsDirectLight) {
 
 TEST(LightThroughAPane, IsMissingWhereItsSegmentIsOneTooMany) {
     for (const auto direct : {DirectLight::emitters, DirectLight::photons}) EXPECT_EQ(renderPane(direct, 2).mean, 0);
+}
+
+TEST(LightThroughAPane, BeginsNoSegmentInIntegratorsOfVolumes) {
+    for (const auto direct : {DirectLight::emitters, DirectLight::photons}) {
+        const auto result = renderPane(direct, 2, MapOrder::photons, "volpath");
+        EXPECT_NEAR(result.mean, seenThrough(slanted), 3 * result.standardError + 0.005 * seenThrough(slanted));
+    }
 }
 
 } // namespace

@@ -61,6 +61,7 @@ constexpr std::array flags = {
     Flag{&Features::areaTextures, "HAS_AREA_TEXTURES", "emitting shapes with textures"},
     Flag{&Features::lightTree, "HAS_LIGHT_TREE", "many emitters"},
     Flag{&Features::hiddenEmitters, "HAS_HIDDEN_EMITTERS", "emitters hidden from the camera"},
+    Flag{&Features::countedPanes, "HAS_COUNTED_PANES", "panes that begin segments"},
     Flag{&Features::directByPhotons, "HAS_DIRECT_BY_PHOTONS", "direct light of some emitters by photons"},
     Flag{&Features::directInMedia, "HAS_DIRECT_IN_MEDIA", "emitters that shine into media"},
 };
@@ -99,7 +100,7 @@ Features Features::generic() {
     for (unsigned type = 0; type < emitterNames.size(); ++type) all.emitterTypes.insert(type);
     for (unsigned type = 0; type < phaseNames.size(); ++type) all.phases.insert(type);
     for (const auto& flag : flags) all.*flag.member = true;
-    all.hiddenEmitters = false;
+    all.hiddenEmitters = all.countedPanes = false;
     for (const auto kind : scatteringKinds) all.*kind = true;
     return all;
 }
@@ -111,6 +112,7 @@ Features Features::with(const Features& further) const {
     all.phases.insert(further.phases.begin(), further.phases.end());
     for (const auto& flag : flags) all.*flag.member |= further.*flag.member;
     all.hiddenEmitters = hiddenEmitters;
+    all.countedPanes = countedPanes;
     for (const auto kind : scatteringKinds) all.*kind |= further.*kind;
     return all;
 }

@@ -31,7 +31,8 @@ IntegratorChoice readPath(Properties& properties) {
     properties.accept(sampling);
     properties.accept({"rr_depth", "strict_normals"}); // the latter of Mitsuba 0.x
     if (properties.plugin() == "volpathmis") properties.accept({"use_spectral_mis"});
-    return {readDepthParameter(properties), properties.boolean("hide_emitters", false)};
+    const bool ofVolumes = properties.plugin() != "path";
+    return {readDepthParameter(properties), properties.boolean("hide_emitters", false), !ofVolumes};
 }
 
 /// Of integrators for derivatives, Mitsuba's default.
@@ -46,7 +47,8 @@ IntegratorChoice readForDerivatives(Properties& properties) {
     properties.accept({"rr_depth"});
     if (properties.plugin() == "prb_projective") properties.accept(ofSilhouettes);
     if (properties.plugin() == "prb_reparam") properties.accept(ofReparameterization);
-    return {readDepthParameter(properties, depthForDerivatives), properties.boolean("hide_emitters", false)};
+    return {readDepthParameter(properties, depthForDerivatives), properties.boolean("hide_emitters", false),
+            properties.plugin() != "prbvolpath"};
 }
 
 /// Light of one scattering, and of emitters seen directly.

@@ -9,6 +9,7 @@ namespace quasilux {
 struct IntegratorChoice {
     int maxDepth = -1;          ///< most segments of a path from light to camera, -1 for no limit
     bool hidesEmitters = false; ///< from the camera; where an integrator does not say so, the one nested in it does
+    bool countsPanes = true;    ///< light that passes a thin pane begins a segment: not in integrators of volumes
 };
 
 /// Throws InputError for unknown plugins and parameters, and for plugins that mean another image.

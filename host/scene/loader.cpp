@@ -320,6 +320,7 @@ ReadScene readScene(const SceneDocument& document, const std::string& path, cons
         const IntegratorChoice integrator = readIntegrator(*integrators[0], context);
         scene.maxDepth = integrator.maxDepth;
         scene.hideEmitters = integrator.hidesEmitters;
+        scene.countsPanes = integrator.countsPanes;
     }
     checkEmitters(context);
     checkUnitsOfSky(context);

@@ -313,6 +313,7 @@ struct Scene {
     std::vector<Observer> observers;
     bool hideEmitters = false; ///< the camera looks through emitting shapes and sees no surroundings (hide_emitters)
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
+    bool countsPanes = true;    ///< for both: light that passes a thin pane begins a segment
     std::vector<AovLayer> aovs; ///< that the integrator asks for
     SceneSettings settings;
     std::vector<std::string> warnings;      ///< "file:line:column: …"; things accepted but without effect
