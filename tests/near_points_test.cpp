@@ -207,6 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
                          2 * radius,
                          R"(<emitter type="constant"><rgb name="radiance" value="1e-4"/></emitter>)"},
                     Case{"Spot", 0.3, {{{-0.2, 0.05, 0.3}, 2, -1, 20}}},
+                    Case{"NarrowSpot", 0.3, {{{-0.2, 0.001, 0.3}, 2, -1, 0.3}}},
                     Case{"WideSpotAndAPoint", 0.3, {{{-0.2, 0.05, 0.3}, 2, -1, 120}, lamp}},
                     Case{"SpotBeyondReachOfPoints", 0.5, {{{-1.2, 0.1, 0.3}, 2, -1, 12}}, {1, 1, 1}, 0.5},
                     Case{"Projector", 0.3, {{{-0.2, 0.05, 0.3}, 2, -1, 0, 40}}},

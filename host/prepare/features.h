@@ -39,8 +39,8 @@ struct Features {
     std::vector<std::string> names() const;
     /// Everything that the kernels know, used or not.
     static Features generic();
-    /// What kernels can do for scenes with these features, too. Hidden emitters, counted panes and meters are no abilities, but other
-    /// images, and stay as they are here.
+    /// What kernels can do for scenes with these features, too. Hidden emitters, counted panes and meters are no
+    /// abilities, but other images, and stay as they are here.
     Features with(const Features& further) const;
 };
 
