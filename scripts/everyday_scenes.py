@@ -90,9 +90,9 @@ def tube(begin, end, radius, bsdf):
     return f'<shape type="cylinder">{ends}<float name="radius" value="{radius}"/>{bsdf}</shape>'
 
 
-def spot(origin, target, intensity, cutoff):
+def spot(origin, target, intensity, cutoff, medium=""):
     place = f'<transform name="to_world"><lookat origin="{origin}" target="{target}" up="0,0,1"/></transform>'
-    return f'<emitter type="spot">{place}<rgb name="intensity" value="{intensity}"/><float name="cutoff_angle" value="{cutoff}"/></emitter>'
+    return f'<emitter type="spot">{place}<rgb name="intensity" value="{intensity}"/><float name="cutoff_angle" value="{cutoff}"/>{medium}</emitter>'
 
 
 def sky(radiance):
@@ -118,15 +118,16 @@ def room(width, depth, height, wall=WALL, floor=FLOOR, north_hole=None):
     return "".join(slabs)
 
 
-def scene(origin, target, fov, *parts):
+def scene(origin, target, fov, *parts, integrator="path", medium=""):
+    """`integrator`: Mitsuba's, `volpath` where light passes panes or fog; `medium`: a reference to what the camera stands in."""
     camera = f'<lookat origin="{origin}" target="{target}" up="0,0,1"/>'
     film = (
         '<film type="hdrfilm"><integer name="width" value="160"/><integer name="height" value="120"/><rfilter type="box"/>'
         '<string name="pixel_format" value="rgb"/></film>'
     )
-    sensor = f'<sensor type="perspective"><float name="fov" value="{fov}"/><transform name="to_world">{camera}</transform>{film}</sensor>'
-    integrator = '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>'
-    return "\n".join(['<scene version="3.0.0">' + integrator, sensor, *parts, "</scene>\n"])
+    sensor = f'<sensor type="perspective"><float name="fov" value="{fov}"/><transform name="to_world">{camera}</transform>{film}{medium}</sensor>'
+    head = f'<scene version="3.0.0"><integrator type="{integrator}"><integer name="max_depth" value="-1"/></integrator>'
+    return "\n".join([head, sensor, *parts, "</scene>\n"])
 
 
 # --- scenes ---
@@ -274,8 +275,46 @@ def night_street():
     )
 
 
+def glazed():
+    """Sun and sky through a pane of glass."""
+    return scene(
+        "2,0.3,1.5", "2,3,1", 65, sun((0.3, -0.7, -0.5), "30,28,25"), sky("1,1.2,1.6"), SITE, room(4, 3, 2.8, north_hole=WINDOW),
+        rectangle((2, 3.05, 1.5), 0.8, 0.6, PANE, [("x", 90)]), box((1, 1, 0.7), (3, 1.8, 0.75), WOOD), box((1.3, 1.2, 0.75), (1.6, 1.5, 0.8), WALL),
+        ball((2.5, 1.5, 0.85), 0.1, metal("Al")), integrator="volpath",
+    )
+
+
+def hall():
+    """Sun through a glass roof between beams, seen from below a gallery."""
+    roof = [((-20, -15), (-8, 15)), ((8, -15), (20, 15)), ((-8, 6), (8, 15)), ((-8, -15), (8, -6))]
+    return scene(
+        "-9,-2,1.7", "-2,4,1.8", 65, sun((-0.3, 0.4, -0.75), "30,28,25"), sky("1,1.2,1.6"), box((-20, -15, -0.1), (20, 15, 0), plastic("0.4,0.38,0.35", 0.15)),
+        box((-20, 15, 0), (20, 15.1, 8), WALL), box((-20, -15.1, 0), (20, -15, 8), WALL), box((-20.1, -15, 0), (-20, 15, 8), WALL),
+        box((20, -15, 0), (20.1, 15, 8), WALL), *(box((*low, 8), (*high, 8.1), WALL) for low, high in roof), rectangle((0, 0, 8.02), 8, 6, PANE),
+        *(box((-8.07 + 2 * k, -6, 8.05), (-7.93 + 2 * k, 6, 8.25), diffuse("0.3")) for k in range(9)), box((-20, -15, 3.4), (-8, 15, 3.7), WALL),
+        *(box((-8.5, -12.2 + 6 * k, 0), (-8, -11.8 + 6 * k, 3.4), WALL) for k in range(5)),
+        *(box((-3.5 + 3 * k, 3.5, 0), (-2.5 + 3 * k, 4.5, 1), plastic(f"{0.6 - 0.15 * k:.2f},{0.1 + 0.15 * k:.2f},0.4")) for k in range(4)),
+        integrator="volpath",
+    )
+
+
+def stage():
+    """Three spots in fog."""
+    fog, inside = '<ref id="fog"/>', '<ref name="interior" id="fog"/>'
+    lights = ((-3, "900,200,100"), (0, "800,800,700"), (3, "100,300,900"))
+    return scene(
+        "0,-7,1.6", "0,0,1.4", 55,
+        '<medium type="homogeneous" id="fog"><rgb name="sigma_t" value="0.08"/><rgb name="albedo" value="0.9"/>'
+        '<phase type="hg"><float name="g" value="0.5"/></phase></medium>',
+        box((-5, -8, -0.1), (5, 8, 0), plastic("0.1,0.08,0.06", 0.1)), box((-5, 8, 0), (5, 8.1, 6), diffuse("0.05")),
+        *(spot(f"{x},-1,5.6", f"{x / 10},1,0.5", colour, 14, fog) for x, colour in lights), tube((0, 1, 0), (0, 1, 1.5), 0.25, diffuse("0.6,0.5,0.4")),
+        ball((0, 1, 1.7), 0.2, diffuse("0.7,0.5,0.4")), box((-5.5, -8.5, -0.5), (5.5, 8.5, 6.5), '<bsdf type="null"/>' + inside),
+        integrator="volpath", medium=fog,
+    )
+
+
 SCENES = {function.__name__: function for function in
-          (kitchen, curtain, blinds, desk, corridor, candle, ajar, shade, car, product, street, night_street)}
+          (kitchen, curtain, blinds, desk, corridor, candle, ajar, shade, car, product, street, night_street, glazed, hall, stage)}
 
 
 def write(folder, name):
