@@ -259,7 +259,7 @@ inline int meetImportanceSurface(const World* world, ImportancePath* path, Impor
         kinds |= lobes[k].scattering;
     }
     choiceFromStrengths(&choice, s.lobeCount, state->gathers ? 1 / IMPORTANCE_SURVIVAL_MAX : CAMERA_ROULETTE_THRESHOLD);
-    if (state->gathers || (kinds & SCATTER_GENUINE_DIFFUSE && state->d == world->params->bdd))
+    if (!isPane(&s, lobes) && (state->gathers || (kinds & SCATTER_GENUINE_DIFFUSE && state->d == world->params->bdd)))
         storeVertex(path, state, s.position, importanceFace(s.geometricNormal));
     if (kinds != SCATTER_SPECULAR) sampleEmitterFor(world, path, state, &s, &frame, wo, lobes, &choice);
     return scatterImportance(world, state, &s, &frame, wo, lobes, &choice, hit->t);

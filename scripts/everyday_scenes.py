@@ -280,7 +280,7 @@ def glazed():
     return scene(
         "2,0.3,1.5", "2,3,1", 65, sun((0.3, -0.7, -0.5), "30,28,25"), sky("1,1.2,1.6"), SITE, room(4, 3, 2.8, north_hole=WINDOW),
         rectangle((2, 3.05, 1.5), 0.8, 0.6, PANE, [("x", 90)]), box((1, 1, 0.7), (3, 1.8, 0.75), WOOD), box((1.3, 1.2, 0.75), (1.6, 1.5, 0.8), WALL),
-        ball((2.5, 1.5, 0.85), 0.1, metal("Al")), integrator="volpath",
+        ball((2.5, 1.5, 0.85), 0.1, diffuse("0.2,0.4,0.7")), integrator="volpath",
     )
 
 
