@@ -10,6 +10,7 @@
 #include "scene/emitters/cie_sky.h"
 #include "scene/photometric_units.h"
 #include "support/meter_readings.h"
+#include "support/pane_transmittance.h"
 #include "support/program_runner.h"
 
 #include <fstream>
@@ -96,15 +97,6 @@ struct Sky {
 /// Whether light gets from the opening to the outside along a direction; and how much of it.
 using Outside = std::function<double(const dvec3& from, const dvec3& direction)>;
 double allOfIt(const dvec3&, const dvec3&) { return 1; }
-
-/// Transmittance of a clear pane of index 1.52 by the cosine of incidence: all reflections between its sides,
-/// unpolarised.
-double paneTransmittance(double cosine) {
-    const double n = 1.52, inside = std::sqrt(1 - (1 - cosine * cosine) / (n * n));
-    const double s = (cosine - n * inside) / (cosine + n * inside), p = (n * cosine - inside) / (n * cosine + inside);
-    const double r = (s * s + p * p) / 2;
-    return (1 - r) / (1 + r);
-}
 
 /// Daylight factor in per cent: the integral over the opening of luminance times both cosines over the square of the
 /// distance.
@@ -194,7 +186,7 @@ void expectGlazed(const Rectangle& wall, const Rectangle& hole, const Place& pla
     const std::string pane = "<bsdf type=\"thindielectric\"><float name=\"int_ior\" value=\"1.52\"/><float "
                              "name=\"ext_ior\" value=\"1\"/></bsdf>";
     expectDaylight(wall, hole, {16}, {place}, rectangleXml(hole, pane), [&](const dvec3&, const dvec3& direction) {
-        return paneTransmittance(std::abs(glm::dot(direction, across)));
+        return test::paneTransmittance(std::abs(glm::dot(direction, across)), 1.52);
     });
 }
 

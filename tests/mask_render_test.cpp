@@ -2,6 +2,7 @@
 // and the camera looks at the floor from below, so that all light has passed it once.
 // A right case passes within 3 standard errors of 10 batches (Student t, 1.5 % a case; seeds are fixed) plus 0.5 % for
 // the density radius.
+#include "support/pane_transmittance.h"
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/shared_features.h"
@@ -84,20 +85,12 @@ TEST(MaskedLight, AnotherOpacityIsSeen) {
 
 constexpr double aside = 3, paneIndex = 1.5;
 
-/// 1 - 2 F / (1 + F), F by Fresnel's amplitudes (Born & Wolf, sec. 1.5.2).
-double paneTransmittance(double cosI) {
-    const double cosT = std::sqrt(1 - (1 - cosI * cosI) / (paneIndex * paneIndex));
-    const double rs = (cosI - paneIndex * cosT) / (cosI + paneIndex * cosT),
-                 rp = (paneIndex * cosI - cosT) / (paneIndex * cosI + cosT), f = (rs * rs + rp * rp) / 2;
-    return 1 - 2 * f / (1 + f);
-}
-
 /// Radiance of the floor.
 double seenThrough(double transmittance) {
     const double distance = std::hypot(aside, height), cosine = height / distance;
     return transmittance * intensity * cosine / (distance * distance) * floorReflectance / std::numbers::pi;
 }
-const double slanted = paneTransmittance(height / std::hypot(aside, height));
+const double slanted = test::paneTransmittance(height / std::hypot(aside, height), paneIndex);
 
 MeanAndError renderPane(DirectLight direct, int maxDepth = -1, MapOrder map = MapOrder::photons,
                         const char* integrator = "path") {
@@ -114,9 +107,10 @@ TEST_P(LightThroughAPane, HasTheClosedForm) {
     const double bound = 3 * result.standardError + 0.005 * seenThrough(slanted);
     EXPECT_NEAR(result.mean, seenThrough(slanted), bound);
     // Negative control: what passes straight at it, 92 % and not 84 %.
-    EXPECT_GT(std::abs(result.mean - seenThrough(paneTransmittance(1))), bound) << result.mean << " looks right";
+    EXPECT_GT(std::abs(result.mean - seenThrough(test::paneTransmittance(1, paneIndex))), bound)
+        << result.mean << " looks right";
 }
-// The pane begins a segment, as in Mitsuba.
+// The pane begins a segment, as in Mitsuba's `path`.
 INSTANTIATE_TEST_SUITE_P(Panes, LightThroughAPane,
                          testing::Values(std::tuple{DirectLight::emitters, MapOrder::photons, -1},
                                          std::tuple{DirectLight::emitters, MapOrder::photons, 3},
