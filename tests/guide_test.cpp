@@ -6,6 +6,7 @@
 #include "learn/aims.h"
 #include "learn/guide.h"
 #include "learn/guide_tree.h"
+#include "learn/importance.h"
 #include "learn/openings.h"
 #include "prepare/pack.h"
 #include "render/renderer.h"
@@ -247,6 +248,10 @@ TEST(GuidedMean, AimedPhotonsBringNoMoreLightThere) {
 
 // Rays from all over a wall to a place whose surroundings matter ever less: aimed photons are as dense, ring by ring,
 // as they are.
+std::vector<bool> noneWasted(const std::vector<shared::ImportancePath>& paths) {
+    return std::vector<bool>(paths.size() * IMPORTANCE_VERTICES);
+}
+
 TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number;
@@ -258,7 +263,7 @@ TEST(Aims, SquaresAboutAPlaceFollowItsRays) {
         path.vertices[1].position = {float(20 * number(random) - 10), float(20 * number(random) - 10), 8};
         path.vertices[0].weight = path.vertices[1].weight = path.vertices[1].found = 1;
     }
-    const auto sets = findAims(paths, std::vector<double>(paths.size(), 1), {}, 10);
+    const auto sets = findAims(paths, std::vector<double>(paths.size(), 1), noneWasted(paths), {}, 10);
     ASSERT_FALSE(sets.empty());
     EXPECT_GT(sets[0].openings.size(), 3u);
     EXPECT_LT(glm::length(sets[0].openings[0].centre), 0.1);
@@ -291,10 +296,11 @@ TEST(Aims, APlaceWhoseRaysAreTakenIsNone) {
         path.vertices[1].position = {float(3 * number(random)), float(3 * number(random)), here ? 50.0f : -20.0f};
         path.vertices[0].weight = path.vertices[1].weight = path.vertices[1].found = 1;
     }
-    const Opening window{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.5, 0.5};
+    const Opening window{{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 0.5, 0.5};
     const std::vector<double> weights(paths.size(), 1);
-    ASSERT_FALSE(findAims(paths, weights, {}, 50).empty()) << "the place is found where no window is known";
-    const auto sets = findAims(paths, weights, {window}, 50);
+    ASSERT_FALSE(findAims(paths, weights, noneWasted(paths), {}, 50).empty())
+        << "the place is found where no window is known";
+    const auto sets = findAims(paths, weights, noneWasted(paths), {window}, 50);
     ASSERT_FALSE(sets.empty());
     for (const auto& set : sets) ASSERT_FALSE(set.openings.empty());
     EXPECT_EQ(sets[0].openings[0].halfU, window.halfU) << "the window is taken first";
@@ -318,13 +324,71 @@ TEST(Aims, FindTheWindowBeforeAPatchOfGroundInTheSun) {
         path.vertices[1].found = isLit;
     }
     const Opening patch{{0, -4, -1.5}, {1, 0, 0}, {0, 1, 0}, 5, 4};
-    const auto sets = findAims(paths, std::vector<double>(paths.size(), 1), {patch}, 20);
+    const auto sets = findAims(paths, std::vector<double>(paths.size(), 1), noneWasted(paths), {patch}, 20);
     ASSERT_EQ(sets.size(), 1u);
     EXPECT_LT(glm::length(sets[0].openings[0].centre), 0.4);
     UsefulRay ray;
     ray.position = {1, -6, -1.5};
     ray.direction = glm::normalize(-ray.position);
     EXPECT_GT(sets[0].density(ray), 10);
+}
+
+// A room with a window, and ground before it. Nine ways in ten lead from one surface of the room to another; the others
+// come from the ground, where few photons that are scattered find the window.
+std::vector<shared::ImportancePath> roomAndGround(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto ofRoom = [&] { return glm::dvec3(2 * number(random), 2 + 1.9 * number(random), 1.4 * number(random)); };
+    std::vector<shared::ImportancePath> paths(20000);
+    for (size_t k = 0; k < paths.size(); ++k) {
+        auto& path = paths[k] = {};
+        glm::dvec3 from = ofRoom(), to = ofRoom();
+        if (k % 10 == 0) {
+            const glm::dvec3 window(0.8 * number(random), 0, 0.6 * number(random));
+            from = {8 * number(random), -5 + 4 * number(random), -1.5};
+            to = window + (0.1 + 0.9 * std::abs(number(random))) * (window - from) / std::abs(from.y);
+        }
+        path.vertices[0].position = pack(to);
+        path.vertices[1].position = pack(from);
+        path.vertices[0].weight = path.vertices[1].weight = path.vertices[1].found = 1;
+    }
+    return paths;
+}
+
+// As findImportanceCells has them, of cells of side 1.
+struct UnitCells {
+    std::vector<uint32_t> keys;
+    std::vector<float> sizes;
+
+    explicit UnitCells(const std::vector<shared::ImportancePath>& paths) {
+        for (const auto& path : paths)
+            for (const auto& vertex : path.vertices) {
+                const auto& p = vertex.position;
+                const auto cell = [](float x) { return static_cast<uint32_t>(std::floor(x) + 32); };
+                keys.insert(keys.end(), 2, 1 + cell(p.x) + 64 * (cell(p.y) + 64 * cell(p.z)));
+                sizes.push_back(1);
+            }
+    }
+};
+
+TEST(Aims, FindAWindowAmongWaysWithinARoom) {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        const auto paths = roomAndGround(seed);
+        const std::vector<double> weights(paths.size(), 1);
+        const UnitCells cells(paths);
+        const auto isWasted = wastedScattering(paths, weights, cells.keys, cells.sizes);
+        for (size_t k = 0; k < paths.size(); ++k)
+            ASSERT_EQ(isWasted[k * IMPORTANCE_VERTICES + 1], k % 10 == 0) << "on the ground alone";
+        const auto sets = findAims(paths, weights, isWasted, {}, 20);
+        ASSERT_FALSE(sets.empty());
+        ASSERT_FALSE(sets[0].openings[0].faces);
+        EXPECT_LT(4 * sets[0].openings[0].halfU * sets[0].openings[0].halfV, 2 * 1.6 * 1.2);
+        size_t missed = 0;
+        for (size_t k = 0; k < paths.size(); k += 10) missed += !(sets[0].density(*scatteredRay(paths[k], 1)) > 0);
+        EXPECT_LT(missed, 40u) << "of 2000, seed " << seed;
+        // Control: where nobody knows which light is wasted, ways within the room decide.
+        for (const auto& set : findAims(paths, weights, noneWasted(paths), {}, 20)) EXPECT_TRUE(set.openings[0].faces);
+    }
 }
 
 // A room with a window on a site, where everything emits what it absorbs and the sky has radiance 1: radiance is 1

@@ -53,12 +53,12 @@ std::vector<UsefulRay> thinnedByWeight(std::vector<UsefulRay> rays) {
     return some;
 }
 
-// By which the rays' log likelihood grows where every second one of those that come this way is aimed.
+// By which the rays' log likelihood grows where those that come this way are aimed.
 double gainOf(const AimSet& set, const std::vector<UsefulRay>& rays) {
     double gain = 0;
     for (const auto& ray : rays)
         if (const double density = set.density(ray); density > leastDensity)
-            gain += ray.weight * std::log(0.5 + 0.5 * density);
+            gain += ray.weight * std::log(1 - set.surest + set.surest * density);
     return gain;
 }
 
@@ -138,6 +138,7 @@ std::optional<UsefulRay> scatteredRay(const shared::ImportancePath& path, size_t
     if (!(distance > 0)) return std::nullopt;
     ray.direction = offset / distance;
     ray.weight = from.weight;
+    ray.length = distance;
     ray.isScattered = true;
     return ray;
 }
@@ -146,9 +147,13 @@ namespace {
 
 // The ways of photons between the vertices of importance paths, by the light that comes to the image along them: what
 // was found from there on.
-std::vector<UsefulRay> usefulRays(const std::vector<shared::ImportancePath>& paths,
-                                  const std::vector<double>& pathWeights) {
-    std::vector<UsefulRay> rays;
+struct Ways {
+    std::vector<UsefulRay> all, ofWasted; // those that lead out of where most of what is scattered is wasted
+};
+
+Ways usefulRays(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
+                const std::vector<bool>& isWasted) {
+    Ways rays;
     for (size_t k = 0; k < paths.size(); ++k) {
         double found = 0;
         for (size_t v = IMPORTANCE_VERTICES - 1; v > 0; --v) {
@@ -157,10 +162,12 @@ std::vector<UsefulRay> usefulRays(const std::vector<shared::ImportancePath>& pat
             auto ray = scatteredRay(paths[k], v);
             if (!ray || !(found > 0)) continue;
             ray->weight = pathWeights[k] * found;
-            rays.push_back(*ray);
+            rays.all.push_back(*ray);
+            const size_t at = k * IMPORTANCE_VERTICES + v;
+            if (isWasted[at] && !isWasted[at - 1]) rays.ofWasted.push_back(*ray);
         }
     }
-    return rays;
+    return {thinnedByWeight(std::move(rays.all)), thinnedByWeight(std::move(rays.ofWasted))};
 }
 
 struct Candidate {
@@ -190,23 +197,33 @@ std::optional<AimSet> takeBest(std::vector<Candidate>& candidates, const std::ve
 } // namespace
 
 std::vector<AimSet> findAims(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
-                             const std::vector<Opening>& fromOutside, double radius) {
-    std::vector<UsefulRay> rays = thinnedByWeight(usefulRays(paths, pathWeights));
+                             const std::vector<bool>& isWasted, const std::vector<Opening>& fromOutside,
+                             double radius) {
+    auto [rays, ofWasted] = usefulRays(paths, pathWeights, isWasted);
     double all = 0;
     for (const auto& ray : rays) all += ray.weight;
-    std::vector<Candidate> candidates;
-    const auto consider = [&](const std::vector<Opening>& openings, double leastGain) {
-        for (const Opening& opening : openings) candidates.push_back({opening, all * leastGain});
-    };
-    consider(fromOutside, leastAimGain);
-    consider(findOpenings(rays, radius, {}, mostAimSets), leastFoundGain);
     std::vector<AimSet> sets;
-    while (sets.size() < mostAimSets) {
-        const auto set = takeBest(candidates, rays);
-        if (!set) break;
-        std::erase_if(rays, [&](const UsefulRay& ray) { return set->claim(ray) > 0.5; });
-        sets.push_back(*set);
-    }
+    // From `among`, which `rays` have, too. Openings alone: until a place would be better.
+    const auto take = [&](std::vector<UsefulRay> among, bool openingsAlone) {
+        std::vector<Candidate> candidates;
+        const auto consider = [&](const std::vector<Opening>& openings, double leastGain) {
+            for (const Opening& opening : openings) candidates.push_back({opening, all * leastGain});
+        };
+        consider(fromOutside, leastAimGain);
+        if (openingsAlone)
+            consider(findOpenings(among, radius, {}, mostAimSets, OpeningShape::rectangle), leastAimGain);
+        consider(findOpenings(among, radius, {}, mostAimSets, OpeningShape::square), leastFoundGain);
+        while (sets.size() < mostAimSets) {
+            const auto set = takeBest(candidates, among);
+            if (!set || (openingsAlone && set->openings.front().faces)) break;
+            const auto isTaken = [&](const UsefulRay& ray) { return set->claim(ray) > 0.5; };
+            std::erase_if(among, isTaken);
+            std::erase_if(rays, isTaken);
+            sets.push_back(*set);
+        }
+    };
+    take(std::move(ofWasted), true);
+    take(rays, false);
     return sets;
 }
 

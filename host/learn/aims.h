@@ -31,10 +31,10 @@ inline constexpr std::size_t mostAimSets = 8;
 std::optional<UsefulRay> scatteredRay(const shared::ImportancePath& path, std::size_t v);
 
 /// Sets of openings that light should come through: those that light from outside comes through, and what the paths
-/// found beside them. `pathWeights`: 1 / brightness of each path's pixel, over the number of paths; `radius`: of the
-/// order of the scene.
+/// found beside them. `pathWeights`: 1 / brightness of each path's pixel, over the number of paths; `isWasted`: as
+/// wastedScattering has it; `radius`: of the order of the scene.
 std::vector<AimSet> findAims(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
-                             const std::vector<Opening>& fromOutside, double radius);
+                             const std::vector<bool>& isWasted, const std::vector<Opening>& fromOutside, double radius);
 
 /// As the kernels read them, and the place of a set's first opening there.
 std::vector<shared::AimSource> aimTable(const std::vector<AimSet>& sets);

@@ -85,7 +85,7 @@ void GuideLearner::findSharedOpenings(const std::vector<std::vector<UsefulRay>>&
     double radius = 0; // of the order of the scene
     for (const auto& ray : all) radius = std::max(radius, glm::distance(ray.position, all.front().position));
     for (const Opening& opening :
-         findOpenings(all, radius, shared_, mostSharedOpenings - shared_.size(), leastSharedGain))
+         findOpenings(all, radius, shared_, mostSharedOpenings - shared_.size(), OpeningShape::either, leastSharedGain))
         shared_.push_back(opening);
     for (size_t e = 0; e < rays.size(); ++e) {
         if (!sharesOpenings(emitters_.emitters[e])) continue;

@@ -23,6 +23,9 @@ constexpr unsigned fewestScattering = 8;
 constexpr size_t bitsOfCell = 16;
 
 constexpr double leastAim = 0.05; // probability below which photons are not aimed
+// What photons that are scattered bring over what they would where they should arrive: above, own directions of the
+// lobes lead there often enough.
+constexpr double mostWasted = 0.1;
 
 double length(const shared::Packed3& v) { return glm::length(unpack(v)); }
 
@@ -99,6 +102,29 @@ std::vector<uint32_t> seenCells(std::vector<uint32_t> keys) {
     words.resize(std::bit_ceil(words.size()));
     for (const uint32_t key : keys) setBit(words, key & (bitsOfWord * words.size() - 1));
     return words;
+}
+
+std::vector<bool> wastedScattering(const std::vector<shared::ImportancePath>& paths,
+                                   const std::vector<double>& pathWeights, const std::vector<uint32_t>& keys,
+                                   const std::vector<float>& sizes) {
+    std::unordered_map<uint32_t, double> worth; // of flux that arrives in a coarse cell and is scattered there
+    const auto eachScattering = [&](auto&& visit) {
+        for (size_t k = 0; k < paths.size(); ++k)
+            for (size_t v = 1; v < IMPORTANCE_VERTICES; ++v) {
+                const double weight = pathWeights[k] * paths[k].vertices[v].weight;
+                if (weight > 0 && std::isfinite(weight)) visit(k * IMPORTANCE_VERTICES + v, weight);
+            }
+    };
+    eachScattering(
+        [&](size_t at, double weight) { worth[keys[2 * at + 1]] += weight / (double(sizes[at]) * sizes[at]); });
+    double all = 0, sum = 0;
+    eachScattering([&](size_t at, double weight) {
+        all += weight;
+        sum += weight * worth[keys[2 * at + 1]];
+    });
+    std::vector<bool> isWasted(paths.size() * IMPORTANCE_VERTICES);
+    eachScattering([&](size_t at, double) { isWasted[at] = worth[keys[2 * at + 1]] * all < mostWasted * sum; });
+    return isWasted;
 }
 
 std::vector<uint32_t> importanceCells(const std::vector<shared::ImportancePath>& paths,

@@ -126,10 +126,13 @@ void Learning::makeImportance(const Buffer<shared::ImportancePath>& buffer,
     const auto gathered = gatheredByOctave(paths, weights, grid);
     for (size_t o = 0; o < DISTANCE_OCTAVES; ++o) learned_.octaves[o].gathered = gathered[o];
     program_.kernel("findImportanceCells").launch(count, buffer, keys, sizes, seenKeys, grid, count);
-    const auto aims = findAims(paths, weights, guide_.openingsFromOutside(), radius);
+    const auto cellKeys = keys.read();
+    const auto cellSizes = sizes.read();
+    const auto aims = findAims(paths, weights, wastedScattering(paths, weights, cellKeys, cellSizes),
+                               guide_.openingsFromOutside(), radius);
     learned_.tables.aims = aimTable(aims);
     seenCells_ = seenCells(seenKeys.read());
-    learned_.tables.importanceCells = importanceCells(paths, weights, keys.read(), sizes.read(), aims, grid);
+    learned_.tables.importanceCells = importanceCells(paths, weights, cellKeys, cellSizes, aims, grid);
 }
 
 void Learning::upload() {

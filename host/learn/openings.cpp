@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -20,13 +21,19 @@ constexpr double widestBall = 0.01;     // chance of passing it above which litt
 constexpr double mostCopies = 4;        // of a ray in a sample: a single one is no opening
 constexpr int refinements = 4;          // of the best place
 constexpr double margin = 1.25;         // of an opening's region to what its rays come through
-constexpr double muchNarrower = 0.5;    // flux of a rectangle to that of a square that faces its rays
+constexpr double aroundBall = 2.5;      // radii of a ball within which rays may come through the same opening
+constexpr int rectangleFits = 2;        // the second one to rays about the first
 constexpr double nearestOpening = 1e-3; // to where rays begin, relative to coordinates
-constexpr double outliers = 0.01;       // share of the weight on either side that bounds leave out
-constexpr int turns = 16;               // of axes in a quarter
-constexpr int normals = 48;             // tried on a hemisphere, beside the world's axes
+constexpr double leastSlope = 0.1;      // of rays on a rectangle: flatter ones say too much of it
+constexpr double leastBeyond = 0.1;     // behind a rectangle, to its size: nearer rays end at it
+// Shares of the weight that bounds leave out on either side: where all rays come through the opening, and where some do
+// not. The likeliest is taken.
+constexpr std::array outliers{0.01, 0.04, 0.12};
+constexpr int shifts = 4;   // of a plane along its normal, each half as far
+constexpr int turns = 16;   // of axes in a quarter
+constexpr int normals = 48; // tried on a hemisphere, beside the world's axes
 // Most windows are upright. A sample of rays fills an upright rectangle but roughly, and one that is turned about them
-// is often a little smaller: photons through the corners that it cuts off would be heavy.
+// is often a little smaller, by less than this: photons through the corners that it cuts off would be heavy.
 constexpr double uprightAdvantage = 1.1;
 
 glm::dvec3 across(const UsefulRay& ray, const glm::dvec3& v) { return v - glm::dot(ray.direction, v) * ray.direction; }
@@ -136,46 +143,54 @@ std::optional<glm::dvec3> placeOnPlane(const UsefulRay& ray, const glm::dvec3& c
     return offset - glm::dot(offset, normal) / slope * ray.direction;
 }
 
-// Lower and upper quantile of the weight.
-std::pair<double, double> bounds(std::vector<std::pair<double, double>>& placesAndWeights) {
-    std::sort(placesAndWeights.begin(), placesAndWeights.end());
-    double all = 0, below = 0;
-    for (const auto& [place, weight] : placesAndWeights) all += weight;
-    std::pair<double, double> found{placesAndWeights.front().first, placesAndWeights.back().first};
-    for (const auto& [place, weight] : placesAndWeights) {
-        if (below <= outliers * all) found.first = place;
-        found.second = place;
-        below += weight;
-        if (below >= (1 - outliers) * all) break;
-    }
-    return found;
-}
+// Where rays come through a plane, along one axis of it, and their weights.
+class Crossings {
+public:
+    void add(double place, double weight) { all_.emplace_back(place, weight); }
+    void sort() { std::sort(all_.begin(), all_.end()); }
+    bool empty() const { return all_.empty(); }
 
-// What the rays come through on the plane through `centre`, with these axes.
-Opening bounded(const std::vector<UsefulRay>& rays, const glm::dvec3& centre, const glm::dvec3& axisU,
-                const glm::dvec3& axisV) {
-    Opening opening{centre, axisU, axisV, std::numeric_limits<double>::infinity(),
-                    std::numeric_limits<double>::infinity()};
-    std::vector<std::pair<double, double>> u, v;
+    // But for this share of the weight on either side.
+    std::pair<double, double> bounds(double outside) const {
+        double all = 0, below = 0;
+        for (const auto& [place, weight] : all_) all += weight;
+        std::pair<double, double> found{all_.front().first, all_.back().first};
+        for (const auto& [place, weight] : all_) {
+            if (below <= outside * all) found.first = place;
+            found.second = place;
+            below += weight;
+            if (below >= (1 - outside) * all) break;
+        }
+        return found;
+    }
+
+private:
+    std::vector<std::pair<double, double>> all_;
+};
+
+// What rays come through on the plane through `centre` with these axes: a rectangle for each of `outliers`, or none.
+// Light from outside that comes through what is left out would be rare and bright, so of that no more is left out.
+std::vector<Opening> bounded(const std::vector<UsefulRay>& rays, const glm::dvec3& centre, const glm::dvec3& axisU,
+                             const glm::dvec3& axisV) {
+    Crossings u, v;
     for (const auto& ray : rays) {
         const auto place = placeOnPlane(ray, centre, glm::cross(axisU, axisV));
         if (!place) continue;
-        u.emplace_back(glm::dot(*place, axisU), ray.weight);
-        v.emplace_back(glm::dot(*place, axisV), ray.weight);
+        u.add(glm::dot(*place, axisU), ray.weight);
+        v.add(glm::dot(*place, axisV), ray.weight);
     }
-    if (u.empty()) return opening;
-    const auto [lowerU, upperU] = bounds(u);
-    const auto [lowerV, upperV] = bounds(v);
-    opening.centre += 0.5 * (lowerU + upperU) * axisU + 0.5 * (lowerV + upperV) * axisV;
-    opening.halfU = 0.5 * (upperU - lowerU);
-    opening.halfV = 0.5 * (upperV - lowerV);
-    return opening;
-}
-
-double meanCosine(const std::vector<UsefulRay>& rays, const glm::dvec3& normal) {
-    double sum = 0;
-    for (const auto& ray : rays) sum += ray.weight * std::abs(glm::dot(ray.direction, normal));
-    return sum / weightOf(rays);
+    std::vector<Opening> openings;
+    if (u.empty()) return openings;
+    u.sort();
+    v.sort();
+    for (const double outside : outliers) {
+        const auto [lowerU, upperU] = u.bounds(outside);
+        const auto [lowerV, upperV] = v.bounds(outside);
+        openings.push_back({centre + 0.5 * (lowerU + upperU) * axisU + 0.5 * (lowerV + upperV) * axisV, axisU, axisV,
+                            0.5 * (upperU - lowerU), 0.5 * (upperV - lowerV)});
+        if (!rays.front().isScattered) break;
+    }
+    return openings;
 }
 
 // Beside the world's axes.
@@ -189,51 +204,131 @@ std::vector<glm::dvec3> slantedNormals() {
     return all;
 }
 
-// The square about `centre`, facing them, that all but outliers of the rays pass.
-Opening facingOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
-    std::vector<double> distances;
-    distances.reserve(rays.size());
-    for (const auto& ray : rays) distances.push_back(distance(ray, centre));
-    const auto last = distances.begin() + static_cast<std::ptrdiff_t>((1 - outliers) * (double(distances.size()) - 1));
-    std::nth_element(distances.begin(), last, distances.end());
-    Opening opening{centre, {1, 0, 0}, {0, 1, 0}, *last, *last};
-    opening.faces = true;
-    return opening;
+// Density of scattered rays that are aimed at the opening, along `ray`, over that of those spread over all directions.
+double densityAlong(const UsefulRay& ray, const Opening& opening) {
+    if (!opening.holds(ray)) return 0;
+    const glm::dvec3 offset = opening.centre - ray.position;
+    const glm::dvec3 normal = opening.faces ? glm::normalize(offset) : glm::cross(opening.axisU, opening.axisV);
+    const double slope = glm::dot(ray.direction, normal), away = glm::dot(offset, normal) / slope;
+    const double across = std::max(std::abs(slope), leastSlope) * opening.halfU * opening.halfV;
+    return std::numbers::pi * away * away / std::max(across, 1e-300);
 }
 
-// The rectangle that the rays have least flux through, were they as bright everywhere.
-Opening fitRectangle(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
-    Opening best;
-    double least = std::numeric_limits<double>::infinity();
-    const auto consider = [&](const glm::dvec3& normal, double turn, double disadvantage) {
+// Of scattered rays, as ballAbout has it.
+double gainOf(const Opening& opening, const std::vector<UsefulRay>& rays) {
+    double gain = 0;
+    for (const auto& ray : rays) gain += ray.weight * std::log(0.5 + 0.5 * densityAlong(ray, opening));
+    return gain;
+}
+
+// How much better than others the rectangle is: by the likelihood of scattered rays, and for those from outside by the
+// flux that they had through it, were they as bright everywhere.
+double scoreOf(const Opening& rectangle, const std::vector<UsefulRay>& rays) {
+    if (rays.front().isScattered) return gainOf(rectangle, rays);
+    const glm::dvec3 normal = glm::cross(rectangle.axisU, rectangle.axisV);
+    double flux = 0;
+    for (const auto& ray : rays) flux += ray.weight * std::abs(glm::dot(ray.direction, normal));
+    return -weightOf(rays) * std::log(std::max(flux * rectangle.halfU * rectangle.halfV, 1e-300));
+}
+
+// Looks for the best rectangle.
+class RectangleSearch {
+public:
+    explicit RectangleSearch(const std::vector<UsefulRay>& rays)
+        : rays_(rays), handicap_(std::log(uprightAdvantage) * weightOf(rays)) {}
+
+    // On planes through `centre`.
+    void tryPlanes(const glm::dvec3& centre) {
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 normal(0);
+            normal[axis] = 1;
+            tryPlane(centre, normal, 0, 0);
+        }
+        for (const auto& normal : slantedNormals()) tryPlane(centre, normal, 0, handicap_);
+        if (!best_) return;
+        const glm::dvec3 normal = glm::cross(best_->axisU, best_->axisV);
+        for (int k = 1; k < turns; ++k) tryPlane(centre, normal, k * std::numbers::pi / 2 / turns, handicap_);
+    }
+
+    // On planes before and behind the best one.
+    void shift(double step) {
+        for (int k = 0; best_ && k < shifts; ++k, step /= 2) {
+            const Opening from = *best_;
+            for (const double side : {-step, step})
+                tryAxes(from.centre + side * glm::cross(from.axisU, from.axisV), from.axisU, from.axisV,
+                        handicapOfBest_);
+        }
+    }
+
+    const std::optional<Opening>& found() const { return best_; }
+
+private:
+    void tryPlane(const glm::dvec3& centre, const glm::dvec3& normal, double turn, double handicap) {
         const glm::dvec3 s = anyAcross(normal), t = glm::cross(normal, s);
         const glm::dvec3 axisU = std::cos(turn) * s + std::sin(turn) * t;
-        const Opening opening = bounded(rays, centre, axisU, glm::cross(normal, axisU));
-        const double flux = opening.halfU * opening.halfV * meanCosine(rays, normal) * disadvantage;
-        if (!(flux < least)) return;
-        least = flux;
-        best = opening;
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 normal(0);
-        normal[axis] = 1;
-        consider(normal, 0, 1);
+        tryAxes(centre, axisU, glm::cross(normal, axisU), handicap);
     }
-    for (const auto& normal : slantedNormals()) consider(normal, 0, uprightAdvantage);
-    const glm::dvec3 normal = glm::cross(best.axisU, best.axisV);
-    for (int k = 1; k < turns; ++k) consider(normal, k * std::numbers::pi / 2 / turns, uprightAdvantage);
+
+    void tryAxes(const glm::dvec3& centre, const glm::dvec3& axisU, const glm::dvec3& axisV, double handicap) {
+        for (const Opening& opening : bounded(rays_, centre, axisU, axisV)) {
+            const double score = scoreOf(opening, rays_) - handicap;
+            if (!(score > most_)) continue;
+            most_ = score;
+            best_ = opening;
+            handicapOfBest_ = handicap;
+        }
+    }
+
+    const std::vector<UsefulRay>& rays_;
+    double handicap_, handicapOfBest_ = 0, most_ = -std::numeric_limits<double>::infinity();
+    std::optional<Opening> best_;
+};
+
+Opening facingSquare(const glm::dvec3& centre, double half) { return {centre, {1, 0, 0}, {0, 1, 0}, half, half, true}; }
+
+// The square about the ball's centre that all but outliers of its rays pass.
+Opening fitSquare(const std::vector<UsefulRay>& rays, const Ball& ball) {
+    std::vector<double> distances;
+    for (const auto& ray : rays)
+        if (const double away = distance(ray, ball.centre); away <= ball.radius) distances.push_back(away);
+    const auto last =
+        distances.begin() + static_cast<std::ptrdiff_t>((1 - outliers[0]) * (double(distances.size()) - 1));
+    std::nth_element(distances.begin(), last, distances.end());
+    return facingSquare(ball.centre, *last);
+}
+
+// Of scattered rays it may reach beyond the ball, as of those through a ball alone all planes hold much the same.
+Opening fitRectangle(const std::vector<UsefulRay>& rays, const Ball& ball) {
+    const bool isScattered = rays.front().isScattered;
+    Opening best = facingSquare(ball.centre, ball.radius);
+    for (int k = 0; k < (isScattered ? rectangleFits : 1); ++k) {
+        best.halfU *= aroundBall;
+        best.halfV *= aroundBall;
+        std::vector<UsefulRay> held;
+        std::ranges::copy_if(rays, std::back_inserter(held), [&](const auto& ray) {
+            return isScattered ? best.holds(ray) : distance(ray, ball.centre) <= ball.radius;
+        });
+        if (held.empty()) break; // all that pass lead away from it
+        RectangleSearch search(held);
+        search.tryPlanes(best.centre);
+        if (isScattered) search.shift(ball.radius / 2);
+        if (!search.found()) break;
+        best = *search.found();
+    }
     return best;
 }
 
-// Rays that are scattered towards a region, not through a plane opening, come from all sides: no rectangle is much
-// narrower then.
-Opening fitOpening(const std::vector<UsefulRay>& rays, const glm::dvec3& centre) {
-    const Opening rectangle = fitRectangle(rays, centre);
-    if (!rays.front().isScattered) return rectangle;
-    const Opening facing = facingOpening(rays, centre);
-    const double flux =
-        rectangle.halfU * rectangle.halfV * meanCosine(rays, glm::cross(rectangle.axisU, rectangle.axisV));
-    return flux < muchNarrower * facing.halfU * facing.halfV ? rectangle : facing;
+Opening fitOpening(const std::vector<UsefulRay>& rays, const Ball& ball, OpeningShape shape, double radius) {
+    const bool maybeSquare = rays.front().isScattered && shape != OpeningShape::rectangle;
+    Opening opening;
+    if (maybeSquare) opening = fitSquare(rays, ball);
+    if (!maybeSquare || shape == OpeningShape::either) {
+        const Opening rectangle = fitRectangle(rays, ball);
+        if (!maybeSquare || gainOf(rectangle, rays) > gainOf(opening, rays)) opening = rectangle;
+    }
+    opening.halfU = std::max(margin * opening.halfU, 1e-5 * radius);
+    opening.halfV = std::max(margin * opening.halfV, 1e-5 * radius);
+    return opening;
 }
 
 } // namespace
@@ -256,12 +351,16 @@ double distance(const UsefulRay& ray, const glm::dvec3& place) {
 
 bool Opening::holds(const UsefulRay& ray) const {
     if (faces) return distance(ray, centre) <= halfU && glm::dot(centre - ray.position, ray.direction) > 0;
-    const auto place = placeOnPlane(ray, centre, glm::cross(axisU, axisV));
-    return place && std::abs(glm::dot(*place, axisU)) <= halfU && std::abs(glm::dot(*place, axisV)) <= halfV;
+    const glm::dvec3 normal = glm::cross(axisU, axisV);
+    const auto place = placeOnPlane(ray, centre, normal);
+    if (!place || std::abs(glm::dot(*place, axisU)) > halfU || std::abs(glm::dot(*place, axisV)) > halfV) return false;
+    if (!ray.isScattered) return true;
+    const double slope = glm::dot(ray.direction, normal), away = glm::dot(centre - ray.position, normal) / slope;
+    return away > 0 && (ray.length - away) * std::abs(slope) > leastBeyond * std::sqrt(halfU * halfV);
 }
 
 std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, const std::vector<Opening>& known,
-                                  size_t most, double leastGain) {
+                                  size_t most, OpeningShape shape, double leastGain) {
     std::vector<Opening> openings;
     const double all = weightOf(rays);
     for (const Opening& opening : known) std::erase_if(rays, [&](const UsefulRay& ray) { return opening.holds(ray); });
@@ -271,12 +370,7 @@ std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, co
         const double share = weightOf(some) * all / weightOf(rays); // of the weight of all rays that `some` stand for
         const Ball ball = bestBall(some, share, radius);
         if (ball.gain < leastGain) break;
-        std::vector<UsefulRay> near;
-        for (const auto& ray : some)
-            if (distance(ray, ball.centre) <= ball.radius) near.push_back(ray);
-        Opening opening = fitOpening(near, ball.centre);
-        opening.halfU = std::max(margin * opening.halfU, 1e-5 * radius);
-        opening.halfV = std::max(margin * opening.halfV, 1e-5 * radius);
+        const Opening opening = fitOpening(some, ball, shape, radius);
         const size_t before = rays.size();
         std::erase_if(rays, [&](const UsefulRay& ray) { return opening.holds(ray); });
         if (rays.size() == before) break;

@@ -14,6 +14,7 @@ struct UsefulRay {
     double weight = 0;
     /// Begins at `position`, where its light is scattered into all directions; or else comes from outside
     bool isScattered = false;
+    double length = std::numeric_limits<double>::infinity(); ///< from `position` to where it arrives
 };
 
 /// Of a place from the line that the ray lies on.
@@ -30,7 +31,15 @@ struct Opening {
     double halfU = 0, halfV = 0;
     bool faces = false; ///< axes are left out then
 
+    /// Does the ray come through the rectangle, and not end at it? Does it pass the square on its way?
     bool holds(const UsefulRay& ray) const;
+};
+
+/// For scattered rays; those from outside come through rectangles.
+enum class OpeningShape {
+    rectangle,
+    square, ///< that faces every place
+    either, ///< whichever is likelier
 };
 
 /// At most `most`, the one first by which the rays' log likelihood grows most, were every second one aimed at it:
@@ -38,6 +47,6 @@ struct Opening {
 /// same for the same rays. What comes through `known` ones is left out, and openings that bring less than `leastGain`
 /// of the likelihood.
 std::vector<Opening> findOpenings(std::vector<UsefulRay> rays, double radius, const std::vector<Opening>& known,
-                                  size_t most, double leastGain = 0.05);
+                                  size_t most, OpeningShape shape = OpeningShape::either, double leastGain = 0.05);
 
 } // namespace quasilux
