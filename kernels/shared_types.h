@@ -128,6 +128,7 @@ typedef struct {
     float coat[8];           /* rough coats: polynomial in the cosine */
     unsigned int reflectanceTexture, transmittanceTexture; /* 1 + index of the Texture that multiplies it; 0: none */
     unsigned int firstWeight, weightCount;                 /* LobeWeight records, which multiply all of it */
+    unsigned int etaTexture, kTexture; /* conductors: 1 + index of the Texture that eta or k is instead; 0: none */
 } Lobe;
 
 /* A factor on a lobe by texture, such as its share in a blend or under a mask: a function of x = offset + factor times

@@ -42,6 +42,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.specular |= lobe.scattering == SCATTER_SPECULAR && !LOBE_PASSES(lobe.type);
         features.textures |= lobe.reflectanceTexture != 0 || lobe.transmittanceTexture != 0 || lobe.weightCount > 0;
         features.lobeWeights |= lobe.weightCount > 0;
+        features.indexTextures |= lobe.etaTexture != 0 || lobe.kTexture != 0;
         features.lowCoats |= lobe.type == LOBE_ROUGHCOATEDLAMBERT && lobe.alphaV != 0;
     }
     for (const auto& weight : materials.weights) features.weightFunctions |= weight.function != WEIGHT_VALUE;
@@ -50,7 +51,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     for (const auto& bsdf : scene.bsdfs) features.anisotropy |= bsdf.isAnisotropic();
     features.relief = !materials.reliefs.empty();
     features.alphaTextures = !materials.roughness.empty();
-    features.textures |= features.relief || features.alphaTextures;
+    features.textures |= features.relief || features.alphaTextures || features.indexTextures;
     for (const auto& emitter : emitters.emitters) {
         features.emitterTypes.insert(emitter.type);
         features.emitterTextures |= emitter.texture > 0;

@@ -49,6 +49,7 @@ constexpr std::array flags = {
     Flag{&Features::manyLobes, "HAS_MANY_LOBES", "materials of many lobes"},
     Flag{&Features::textureVolumes, "HAS_TEXTURE_VOLUMES", "textures by place"},
     Flag{&Features::alphaTextures, "HAS_ALPHA_TEXTURES", "roughness by texture"},
+    Flag{&Features::indexTextures, "HAS_INDEX_TEXTURES", "indices of refraction by texture"},
     Flag{&Features::relief, "HAS_RELIEF", "normal and bump maps"},
     Flag{&Features::anisotropy, "HAS_ANISOTROPY", "anisotropic lobes"},
     Flag{&Features::lowCoats, "HAS_LOW_COATS", "rough coats under denser media"},

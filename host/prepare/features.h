@@ -16,7 +16,8 @@ struct Features {
     bool spheres = false, nullPrimitives = false, cornerNormals = false, borders = false, depthLimit = false,
          orthographicCamera = false, textures = false, nestedTextures = false, meshAttributes = false,
          lobeWeights = false, weightFunctions = false, manyLobes = false, relief = false, anisotropy = false,
-         alphaTextures = false, textureVolumes = false, thinLens = false, fisheyeCamera = false, instances = false,
+         alphaTextures = false, indexTextures = false, textureVolumes = false, thinLens = false, fisheyeCamera = false,
+         instances = false,
          filterTable = false;                            ///< a reconstruction filter wider than a pixel
     bool lowCoats = false;                               ///< rough coats of an index below that outside
     bool radianceMeter = false, irradianceMeter = false; ///< what the sensor is, if no camera

@@ -17,7 +17,8 @@ std::vector<unsigned> texturesInUse(const Scene& scene, const MaterialTables& ma
                                     const EmitterTables& emitters) {
     std::vector<unsigned> used;
     for (const auto& lobe : materials.lobes)
-        for (const unsigned number : {lobe.reflectanceTexture, lobe.transmittanceTexture})
+        for (const unsigned number :
+             {lobe.reflectanceTexture, lobe.transmittanceTexture, lobe.etaTexture, lobe.kTexture})
             if (number > 0) used.push_back(number - 1);
     for (const auto& weight : materials.weights) used.push_back(weight.texture);
     for (const auto& relief : materials.reliefs) used.push_back(relief.texture);
@@ -40,7 +41,7 @@ void appendAttribute(const TextureDescription& texture, const Mesh& mesh, std::v
                      [&](const MeshAttribute& attribute) { return attribute.name == texture.attribute; });
     const auto append = [&](size_t index) {
         const Rgb value = shown->values.at(index) * texture.attributeScale;
-        const float most = texture.use == TextureUse::emission ? std::numeric_limits<float>::max() : 1.0f;
+        const float most = texture.use == TextureUse::reflectance ? 1.0f : std::numeric_limits<float>::max();
         appendColor({std::min(value.r, most), std::min(value.g, most), std::min(value.b, most)}, words);
     };
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -13,13 +13,16 @@ namespace quasilux {
 
 namespace {
 
-/// Points of the camera map hold one normal and no direction about it.
+/// Points of the camera map hold one normal and no direction about it, and of textures what multiplies a lobe only.
 void refuseForCameraMap(const Scene& scene) {
+    const auto whatNeedsPhotons = [](const Bsdf& bsdf) {
+        if (bsdf.isAnisotropic()) return "anisotropic roughness needs";
+        if (bsdf.frontRelief || bsdf.backRelief) return "normal and bump maps need";
+        return bsdf.hasIndexTexture() ? "textures of eta and k need" : nullptr;
+    };
     for (const Bsdf& bsdf : scene.bsdfs)
-        if (bsdf.frontRelief || bsdf.backRelief || bsdf.isAnisotropic())
-            throw InputError(bsdf.where, std::string(bsdf.isAnisotropic() ? "anisotropic roughness needs"
-                                                                          : "normal and bump maps need") +
-                                             " --map photons, and the map is 'camera'.");
+        if (const char* const what = whatNeedsPhotons(bsdf))
+            throw InputError(bsdf.where, std::string(what) + " --map photons, and the map is 'camera'.");
 }
 
 void checkCaustics(const Scene& scene, const Features& features, const RenderSettings& settings) {

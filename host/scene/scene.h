@@ -72,6 +72,8 @@ struct Bsdf {
     bool letsPass() const;
     /// Whether a lobe is not the same in all directions about the normal, at least in part.
     bool isAnisotropic() const;
+    /// Whether the complex index of refraction of a conductor goes by textures.
+    bool hasIndexTexture() const;
 };
 
 /// Radiance that a shape emits on the side of its normal, W sr^-1 m^-2.
@@ -109,8 +111,9 @@ struct VolumeDescription {
     SourceLocation where;
 };
 
-/// What a texture multiplies: what surfaces scatter, in [0, 1], or what emitters send, at least 0.
-enum class TextureUse { reflectance, emission };
+/// What a texture multiplies: what surfaces scatter, in [0, 1], or what emitters send, at least 0. Or it is an index of
+/// refraction, at least 0.
+enum class TextureUse { reflectance, emission, index };
 
 /// A factor over a surface that scatters or emits, or over the directions of a point emitter.
 struct TextureDescription {
@@ -299,7 +302,7 @@ struct Scene {
     std::vector<ShapeDescription> shapes; ///< in the world; then, in spaces of their own, those of `groups`
     std::vector<ShapeGroup> groups;
     std::vector<Instance> instances;
-    std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture, transmittanceTexture: 1 + index
+    std::vector<TextureDescription> textures; ///< Lobe::reflectanceTexture and so on: 1 + index
     std::vector<VolumeDescription> volumes;
     std::vector<MediumDescription> media;
     std::vector<PointEmitter> pointEmitters;

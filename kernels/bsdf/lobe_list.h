@@ -45,6 +45,13 @@ enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
     ((type) == LOBE_GGX || (type) == LOBE_BECKMANN || (type) == LOBE_GGXDIELECTRIC ||                                  \
      (type) == LOBE_BECKMANNDIELECTRIC || (type) == LOBE_GGXSCHLICK || (type) == LOBE_THINGGX)
 
+/* A conductor whose complex index of refraction goes by textures. */
+#ifdef HAS_INDEX_TEXTURES
+#define LOBE_INDEX_VARIES(lobe) (((lobe)->etaTexture | (lobe)->kTexture) != 0)
+#else
+#define LOBE_INDEX_VARIES(lobe) 0
+#endif
+
 /* Lobes that transmit without being delta: light from both sides of a surface counts (LOBE_TRANSMITS). */
 #if defined(HAS_LOBE_GGXDIELECTRIC) || defined(HAS_LOBE_BECKMANNDIELECTRIC) || defined(HAS_LOBE_THINGGX) ||            \
     defined(HAS_LOBE_DIFFUSETRANSMISSION)

@@ -20,7 +20,7 @@ void readImageFile(std::string_view input) {
         expectInputErrors([&] {
             guard.withinMemory([&] {
                 if (emits)
-                    readRadianceImage(path, true, {path}, guard);
+                    readUnboundedImage(path, true, {path}, guard);
                 else
                     readImage(path, false, {path}, guard);
             });

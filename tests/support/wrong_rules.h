@@ -34,8 +34,9 @@ enum class PhotonRule {
 /// one, whose numbers are every fourth, eighth, ... of a sequence.
 enum class SamplingRule { right, fourEverywhere, firstGathers };
 
-/// Axes of lobes, or a mistake: those of anisotropic ones follow from the normal alone.
-enum class SurfaceRule { right, axesByNormal };
+/// Surfaces, or a mistake: axes of anisotropic lobes follow from the normal alone; textures of eta and of k change
+/// places; where textures say the index, Fresnel's factor is that of the normal instead of the facet.
+enum class SurfaceRule { right, axesByNormal, etaIsK, fresnelOfNormal };
 
 /// Samples of a sky, or a mistake: directions of lobes are weighed against the density of the other map of it.
 enum class SkyRule { right, otherDensity };

@@ -106,8 +106,9 @@ struct Roughness {
 /// use without roughness.
 Roughness readRoughness(Properties& properties, const std::string& smooth, bool byTexture);
 
-/// eta and k of <bsdf type="conductor|roughconductor">: `material`, or `eta` and `k`. Without Fresnel reflection
-/// (material "none") they are 0 and 1, which makes the Fresnel factor |(eta - 1 - ik)/(eta + 1 - ik)|² exactly 1.
+/// eta and k of <bsdf type="conductor|roughconductor">: `material`, or `eta` and `k`, which may be textures. Without
+/// Fresnel reflection (material "none") they are 0 and 1, which makes the factor |(eta - 1 - ik)/(eta + 1 - ik)|²
+/// exactly 1.
 void readConductorIndex(Properties& properties, shared::Lobe& lobe);
 
 } // namespace quasilux

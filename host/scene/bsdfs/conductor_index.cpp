@@ -97,31 +97,46 @@ const Metal& findMetal(const std::string& name, const SourceLocation& where) {
                                         knownNames(name, known)));
 }
 
+/// A part of the index, eta or k: 1 times the texture, or a colour.
+struct IndexPart {
+    Rgb value{1, 1, 1};
+    unsigned texture = 0; ///< as in shared::Lobe
+};
+
 /// Fits to measured spectra, converted to RGB, may have a channel below 0, which Mitsuba takes as it is.
-Rgb readIndex(Properties& properties, const std::string& name, Rgb missing) {
+IndexPart readIndex(Properties& properties, const std::string& name, Rgb missing) {
+    if (properties.texture(name)) {
+        const Reflectance part = readReflectance(properties, name, 0, TextureUse::index);
+        return {part.scale, part.texture};
+    }
     const Rgb given = properties.unboundedColor(name, missing);
     if (smallest(given) < 0)
         properties.context().warn(properties.where(name),
                                   fmt::format("parameter '{}' of {} has a negative channel, which is taken as 0.", name,
                                               properties.describe()));
-    return {std::max(given.r, 0.f), std::max(given.g, 0.f), std::max(given.b, 0.f)};
+    return {{std::max(given.r, 0.f), std::max(given.g, 0.f), std::max(given.b, 0.f)}};
 }
 
 } // namespace
 
 void readConductorIndex(Properties& properties, shared::Lobe& lobe) {
-    const bool measured = properties.has("eta") || properties.has("k");
+    const auto isGiven = [&](const std::string& name) { return properties.has(name) || properties.texture(name); };
+    const bool measured = isGiven("eta") || isGiven("k");
     const std::string material = properties.string("material", "none");
     if (measured && material != "none")
         throw InputError(properties.where("material"),
                          fmt::format("{} has both material and eta or k; keep one.", properties.describe()));
-    lobe.eta = readIndex(properties, "eta", {0, 0, 0});
-    lobe.k = readIndex(properties, "k", {1, 1, 1});
+    const IndexPart eta = readIndex(properties, "eta", {0, 0, 0}), k = readIndex(properties, "k", {1, 1, 1});
+    lobe.eta = eta.value;
+    lobe.etaTexture = eta.texture;
+    lobe.k = k.value;
+    lobe.kTexture = k.texture;
     if (material != "none") {
         const Metal& metal = findMetal(material, properties.where("material"));
         lobe.eta = metal.eta;
         lobe.k = metal.k;
     }
+    if (eta.texture > 0 || k.texture > 0) return; // kernels/surface.clh sees where both are 0
     // Where both are 0 everything is reflected, as where k alone is not; but at normal incidence Fresnel has 0 / 0.
     const auto notBothZero = [](float eta, float k) { return eta == 0 && k == 0 ? 1.0f : k; };
     lobe.k = {notBothZero(lobe.eta.r, lobe.k.r), notBothZero(lobe.eta.g, lobe.k.g), notBothZero(lobe.eta.b, lobe.k.b)};

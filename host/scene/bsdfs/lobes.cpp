@@ -29,7 +29,8 @@ std::vector<unsigned> Bsdf::textures() const {
     std::vector<unsigned> all;
     for (const auto* side : {&front, &back})
         for (const LobeDescription& lobe : *side) {
-            for (const unsigned number : {lobe.device.reflectanceTexture, lobe.device.transmittanceTexture})
+            for (const unsigned number : {lobe.device.reflectanceTexture, lobe.device.transmittanceTexture,
+                                          lobe.device.etaTexture, lobe.device.kTexture})
                 if (number > 0) all.push_back(number - 1);
             for (const shared::LobeWeight& weight : lobe.weights) all.push_back(weight.texture);
             for (const LevelTexture& level : lobe.levelTextures) all.push_back(level.texture);
@@ -50,6 +51,11 @@ bool Bsdf::isAnisotropic() const {
                (lobe.device.alphaU != lobe.device.alphaV || lobe.levelTextures.size() > 1);
     };
     return std::any_of(front.begin(), front.end(), differs) || std::any_of(back.begin(), back.end(), differs);
+}
+
+bool Bsdf::hasIndexTexture() const {
+    const auto varies = [](const LobeDescription& lobe) { return lobe.device.etaTexture + lobe.device.kTexture > 0; };
+    return std::any_of(front.begin(), front.end(), varies) || std::any_of(back.begin(), back.end(), varies);
 }
 
 LobeDescription passageLobe() {

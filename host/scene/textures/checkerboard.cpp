@@ -5,8 +5,9 @@ namespace quasilux {
 
 void readCheckerboard(Properties& properties, TextureDescription& texture) {
     texture.device.type = TEXTURE_CHECKERBOARD;
-    const Reflectance first = readReflectance(properties, "color0", 0.4f);
-    const Reflectance second = readReflectance(properties, "color1", 0.2f);
+    const TextureUse use = texture.use == TextureUse::index ? TextureUse::index : TextureUse::reflectance;
+    const Reflectance first = readReflectance(properties, "color0", 0.4f, use);
+    const Reflectance second = readReflectance(properties, "color1", 0.2f, use);
     // Of a texture the largest value, which its own never exceed.
     texture.device.color0 = first.largest;
     texture.device.color1 = second.largest;

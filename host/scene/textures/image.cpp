@@ -34,7 +34,7 @@ struct Range {
     const char* rule;
 };
 constexpr Range reflectances{0, 1, false, "reflectances lie within [0, 1]"};
-constexpr Range radiances{0, std::numeric_limits<float>::max(), true, "radiance is a finite number"};
+constexpr Range unbounded{0, std::numeric_limits<float>::max(), true, "expected a finite number"};
 
 // Formats that name no further files, by the ending: others of OpenImageIO's readers play films, for example.
 constexpr std::pair<std::string_view, const char*> plainFormats[] = {
@@ -168,8 +168,8 @@ Image readImage(const std::string& path, bool raw, const SourceLocation& where, 
     return readWithin(reflectances, path, raw, where, guard);
 }
 
-Image readRadianceImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard) {
-    return readWithin(radiances, path, raw, where, guard);
+Image readUnboundedImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard) {
+    return readWithin(unbounded, path, raw, where, guard);
 }
 
 } // namespace quasilux

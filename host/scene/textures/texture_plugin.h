@@ -32,8 +32,11 @@ struct Reflectance {
     unsigned texture = 0; ///< as in shared::Lobe
 };
 
-/// The parameter `name`, a colour or a texture within [0, 1]; `missing` where it is not given.
-Reflectance readReflectance(Properties& properties, const std::string& name, float missing);
+/// The parameter `name`, a colour or a texture, within [0, 1] unless an index; `missing` where it is not given.
+Reflectance readReflectance(Properties& properties, const std::string& name, float missing,
+                            TextureUse use = TextureUse::reflectance);
+/// The parameter `name`, a colour within a texture of that use.
+Rgb readTextureColor(Properties& properties, const std::string& name, float missing, TextureUse use);
 
 /// What an emitter's parameter gives: a colour, or 1 times a texture that may exceed 1.
 struct EmissionColor {
@@ -74,7 +77,8 @@ Scalar readWeight(Properties& properties, const std::string& name, float missing
 /// Reads an image file. Files of integers are taken as sRGB encoded unless `raw`; one channel is grey, alpha is left
 /// out. Throws InputError at `where` where the file cannot be read, or has negative or non-finite values.
 Image readImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard);
-/// An image of radiance: as readImage, but values may be above 1, and negative ones become 0.
-Image readRadianceImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard);
+/// An image of radiance, or of indices of refraction: as readImage, but values may be above 1, and negative ones become
+/// 0.
+Image readUnboundedImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard);
 
 } // namespace quasilux

@@ -43,7 +43,9 @@ Rgb largestValue(const TextureDescription& texture) {
 
 /// Index into Scene::textures; read once however often it is used.
 int useTexture(const Element& element, LoadContext& context, TextureUse use = TextureUse::reflectance) {
-    auto& indices = use == TextureUse::emission ? context.emissionTextureIndex : context.textureIndex;
+    auto& indices = use == TextureUse::emission ? context.emissionTextureIndex
+                    : use == TextureUse::index  ? context.indexTextureIndex
+                                                : context.textureIndex;
     const auto known = indices.find(&element);
     if (known != indices.end()) return known->second;
     context.scene.textures.push_back(readTexture(element, context, use));
@@ -75,11 +77,16 @@ TextureDescription readTexture(const Element& element, LoadContext& context, Tex
     return texture;
 }
 
-Reflectance readReflectance(Properties& properties, const std::string& name, float missing) {
+Rgb readTextureColor(Properties& properties, const std::string& name, float missing, TextureUse use) {
+    if (use == TextureUse::index) return properties.positiveColor(name, {missing, missing, missing});
+    return properties.reflectance(name, missing);
+}
+
+Reflectance readReflectance(Properties& properties, const std::string& name, float missing, TextureUse use) {
     const Element* texture = properties.texture(name);
-    if (!texture) return properties.reflectance(name, missing);
+    if (!texture) return readTextureColor(properties, name, missing, use);
     if (replacesTexture(*texture, properties.context())) return Rgb{0.5f, 0.5f, 0.5f};
-    const int index = useTexture(*texture, properties.context());
+    const int index = useTexture(*texture, properties.context(), use);
     const TextureDescription& read = properties.context().scene.textures[static_cast<size_t>(index)];
     return {static_cast<unsigned>(index) + 1, largestValue(read)};
 }

@@ -31,11 +31,23 @@ const MeshAttribute& findAttribute(const ShapeDescription& shape, const std::str
                                  shape.id, name, known));
 }
 
-/// Throws InputError for values that are no reflectances, warns of those that are too large.
+const char* ruleOf(TextureUse use) {
+    switch (use) {
+    case TextureUse::emission:
+        return "radiance is at least 0";
+    case TextureUse::index:
+        return "indices of refraction are at least 0";
+    case TextureUse::reflectance:
+        break;
+    }
+    return "reflectances lie within [0, 1]";
+}
+
+/// Throws InputError for values that the texture's use does not allow, warns of reflectances that are too large.
 void checkValues(const ShapeDescription& shape, const MeshAttribute& attribute, const TextureDescription& texture,
                  LoadContext& context) {
     const float scale = texture.attributeScale;
-    const bool emits = texture.use == TextureUse::emission;
+    const bool bounded = texture.use == TextureUse::reflectance;
     size_t above = 0;
     for (size_t k = 0; k < attribute.values.size(); ++k) {
         const Rgb& value = attribute.values[k];
@@ -45,9 +57,8 @@ void checkValues(const ShapeDescription& shape, const MeshAttribute& attribute, 
                                  fmt::format("attribute '{}' of shape '{}', times the texture's scale, is {} at {} {}; "
                                              "{}.",
                                              attribute.name, shape.id, channel,
-                                             attribute.isOfFaces() ? "triangle" : "vertex", k,
-                                             emits ? "radiance is at least 0" : "reflectances lie within [0, 1]"));
-        above += !emits && scale * std::max({value.r, value.g, value.b}) > 1;
+                                             attribute.isOfFaces() ? "triangle" : "vertex", k, ruleOf(texture.use)));
+        above += bounded && scale * std::max({value.r, value.g, value.b}) > 1;
     }
     if (above == 0 || !context.brightAttributes.insert(fmt::format("{} {} {}", shape.id, attribute.name, scale)).second)
         return;

@@ -12,21 +12,21 @@ namespace {
 constexpr float defaultValue = 0.75f;
 
 /// The volume that is given, a colour, or the default.
-VolumeDescription readShownVolume(Properties& properties) {
+VolumeDescription readShownVolume(Properties& properties, TextureUse use) {
     LoadContext& context = properties.context();
     if (const Element* element = properties.volume("volume")) {
         context.shownVolumes.insert(element);
         return readVolume(*element, context);
     }
     VolumeDescription volume;
-    setConstant(volume, properties.reflectance("volume", defaultValue), glm::dmat4(1));
+    setConstant(volume, readTextureColor(properties, "volume", defaultValue, use), glm::dmat4(1));
     return volume;
 }
 
 } // namespace
 
 void readVolumeTexture(Properties& properties, TextureDescription& texture) {
-    VolumeDescription volume = readShownVolume(properties);
+    VolumeDescription volume = readShownVolume(properties, texture.use);
     size_t above = 0;
     float largest = 0;
     for (float& value : volume.values) {
