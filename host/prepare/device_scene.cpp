@@ -69,8 +69,10 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     features.instances = !scene.instances.empty();
     features.depthLimit = scene.maxDepth >= 0;
     features.hiddenEmitters = hidesEmitters(scene);
-    features.countedPanes =
-        scene.countsPanes && features.lobes.count(LOBE_PANE) > 0 && (features.depthLimit || features.hiddenEmitters);
+    features.countedPassages =
+        scene.countsPassages && (features.depthLimit || features.hiddenEmitters) &&
+        (features.nullPrimitives || features.lobes.count(LOBE_PASSAGE) > 0 || features.lobes.count(LOBE_PANE) > 0);
+    features.hiddenBeyondPassages = features.hiddenEmitters && features.countedPassages && scene.hidesBeyondPassages;
     features.orthographicCamera = scene.sensor.orthographic;
     features.fisheyeCamera = scene.sensor.fisheye != FISHEYE_NONE;
     features.thinLens = scene.sensor.apertureRadius > 0;

@@ -126,7 +126,8 @@ unsigned appendMedia(MediumTables media, SceneTableWriter& tables);
 double scatteringArea(const Scene& scene);
 /// Whether the camera looks through shapes that emit; irradiance meters do not.
 bool hidesEmitters(const Scene& scene);
-/// Whether a shape is no more than a place that light passes: a `null` bsdf that bounds no medium.
+/// Whether a shape is no more than a place that light passes: a `null` bsdf that bounds no medium, and that no path
+/// counts.
 bool passesLight(const Scene& scene, const ShapeDescription& shape);
 
 } // namespace quasilux

@@ -62,7 +62,8 @@ constexpr std::array flags = {
     Flag{&Features::areaTextures, "HAS_AREA_TEXTURES", "emitting shapes with textures"},
     Flag{&Features::lightTree, "HAS_LIGHT_TREE", "many emitters"},
     Flag{&Features::hiddenEmitters, "HAS_HIDDEN_EMITTERS", "emitters hidden from the camera"},
-    Flag{&Features::countedPanes, "HAS_COUNTED_PANES", "panes that begin segments"},
+    Flag{&Features::countedPassages, "HAS_COUNTED_PASSAGES", "passages that begin segments"},
+    Flag{&Features::hiddenBeyondPassages, "HAS_HIDDEN_BEYOND_PASSAGES", "emitters hidden beyond passages"},
     Flag{&Features::directByPhotons, "HAS_DIRECT_BY_PHOTONS", "direct light of some emitters by photons"},
     Flag{&Features::directInMedia, "HAS_DIRECT_IN_MEDIA", "emitters that shine into media"},
 };
@@ -101,7 +102,7 @@ Features Features::generic() {
     for (unsigned type = 0; type < emitterNames.size(); ++type) all.emitterTypes.insert(type);
     for (unsigned type = 0; type < phaseNames.size(); ++type) all.phases.insert(type);
     for (const auto& flag : flags) all.*flag.member = true;
-    all.hiddenEmitters = all.countedPanes = false;
+    all.hiddenEmitters = all.countedPassages = all.hiddenBeyondPassages = false;
     for (const auto kind : scatteringKinds) all.*kind = true;
     return all;
 }
@@ -113,7 +114,8 @@ Features Features::with(const Features& further) const {
     all.phases.insert(further.phases.begin(), further.phases.end());
     for (const auto& flag : flags) all.*flag.member |= further.*flag.member;
     all.hiddenEmitters = hiddenEmitters;
-    all.countedPanes = countedPanes;
+    all.countedPassages = countedPassages;
+    all.hiddenBeyondPassages = hiddenBeyondPassages;
     for (const auto kind : scatteringKinds) all.*kind |= further.*kind;
     return all;
 }

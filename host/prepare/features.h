@@ -29,7 +29,8 @@ struct Features {
     bool emitterTextures = false;                        ///< what some emitter sends is multiplied by a texture
     bool areaTextures = false;                           ///< and it is a shape
     bool hiddenEmitters = false;                         ///< from the camera
-    bool countedPanes = false;    ///< light that passes a thin pane begins a segment, and segments are counted
+    bool countedPassages = false; ///< what passes straight through a surface begins a segment, and segments are counted
+    bool hiddenBeyondPassages = false; ///< emitters, as Scene::hidesBeyondPassages has it
     bool directByPhotons = false; ///< direct light of some emitters is taken from photons (host/learn/direct_choice.h)
     bool genuineDiffuse = false, quasiSpecular = false, specular = false; ///< kinds of scattering of surfaces
     bool genuineDiffuseMedia = false, quasiSpecularMedia = false;         ///< and of media
@@ -40,7 +41,7 @@ struct Features {
     std::vector<std::string> names() const;
     /// Everything that the kernels know, used or not.
     static Features generic();
-    /// What kernels can do for scenes with these features, too. Hidden emitters, counted panes and meters are no
+    /// What kernels can do for scenes with these features, too. Hidden emitters, counted passages and meters are no
     /// abilities, but other images, and stay as they are here.
     Features with(const Features& further) const;
 };

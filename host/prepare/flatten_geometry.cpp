@@ -18,7 +18,8 @@ bool isNull(const Scene& scene, const ShapeDescription& shape) {
 } // namespace
 
 bool passesLight(const Scene& scene, const ShapeDescription& shape) {
-    return isNull(scene, shape) && !shape.interior && !shape.exterior;
+    const bool counts = scene.countsPassages && scene.maxDepth >= 0;
+    return isNull(scene, shape) && !shape.interior && !shape.exterior && !counts;
 }
 
 bool hidesEmitters(const Scene& scene) { return scene.hideEmitters && !isIrradiance(scene.sensor.meter); }

@@ -58,7 +58,8 @@ SceneChecksums checksumsOf(const DeviceScene& flat, int maxDepth) {
     camera.add(&flat.offsets, sizeof flat.offsets);
     camera.add(&maxDepth, sizeof maxDepth);
     camera.add(&flat.features.hiddenEmitters, sizeof flat.features.hiddenEmitters);
-    camera.add(&flat.features.countedPanes, sizeof flat.features.countedPanes);
+    camera.add(&flat.features.countedPassages, sizeof flat.features.countedPassages);
+    camera.add(&flat.features.hiddenBeyondPassages, sizeof flat.features.hiddenBeyondPassages);
     return {{"geometry", geometry.text()},
             {"materials, textures or emitters", materials.text()},
             {"camera, film or depth", camera.text()}};

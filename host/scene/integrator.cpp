@@ -60,7 +60,7 @@ IntegratorChoice readDirect(Properties& properties) {
         properties.accept(properties.plugin() == "direct_reparam" ? ofReparameterization : ofSilhouettes);
         properties.accept({"max_depth", "rr_depth"}); // read by Mitsuba, and replaced by 2
     }
-    return {2, properties.boolean("hide_emitters", false)};
+    return {2, properties.boolean("hide_emitters", false), true, false};
 }
 
 constexpr std::string_view quantityNames[] = {"albedo", "depth", "position", "uv",     "geo_normal", "sh_normal",

@@ -320,7 +320,8 @@ ReadScene readScene(const SceneDocument& document, const std::string& path, cons
         const IntegratorChoice integrator = readIntegrator(*integrators[0], context);
         scene.maxDepth = integrator.maxDepth;
         scene.hideEmitters = integrator.hidesEmitters;
-        scene.countsPanes = integrator.countsPanes;
+        scene.countsPassages = integrator.countsPassages;
+        scene.hidesBeyondPassages = integrator.hidesBeyondPassages;
     }
     checkEmitters(context);
     checkUnitsOfSky(context);

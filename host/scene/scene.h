@@ -316,8 +316,10 @@ struct Scene {
     std::vector<Observer> observers;
     bool hideEmitters = false; ///< the camera looks through emitting shapes and sees no surroundings (hide_emitters)
     int maxDepth = -1; ///< limit on the segments of the whole path, photon plus camera; -1 = none (Mitsuba's max_depth)
-    bool countsPanes = true;    ///< for both: light that passes a thin pane begins a segment
-    std::vector<AovLayer> aovs; ///< that the integrator asks for
+    /// For both: what passes straight through a surface (`null`, `mask`, a thin pane) begins a segment.
+    bool countsPassages = true;
+    bool hidesBeyondPassages = true; ///< then: surroundings, and shapes at the end of the longest paths
+    std::vector<AovLayer> aovs;      ///< that the integrator asks for
     SceneSettings settings;
     std::vector<std::string> warnings;      ///< "file:line:column: …"; things accepted but without effect
     std::vector<std::string> withoutEffect; ///< parameters that are accepted without effect and without a warning
