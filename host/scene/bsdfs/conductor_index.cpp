@@ -138,7 +138,7 @@ void readConductorIndex(Properties& properties, shared::Lobe& lobe) {
     }
     if (eta.texture > 0 || k.texture > 0) return; // kernels/surface.clh sees where both are 0
     // Where both are 0 everything is reflected, as where k alone is not; but at normal incidence Fresnel has 0 / 0.
-    const auto notBothZero = [](float eta, float k) { return eta == 0 && k == 0 ? 1.0f : k; };
+    const auto notBothZero = [](float n, float absorption) { return n == 0 && absorption == 0 ? 1.0f : absorption; };
     lobe.k = {notBothZero(lobe.eta.r, lobe.k.r), notBothZero(lobe.eta.g, lobe.k.g), notBothZero(lobe.eta.b, lobe.k.b)};
 }
 
