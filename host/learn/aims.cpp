@@ -199,7 +199,8 @@ std::optional<AimSet> takeBest(std::vector<Candidate>& candidates, const std::ve
 std::vector<AimSet> findAims(const std::vector<shared::ImportancePath>& paths, const std::vector<double>& pathWeights,
                              const std::vector<bool>& isWasted, const std::vector<Opening>& fromOutside,
                              double radius) {
-    auto [rays, ofWasted] = usefulRays(paths, pathWeights, isWasted);
+    Ways ways = usefulRays(paths, pathWeights, isWasted);
+    std::vector<UsefulRay>& rays = ways.all;
     double all = 0;
     for (const auto& ray : rays) all += ray.weight;
     std::vector<AimSet> sets;
@@ -222,7 +223,7 @@ std::vector<AimSet> findAims(const std::vector<shared::ImportancePath>& paths, c
             sets.push_back(*set);
         }
     };
-    take(std::move(ofWasted), true);
+    take(std::move(ways.ofWasted), true);
     take(rays, false);
     return sets;
 }

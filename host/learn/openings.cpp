@@ -308,7 +308,7 @@ Opening fitRectangle(const std::vector<UsefulRay>& rays, const Ball& ball) {
         std::ranges::copy_if(rays, std::back_inserter(held), [&](const auto& ray) {
             return isScattered ? best.holds(ray) : distance(ray, ball.centre) <= ball.radius;
         });
-        if (held.empty()) break; // all that pass lead away from it
+        if (held.size() < fewestRays) break; // others lead away from it, or end there
         RectangleSearch search(held);
         search.tryPlanes(best.centre);
         if (isScattered) search.shift(ball.radius / 2);
