@@ -23,8 +23,7 @@ constexpr unsigned fewestScattering = 8;
 constexpr size_t bitsOfCell = 16;
 
 constexpr double leastAim = 0.05; // probability below which photons are not aimed
-// What photons that are scattered bring over what they would where they should arrive: above, own directions of the
-// lobes lead there often enough.
+// What a photon that is scattered brings over the mean: below, own directions of the lobes seldom lead anywhere useful.
 constexpr double mostWasted = 0.1;
 
 double length(const shared::Packed3& v) { return glm::length(unpack(v)); }

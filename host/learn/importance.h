@@ -19,8 +19,8 @@ std::vector<uint32_t> importanceCells(const std::vector<shared::ImportancePath>&
                                       const std::vector<float>& sizes, const std::vector<AimSet>& aims,
                                       shared::ImportanceGrid& grid);
 
-/// By vertex of the paths, IMPORTANCE_VERTICES of each: is most of what photons that are scattered there bring wasted?
-/// Where they arrived at the vertex before they would bring ten times as much or more. `keys` and `sizes` as above.
+/// By vertex of the paths, IMPORTANCE_VERTICES of each: is most of what is scattered there wasted? A photon that is
+/// scattered there brings less than a tenth of the mean over all vertices. `keys` and `sizes` as above.
 std::vector<bool> wastedScattering(const std::vector<shared::ImportancePath>& paths,
                                    const std::vector<double>& pathWeights, const std::vector<uint32_t>& keys,
                                    const std::vector<float>& sizes);

@@ -97,24 +97,15 @@ const Metal& findMetal(const std::string& name, const SourceLocation& where) {
                                         knownNames(name, known)));
 }
 
-/// A part of the index, eta or k: 1 times the texture, or a colour.
-struct IndexPart {
-    Rgb value{1, 1, 1};
-    unsigned texture = 0; ///< as in shared::Lobe
-};
-
 /// Fits to measured spectra, converted to RGB, may have a channel below 0, which Mitsuba takes as it is.
-IndexPart readIndex(Properties& properties, const std::string& name, Rgb missing) {
-    if (properties.texture(name)) {
-        const Reflectance part = readReflectance(properties, name, 0, TextureUse::index);
-        return {part.scale, part.texture};
-    }
+Reflectance readIndex(Properties& properties, const std::string& name, Rgb missing) {
+    if (properties.texture(name)) return readReflectance(properties, name, 0, TextureUse::index);
     const Rgb given = properties.unboundedColor(name, missing);
     if (smallest(given) < 0)
         properties.context().warn(properties.where(name),
                                   fmt::format("parameter '{}' of {} has a negative channel, which is taken as 0.", name,
                                               properties.describe()));
-    return {{std::max(given.r, 0.f), std::max(given.g, 0.f), std::max(given.b, 0.f)}};
+    return Rgb{std::max(given.r, 0.f), std::max(given.g, 0.f), std::max(given.b, 0.f)};
 }
 
 } // namespace
@@ -126,10 +117,10 @@ void readConductorIndex(Properties& properties, shared::Lobe& lobe) {
     if (measured && material != "none")
         throw InputError(properties.where("material"),
                          fmt::format("{} has both material and eta or k; keep one.", properties.describe()));
-    const IndexPart eta = readIndex(properties, "eta", {0, 0, 0}), k = readIndex(properties, "k", {1, 1, 1});
-    lobe.eta = eta.value;
+    const Reflectance eta = readIndex(properties, "eta", {0, 0, 0}), k = readIndex(properties, "k", {1, 1, 1});
+    lobe.eta = eta.scale;
     lobe.etaTexture = eta.texture;
-    lobe.k = k.value;
+    lobe.k = k.scale;
     lobe.kTexture = k.texture;
     if (material != "none") {
         const Metal& metal = findMetal(material, properties.where("material"));
