@@ -94,7 +94,7 @@ class Maker:
         x, y, z = axis / np.linalg.norm(axis)  # Mitsuba takes it as it is
         return f'<rotate value="{x:.8f}, {y:.8f}, {z:.8f}" angle="{self.between(0, 360):.1f}"/>'
 
-    def placement(self, radius, centre, size, rigid=False, mirrors=True):
+    def placement(self, radius, centre, size, rigid=False, mirrors=True, right_handed=False):
         """A to_world that puts what lies within `radius` of the origin into the ball of `size` about `centre`."""
         matrix = np.eye(3)
         if not rigid and self.chance(0.5):
@@ -102,6 +102,8 @@ class Maker:
             matrix[self.pick((0, 1), (1, 2), (2, 0))] = self.between(-0.6, 0.6) * self.chance(0.6)
         if mirrors and self.chance(0.35):
             matrix = np.diag([self.pick(-1, 1), self.pick(-1, 1), -1]) @ matrix
+        if right_handed and np.linalg.det(matrix) < 0:
+            matrix = -matrix
         matrix = np.round(matrix * size / radius / np.linalg.norm(matrix, 2), 4)
         operations = f'<matrix value="{" ".join(str(v) for v in matrix.ravel())}"/>' + self.turn()
         return f'<transform name="to_world">{operations}<translate value="{triple(centre)}"/></transform>'
@@ -247,7 +249,8 @@ class Maker:
         self.attributes = kind == "ball" and not group  # Mitsuba looks those of instances up where they are not
         radius = {"rectangle": 1.4143, "cube": 1.7321}.get(kind, 1)
         inside = value("boolean", "flip_normals", True) if not medium and self.chance(0.3) else ""
-        inside += self.placement(radius, centre, size, kind in ("sphere", "cylinder"), not medium)  # mirrored, Mitsuba fills the outside
+        # Mirrored, Mitsuba fills the outside; normals of a mirrored cube look inwards (docs/notes/validation.md).
+        inside += self.placement(radius, centre, size, kind in ("sphere", "cylinder"), not medium, kind == "cube")
         if kind == "cylinder":
             inside += '<point name="p0" value="0,0,-0.8"/><point name="p1" value="0,0,0.7"/>' + value("float", "radius", 0.5)
         if kind == "ball":
