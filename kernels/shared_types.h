@@ -128,16 +128,17 @@ typedef struct {
     float coat[8];           /* rough coats: polynomial in the cosine */
     unsigned int reflectanceTexture, transmittanceTexture; /* 1 + index of the Texture that multiplies it; 0: none */
     unsigned int firstWeight, weightCount;                 /* LobeWeight records, which multiply all of it */
-    unsigned int etaTexture, kTexture; /* conductors: 1 + index of the Texture that eta or k is instead; 0: none */
+    unsigned int etaTexture, kTexture; /* facets: 1 + index of the Texture that eta or k is instead; 0: none */
 } Lobe;
 
 /* A factor on a lobe by texture, such as its share in a blend or under a mask: a function of x = offset + factor times
  * the texture. */
-#define WEIGHT_VALUE 0u      /* x */
-#define WEIGHT_RECIPROCAL 1u /* 1 / x */
-#define WEIGHT_ROOT 2u       /* its root */
-#define WEIGHT_TINT 3u       /* x over its luminance; white where x is black */
-#define WEIGHS_REFLECTED 1u  /* parts of the lobe */
+#define WEIGHT_VALUE 0u             /* x */
+#define WEIGHT_RECIPROCAL 1u        /* 1 / x */
+#define WEIGHT_ROOT 2u              /* its root */
+#define WEIGHT_TINT 3u              /* x over its luminance; white where x is black */
+#define WEIGHT_NORMALREFLECTANCE 4u /* ((x - 1) / (x + 1))^2: of an index x what is reflected at normal incidence */
+#define WEIGHS_REFLECTED 1u         /* parts of the lobe */
 #define WEIGHS_TRANSMITTED 2u
 typedef struct {
     unsigned int texture;  /* index of a Texture */

@@ -1,7 +1,8 @@
-// eta and k of metals by texture: how they are read, images whose halves are those of constants, and the estimate of a
-// room where textures are the same everywhere, which is that of constants. Renders of the same seed take the same random
-// numbers: they differ by rounding, and by some paths that part by it.
+// eta and k of metals, and eta of thin sheets, by texture: how they are read, images whose halves are those of
+// constants, and the estimate of a room where textures are the same everywhere, which is that of constants. Renders of
+// the same seed take the same random numbers: they differ by rounding, and by some paths that part by it.
 #include "prepare/device_scene.h"
+#include "prepare/roughness_levels.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
@@ -101,6 +102,57 @@ TEST(IndexTexture, SaysWhatIsWrong) {
     });
 }
 
+const std::string sheet = "<bsdf type=\"principledthin\"><float name=\"roughness\" value=\"0.6\"/>"
+                          "<float name=\"spec_trans\" value=\"1\"/>";
+
+TEST(IndexTexture, OfSheetsIsReadAsNumbers) {
+    const auto front = [](const std::string& parameters) {
+        return test::loadBody("<shape type=\"rectangle\">" + sheet + parameters + "</bsdf></shape>").bsdfs.at(0).front;
+    };
+    const auto plain = front("<texture type=\"checkerboard\" name=\"eta\"/>");
+    ASSERT_EQ(plain.size(), 2u);
+    EXPECT_EQ(plain[0].device.type, unsigned(LOBE_GGX));
+    EXPECT_EQ(plain[0].device.etaTexture, 2u) << "a grey copy";
+    EXPECT_TRUE(plain[0].levelTextures.empty()) << "the alpha of what is reflected is the same everywhere";
+    EXPECT_EQ(plain[1].device.type, unsigned(LOBE_THINGGX));
+    EXPECT_EQ(plain[1].levelTextures.size(), 1u);
+    const auto tinted = front("<float name=\"spec_tint\" value=\"1\"/><texture type=\"checkerboard\" name=\"eta\"/>");
+    ASSERT_EQ(tinted.size(), 3u);
+    EXPECT_EQ(tinted[0].weights.at(0).function, WEIGHT_NORMALREFLECTANCE);
+    EXPECT_TRUE(tinted[1].weights.empty());
+    const auto constant = front(R"(<texture type="rawconstant" name="eta"><float name="value" value="2"/></texture>)");
+    EXPECT_EQ(constant[0].device.etaTexture, 0u);
+    EXPECT_EQ(constant[1].device.eta.r, 2);
+    EXPECT_THAT(test::errorOf(test::SceneFiles().write(
+                    "scene.xml", test::sceneWith("<shape type=\"rectangle\"><bsdf type=\"principled\">"
+                                                 "<texture type=\"checkerboard\" name=\"eta\"/></bsdf></shape>"))),
+                HasSubstr("bsdf 'principled' takes no texture as 'eta'"));
+}
+
+// Levels lie between the values that the mesh has, 3 and 5, which are above any roughness.
+TEST(IndexTexture, OfSheetsNarrowsWhatPasses) {
+    const test::SceneFiles files;
+    files.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+                         "z\nproperty float n_x\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                         "0 0 0 3\n1 0 0 4\n0 1 0 5\n3 0 1 2\n");
+    const Scene scene = loadScene(files.write(
+        "scene.xml",
+        test::sceneWith("<shape type=\"ply\"><string name=\"filename\" value=\"a.ply\"/>" + sheet +
+                        "<texture type=\"mesh_attribute\" name=\"eta\"><string name=\"name\" value=\"vertex_n\"/>"
+                        "</texture></bsdf></shape>")));
+    const auto& side = scene.bsdfs.at(0).front;
+    const auto levels = roughnessLevels(scene, scene.bsdfs.at(0), side);
+    ASSERT_TRUE(levels && levels->count() > 1);
+    for (const bool last : {false, true}) {
+        const double index = last ? 5 : 3;
+        const auto lobe = levels->lobeAt(last ? levels->count() - 1 : 0, side.back().device, side.back());
+        EXPECT_NEAR(lobe.eta.r, index, 1e-5 * index);
+        EXPECT_NEAR(lobe.alphaU, std::pow(0.6 * (0.65 * index - 0.35), 2), 1e-4);
+        EXPECT_EQ(lobe.alphaU, lobe.alphaV);
+    }
+    EXPECT_FALSE(scene.bsdfs.at(0).isAnisotropic());
+}
+
 using Parameter = std::function<std::string(const std::string& name, const std::string& value)>;
 
 std::vector<float> radianceOf(const Scene& scene, DirectLight direct, const DeviceScene& textured, uint64_t seed,
@@ -129,17 +181,19 @@ std::string camera(const std::string& look, int depth) {
 <integer name="height" value="24"/></film></sensor>)";
 }
 
-/// A floor under a lamp, from where the lamp is mirrored.
-Scene floorUnderLamp(const std::string& bsdf) {
+/// A floor between two lamps, from where one is mirrored and the other, where the floor passes light, is seen.
+Scene floorByLamps(const std::string& bsdf) {
     const test::SceneFiles files;
     writeFloats(files.path("eta.exr"), 2, 1, {0.2f, 0.9f, 1.5f, 2.5f, 1, 0});
     writeFloats(files.path("k.exr"), 2, 1, {3.9f, 2.4f, 0, 0.1f, 1, 0});
+    writeFloats(files.path("sheet.exr"), 2, 1, {1.3f, 1.3f, 1.3f, 2.2f, 2.2f, 2.2f});
     return loadScene(files.write(
         "scene.xml",
         camera(R"(origin="0,-3,1" target="0,0,0")", 2) +
             R"(<shape type="rectangle"><transform name="to_world"><scale value="2"/></transform>)" + bsdf +
             R"(</shape><shape type="rectangle"><transform name="to_world"><scale x="2" y="0.7"/><rotate x="1" angle="110"/>
-<translate y="3" z="1"/></transform><emitter type="area"/></shape></scene>)"));
+<translate y="3" z="1"/></transform><emitter type="area"/></shape><shape type="rectangle"><transform name="to_world">
+<scale x="2" y="0.7"/><rotate x="1" angle="70"/><translate y="3" z="-1"/></transform><emitter type="area"/></shape></scene>)"));
 }
 
 /// Largest difference of a pixel relative to the mean of them, over columns from `first` on.
@@ -155,7 +209,7 @@ double largestDifference(const std::vector<float>& a, const std::vector<float>& 
 
 class IndexTextureHalves : public testing::TestWithParam<const char*> {};
 TEST_P(IndexTextureHalves, AreThoseOfConstants) {
-    const auto floor = [](const std::string& index) { return floorUnderLamp(GetParam() + index + "</bsdf>"); };
+    const auto floor = [](const std::string& index) { return floorByLamps(GetParam() + index + "</bsdf>"); };
     const Scene textured = floor(bitmap("eta", "eta.exr") + bitmap("k", "k.exr"));
     const DeviceScene flat = flattened(textured);
     EXPECT_TRUE(flat.features.indexTextures);
@@ -178,7 +232,36 @@ INSTANTIATE_TEST_SUITE_P(
         R"(<bsdf type="roughconductor"><string name="distribution" value="ggx"/><float name="alpha" value="0.3"/>)",
         R"(<bsdf type="roughconductor"><float name="alpha" value="0.4"/>)"));
 
-/// Metals of every kind in a room, where light goes from one to the other.
+class SheetTextureHalves : public testing::TestWithParam<std::string> {};
+TEST_P(SheetTextureHalves, AreThoseOfConstants) {
+    const auto floor = [](const std::string& index) { return floorByLamps(sheet + GetParam() + index + "</bsdf>"); };
+    const Scene textured = floor(bitmap("eta", "sheet.exr"));
+    const DeviceScene flat = flattened(textured);
+    for (const auto direct : {DirectLight::emitters, DirectLight::photons}) {
+        const auto of = [&](const Scene& scene, SurfaceRule rule = SurfaceRule::right) {
+            return radianceOf(scene, direct, flat, 1, rule);
+        };
+        const auto left = of(floor("<float name=\"eta\" value=\"1.3\"/>")),
+                   right = of(floor("<float name=\"eta\" value=\"2.2\"/>")), both = of(textured);
+        EXPECT_LT(largestDifference(both, left, 0, 9), 1e-4);
+        EXPECT_LT(largestDifference(both, right, 15, 9), 1e-4);
+        EXPECT_GT(largestDifference(both, right, 0, 9), 0.1) << "negative control";
+        EXPECT_GT(largestDifference(of(textured, SurfaceRule::firstLevel), right, 15, 9), 0.1) << "negative control";
+        EXPECT_EQ(flat.features.indexTextures, GetParam().find("value=\"1\"") == std::string::npos);
+        if (!flat.features.indexTextures) continue;
+        EXPECT_GT(largestDifference(of(textured, SurfaceRule::etaIsK), left, 0, 9), 0.1) << "negative control";
+    }
+}
+// A tint is apart from what is white where a texture says the index; so it is where one says the base colour.
+const std::string grazed = "<texture type=\"checkerboard\" name=\"base_color\">" + rgb("color0", "0.9,0.7,0.4") +
+                           rgb("color1", "0.9,0.7,0.4") + "</texture>";
+INSTANTIATE_TEST_SUITE_P(IndexTexture, SheetTextureHalves,
+                         testing::Values(rgb("base_color", "0.9,0.7,0.4"),
+                                         "<float name=\"spec_tint\" value=\"1\"/>" + grazed,
+                                         "<float name=\"spec_tint\" value=\"0.5\"/>" + grazed +
+                                             "<texture type=\"checkerboard\" name=\"anisotropic\"/>"));
+
+/// Metals of every kind, and a sheet, in a room, where light goes from one to the other.
 Scene room(const Parameter& parameter) {
     const test::SceneFiles files;
     const auto bsdf = [&](const std::string& type, const std::string& eta, const std::string& k) {
@@ -196,6 +279,8 @@ Scene room(const Parameter& parameter) {
                  bsdf(R"("roughconductor"><string name="distribution" value="ggx"/><float name="alpha" value="0.4"/>)",
                       "1.5,1.2,0.2", "0,0.1,3.9")) +
             wall(R"(<scale value="4"/><translate z="2.5"/>)", white) +
+            wall(R"(<scale value="0.4"/><rotate x="1" angle="80"/><translate x="-0.6" z="0.6"/>)",
+                 sheet + parameter("eta", "1.8,1.8,1.8") + "</bsdf>") +
             wall(R"(<scale value="4"/><rotate x="1" angle="90"/><translate y="2"/>)", white) +
             wall(R"(<scale value="4"/><rotate y="1" angle="90"/><translate x="-1.5"/>)",
                  bsdf(R"("conductor">)", "3,1.5,0.4", "0.3,0.6,2")) +
@@ -234,7 +319,7 @@ TEST(IndexTexture, OfOneValueMakesTheEstimateOfTheConstant) {
 TEST(IndexTexture, TheCameraMapRefusesIt) {
     RenderSettings settings;
     settings.map = MapOrder::camera;
-    const Scene scene = floorUnderLamp("<bsdf type=\"conductor\">" + bitmap("eta", "eta.exr") + "</bsdf>");
+    const Scene scene = floorByLamps("<bsdf type=\"conductor\">" + bitmap("eta", "eta.exr") + "</bsdf>");
     EXPECT_THROW(Renderer(testDevice(), scene, settings), InputError);
 }
 

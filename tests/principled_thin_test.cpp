@@ -174,6 +174,8 @@ TEST(PrincipledThin, IsTheSumOfItsLobesOnBothSides) {
     EXPECT_NEAR(f[5].device.alphaU, std::pow((0.65 * 1.6 - 0.35) * 0.6, 2), 1e-6);
     EXPECT_EQ(thin(number("spec_trans", 1) + number("eta", 1)).front.size(), 1u) << "no index, no reflection";
     EXPECT_EQ(thin(number("spec_trans", 1) + number("eta", 0.8)).front.size(), 2u) << "below 1 there is one again";
+    const Bsdf ofColor = thin(number("spec_trans", 1) + "<rgb name=\"eta\" value=\"1,1.2,2\"/>");
+    EXPECT_FLOAT_EQ(ofColor.front[0].device.eta.g, 1.4f) << "the mean, as in Mitsuba";
 }
 
 TEST(PrincipledThin, SaysWhatIsWrong) {
@@ -184,8 +186,10 @@ TEST(PrincipledThin, SaysWhatIsWrong) {
          "scene.xml:5:1: parameter 'eta' of bsdf 'principledthin' is 0; it must be greater than 0"},
         {"\n<float name=\"metallic\" value=\"0.9\"/>",
          "scene.xml:5:1: unknown parameter 'metallic' of bsdf 'principledthin'"},
-        {"\n<texture type=\"checkerboard\" name=\"eta\"/>",
-         "scene.xml:5:1: bsdf 'principledthin' takes no texture as 'eta'"}};
+        {"<texture type=\"checkerboard\" name=\"eta\">\n<rgb name=\"color0\" value=\"1,-1,1\"/></texture>",
+         "scene.xml:5:1: parameter 'color0'"},
+        {"\n<texture type=\"checkerboard\" name=\"ETA\"/>",
+         "scene.xml:5:1: bsdf 'principledthin' takes no texture as 'ETA'"}};
     for (const auto& [parameters, message] : bad)
         EXPECT_THAT(test::errorOf(files.write(
                         "scene.xml", test::sceneWith("<shape type=\"rectangle\"><bsdf type=\"principledthin\">" +

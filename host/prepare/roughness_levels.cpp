@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace quasilux {
 
@@ -15,20 +16,32 @@ constexpr unsigned mostLevels[ROUGHNESS_TEXTURES] = {1024, 256, 40};
 constexpr double leastAlpha = 1e-4;
 
 struct Range {
-    double least = 1, most = 0;
+    double least = std::numeric_limits<double>::max(), most = 0;
 
+    bool isEmpty() const { return least > most; }
     void add(double alpha) {
         least = std::min(least, alpha);
         most = std::max(most, alpha);
     }
 };
 
-void addValues(const Scene& scene, unsigned index, Range& range) {
-    const TextureDescription& texture = scene.textures[index];
-    if (!texture.attribute.empty()) { // any share
+/// Any share, or of an index what the meshes have.
+void addAttribute(const Scene& scene, const TextureDescription& texture, Range& range) {
+    if (texture.use != TextureUse::index) {
         range.add(0);
         range.add(1);
+        return;
     }
+    for (const ShapeDescription& shape : scene.shapes)
+        for (const MeshAttribute& attribute : shape.mesh.attributes) {
+            if (attribute.name != texture.attribute) continue;
+            for (const Rgb& value : attribute.values) range.add(double(texture.attributeScale * value.r));
+        }
+}
+
+void addValues(const Scene& scene, unsigned index, Range& range) {
+    const TextureDescription& texture = scene.textures[index];
+    if (!texture.attribute.empty()) addAttribute(scene, texture, range);
     if (texture.volume)
         for (const float value : texture.volume->values) range.add(value);
     for (const Rgb& texel : texture.texels) range.add(texel.r);
@@ -50,6 +63,7 @@ void setLevels(const Scene& scene, const LevelTexture& level, size_t k, size_t t
                shared::RoughnessLevels& levels) {
     Range range;
     addValues(scene, level.texture, range);
+    if (range.isEmpty()) range.add(1);
     const double ends[] = {level.offset + level.factor * range.least, level.offset + level.factor * range.most};
     const double lower = rootOf(std::min(ends[0], ends[1])), upper = rootOf(std::max(ends[0], ends[1]));
     levels.texture[k] = level.texture + 1;
@@ -77,11 +91,12 @@ std::optional<SideLevels> roughnessLevels(const Scene& scene, const Bsdf& bsdf,
     const size_t count = levels.textures.size();
     if (count == 0) return std::nullopt;
     if (count > ROUGHNESS_TEXTURES)
-        throw InputError(bsdf.where,
-                         fmt::format("the roughness of this bsdf's parts goes by {} different textures (alpha, or "
-                                     "roughness, anisotropic and clearcoat_gloss); expected at most {}: use the same "
-                                     "ones for several parts.",
-                                     count, ROUGHNESS_TEXTURES));
+        throw InputError(
+            bsdf.where,
+            fmt::format("the roughness of this bsdf's parts goes by {} different textures (alpha, or "
+                        "roughness, anisotropic, clearcoat_gloss and eta); expected at most {}: use the same "
+                        "ones for several parts.",
+                        count, ROUGHNESS_TEXTURES));
     std::fill(std::begin(levels.device.levels), std::end(levels.device.levels), 1u);
     for (size_t k = 0; k < count; ++k) setLevels(scene, levels.textures[k], k, count, levels.device);
     return levels;

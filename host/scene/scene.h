@@ -38,6 +38,7 @@ struct QuasiSpecularChoice {
 struct LevelTexture {
     unsigned texture = 0; ///< index into Scene::textures, of equal channels
     double offset = 0, factor = 1;
+    bool ofIndex = false; ///< of an index of refraction, by which both alphas of a lobe go alike
 
     bool operator==(const LevelTexture&) const = default;
 };
@@ -72,7 +73,7 @@ struct Bsdf {
     bool letsPass() const;
     /// Whether a lobe is not the same in all directions about the normal, at least in part.
     bool isAnisotropic() const;
-    /// Whether the complex index of refraction of a conductor goes by textures.
+    /// Whether the complex index of refraction of a conductor or a thin sheet goes by textures.
     bool hasIndexTexture() const;
 };
 

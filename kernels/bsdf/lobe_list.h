@@ -45,7 +45,7 @@ enum LobeType { LOBE_LIST(LOBE_ENUMERATOR, ) LOBE_TYPES };
     ((type) == LOBE_GGX || (type) == LOBE_BECKMANN || (type) == LOBE_GGXDIELECTRIC ||                                  \
      (type) == LOBE_BECKMANNDIELECTRIC || (type) == LOBE_GGXSCHLICK || (type) == LOBE_THINGGX)
 
-/* A conductor whose complex index of refraction goes by textures. */
+/* A conductor, or what a thin sheet reflects, whose index of refraction goes by textures. */
 #ifdef HAS_INDEX_TEXTURES
 #define LOBE_INDEX_VARIES(lobe) (((lobe)->etaTexture | (lobe)->kTexture) != 0)
 #else

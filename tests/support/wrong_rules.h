@@ -35,8 +35,9 @@ enum class PhotonRule {
 enum class SamplingRule { right, fourEverywhere, firstGathers };
 
 /// Surfaces, or a mistake: axes of anisotropic lobes follow from the normal alone; textures of eta and of k change
-/// places; where textures say the index, Fresnel's factor is that of the normal instead of the facet.
-enum class SurfaceRule { right, axesByNormal, etaIsK, fresnelOfNormal };
+/// places; where textures say the index, Fresnel's factor is that of the normal instead of the facet; roughness by
+/// texture is at its first level everywhere.
+enum class SurfaceRule { right, axesByNormal, etaIsK, fresnelOfNormal, firstLevel };
 
 /// Samples of a sky, or a mistake: directions of lobes are weighed against the density of the other map of it.
 enum class SkyRule { right, otherDensity };

@@ -13,7 +13,7 @@ double readEta(Properties& properties, bool transmits) {
     if (properties.has("eta") && properties.has("specular"))
         throw InputError(properties.where("specular"), "principled has both eta and specular; keep one.");
     if (properties.has("eta")) {
-        const double eta = readPrincipledIndex(properties);
+        const double eta = properties.numberAbove("eta", 1.5, 0, true);
         return transmits && eta == 1 ? 1.001 : eta;
     }
     const double specular = properties.share("specular", 0.5);
@@ -25,7 +25,7 @@ Principled readParameters(Properties& properties) {
     p.metallic = readShare(properties, "metallic", 0);
     p.clearcoat = readShare(properties, "clearcoat", 0);
     p.clearcoatGloss = readShare(properties, "clearcoat_gloss", 0);
-    p.eta = readEta(properties, !p.specTrans.isZero());
+    p.eta.value = readEta(properties, !p.specTrans.isZero());
     properties.accept({"diffuse_reflectance_sampling_rate", "main_specular_sampling_rate", "clearcoat_sampling_rate"});
     return p;
 }
@@ -42,20 +42,20 @@ void addDielectric(const Principled& p, BsdfLobes& lobes) {
     const Rgb reflected = grey(dielectric.constant * untinted.constant);
     if (p.specTrans.isZero()) {
         LobeDescription lobe = weighted(facets(p, LOBE_GGX, reflected), dielectric * untinted);
-        lobe.device.eta = grey(p.eta);
+        lobe.device.eta = grey(p.eta.value);
         lobe.device.k = {0, 0, 0};
-        if (p.eta != 1) lobes.front.push_back(lobe);
+        if (p.eta.value != 1) lobes.front.push_back(lobe);
         return;
     }
     const Share passing = share(p.specTrans) * dielectric;
     const Share colored = p.textured() ? ofBase(p, WEIGHT_ROOT) : Share{};
     LobeDescription lobe = facets(p, LOBE_GGXDIELECTRIC, reflected);
     lobe.device.transmittance = passedColor(p) * static_cast<float>(passing.constant);
-    lobe.device.eta = grey(p.eta);
+    lobe.device.eta = grey(p.eta.value);
     LobeDescription front = weighted(lobe, dielectric * untinted, WEIGHS_REFLECTED);
     lobes.front.push_back(weighted(front, passing * colored, WEIGHS_TRANSMITTED));
     lobe.device.reflectance = grey(passing.constant);
-    lobe.device.eta = grey(1 / p.eta);
+    lobe.device.eta = grey(1 / p.eta.value);
     lobes.back.push_back(weighted(weighted(lobe, passing), colored, WEIGHS_TRANSMITTED));
 }
 

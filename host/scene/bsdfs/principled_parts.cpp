@@ -23,14 +23,20 @@ double alphaAlong(double roughness, double squaredAspect, bool u) {
 
 double squaredAspect(const Principled& p) { return 1 - 0.9 * p.anisotropic.value; }
 
-/// Where textures say roughness or anisotropy, the lobe's alphas go by them.
+/// Where textures say roughness or anisotropy, the lobe's alphas go by them; those of what passes by the index too.
 void setFacetLevels(const Principled& p, LobeDescription& lobe) {
     if (p.roughness.texture) lobe.levelTextures.push_back({*p.roughness.texture});
     if (p.anisotropic.texture) lobe.levelTextures.push_back({*p.anisotropic.texture, 1, -0.9});
+    const bool byIndex = p.passed && p.eta.texture;
+    if (byIndex) lobe.levelTextures.push_back({*p.eta.texture, 0, 1, true});
     if (lobe.levelTextures.empty()) return;
-    lobe.setLevel = [p](shared::Lobe& device, const std::vector<double>& values) {
-        const double roughness = p.narrowing * (p.roughness.texture ? values.front() : p.roughness.value);
-        const double aspect = p.anisotropic.texture ? values.back() : squaredAspect(p);
+    lobe.setLevel = [p, byIndex](shared::Lobe& device, const std::vector<double>& values) {
+        auto next = values.begin();
+        const double ownRoughness = p.roughness.texture ? *next++ : p.roughness.value;
+        const double aspect = p.anisotropic.texture ? *next++ : squaredAspect(p);
+        const double index = byIndex ? *next : p.eta.value;
+        if (byIndex) device.eta = grey(index);
+        const double roughness = p.narrowing(index) * ownRoughness;
         device.alphaU = static_cast<float>(alphaAlong(roughness, aspect, true));
         device.alphaV = static_cast<float>(alphaAlong(roughness, aspect, false));
     };
@@ -76,8 +82,12 @@ void addTexturedSchlick(const Principled& p, const Reflectance& color, double no
 
 } // namespace
 
-double Principled::alphaU() const { return alphaAlong(narrowing * roughness.value, squaredAspect(*this), true); }
-double Principled::alphaV() const { return alphaAlong(narrowing * roughness.value, squaredAspect(*this), false); }
+double Principled::alphaU() const {
+    return alphaAlong(narrowing(eta.value) * roughness.value, squaredAspect(*this), true);
+}
+double Principled::alphaV() const {
+    return alphaAlong(narrowing(eta.value) * roughness.value, squaredAspect(*this), false);
+}
 
 Rgb Principled::tint() const {
     const auto brightness = static_cast<float>(luminance(base.scale));
@@ -85,7 +95,7 @@ Rgb Principled::tint() const {
 }
 
 double Principled::normalReflectance() const {
-    const double r = (eta - 1) / (eta + 1);
+    const double r = (eta.value - 1) / (eta.value + 1);
     return r * r;
 }
 
@@ -111,6 +121,12 @@ Share ofBase(const Principled& p, unsigned function) {
     return share;
 }
 
+Share ofIndex(const Principled& p, unsigned function) {
+    Share share{1, {weightBy(*p.eta.texture)}};
+    share.weights.front().function = function;
+    return share;
+}
+
 LobeDescription weighted(LobeDescription lobe, const Share& by, unsigned parts) {
     for (shared::LobeWeight weight : by.weights) {
         weight.parts = parts;
@@ -131,8 +147,6 @@ Principled readSharedParameters(Properties& properties) {
     p.flatness = readShare(properties, "flatness", 0);
     return p;
 }
-
-double readPrincipledIndex(Properties& properties) { return properties.numberAbove("eta", 1.5, 0, true); }
 
 Rgb grey(double value) {
     const auto single = static_cast<float>(value);

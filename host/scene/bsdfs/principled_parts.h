@@ -10,16 +10,18 @@ struct Principled {
     Reflectance base{Rgb{0.5f, 0.5f, 0.5f}};
     Scalar roughness{0.5, std::nullopt}, anisotropic, metallic, specTrans, specTint, sheen, sheenTint, flatness,
         clearcoat, clearcoatGloss;
-    double eta = 1.5;
-    double narrowing = 1; ///< a factor on the roughness of facets
+    Scalar eta{1.5, std::nullopt};
+    bool passed = false; ///< by light between facets of a thin sheet: bent at both faces, it is spread less
 
     bool textured() const { return base.texture != 0; }
     /// Of the facets; where textures say them, of their means.
     double alphaU() const;
     double alphaV() const;
+    /// A factor on the roughness of facets, by the index.
+    double narrowing(double index) const { return passed ? 0.65 * index - 0.35 : 1; }
     /// The base colour at luminance 1; white where it is black.
     Rgb tint() const;
-    /// Reflectance of the sheet or body at normal incidence.
+    /// Reflectance of the sheet or body at normal incidence, where no texture says the index.
     double normalReflectance() const;
 };
 
@@ -38,8 +40,6 @@ Share rest(const Scalar& parameter, double factor = 1);
 
 /// Those that both have, but for the index.
 Principled readSharedParameters(Properties& properties);
-/// `eta`, an index above 0.
-double readPrincipledIndex(Properties& properties);
 
 Rgb grey(double value);
 Rgb sum(Rgb a, Rgb b);
@@ -48,6 +48,8 @@ Rgb sum(Rgb a, Rgb b);
 LobeDescription weighted(LobeDescription lobe, const Share& by, unsigned parts = WEIGHS_REFLECTED | WEIGHS_TRANSMITTED);
 /// The function of the base's texture as a weight.
 Share ofBase(const Principled& p, unsigned function);
+/// Likewise of the index's, where it is one.
+Share ofIndex(const Principled& p, unsigned function);
 
 /// GGX facets of this type.
 LobeDescription facets(const Principled& p, unsigned type, const Reflectance& reflectance);

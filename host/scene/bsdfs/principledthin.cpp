@@ -21,6 +21,15 @@ Scalar readTwiceTransmitted(Properties& properties) {
     return {value, std::nullopt};
 }
 
+/// An index above 0, of a colour the mean, or a texture of such.
+Scalar readSheetIndex(Properties& properties) {
+    if (properties.texture("eta")) return readNumbers(properties, "eta", 1.5f, TextureUse::index);
+    const double value = properties.textureNumber("eta", 1.5);
+    if (value > 0) return {value, std::nullopt};
+    throw InputError(properties.where("eta"), fmt::format("parameter 'eta' of {} is {}; it must be greater than 0.",
+                                                          properties.describe(), value));
+}
+
 /// A lobe that transmits the base colour times a share.
 LobeDescription transmitting(const Principled& p, LobeDescription lobe, const Share& by) {
     lobe.device.transmittance = p.base.scale * static_cast<float>(by.constant);
@@ -28,20 +37,33 @@ LobeDescription transmitting(const Principled& p, LobeDescription lobe, const Sh
     return weighted(std::move(lobe), by);
 }
 
+/// Reflection that has the tint of the base colour. Where a texture says the index, the part that goes by the
+/// reflectance at normal incidence is weighed apart from the part at grazing incidence.
+void addTinted(const Principled& p, const Share& tinted, std::vector<LobeDescription>& lobes) {
+    if (!p.eta.texture) return addSchlick(p, Share{0, {}}, tinted, lobes);
+    if (tinted.isZero()) return;
+    Share normal = tinted * ofIndex(p, WEIGHT_NORMALREFLECTANCE);
+    if (p.textured()) normal = normal * ofBase(p, WEIGHT_TINT);
+    const Rgb tint = p.textured() ? grey(1) : p.tint();
+    lobes.push_back(weighted(schlick(p, tint * static_cast<float>(tinted.constant), grey(1), grey(0)), normal));
+    lobes.push_back(weighted(schlick(p, grey(tinted.constant), grey(0), grey(1)), tinted));
+}
+
 void addSpecular(const Principled& p, std::vector<LobeDescription>& lobes) {
     const Share specular = share(p.specTrans), untinted = specular * rest(p.specTint);
-    if (p.eta != 1 && !untinted.isZero()) {
+    if ((p.eta.texture || p.eta.value != 1) && !untinted.isZero()) {
         LobeDescription lobe = facets(p, LOBE_GGX, grey(untinted.constant));
-        lobe.device.eta = grey(p.eta);
+        lobe.device.eta = grey(p.eta.value);
+        lobe.device.etaTexture = p.eta.texture ? *p.eta.texture + 1 : 0;
         lobe.device.k = {0, 0, 0};
         lobes.push_back(weighted(lobe, untinted));
     }
-    addSchlick(p, Share{0, {}}, specular * share(p.specTint), lobes);
+    addTinted(p, specular * share(p.specTint), lobes);
     // Both faces bend: what passes is spread less than what is reflected (there, fig. 15).
     Principled passed = p;
-    passed.narrowing = 0.65 * p.eta - 0.35;
+    passed.passed = true;
     LobeDescription lobe = transmitting(p, facets(passed, LOBE_THINGGX, grey(0)), specular);
-    lobe.device.eta = grey(p.eta);
+    lobe.device.eta = grey(p.eta.value);
     lobes.push_back(lobe);
 }
 
@@ -49,7 +71,7 @@ void addSpecular(const Principled& p, std::vector<LobeDescription>& lobes) {
 
 BsdfLobes readPrincipledThin(Properties& properties) {
     Principled p = readSharedParameters(properties);
-    p.eta = readPrincipledIndex(properties);
+    p.eta = readSheetIndex(properties);
     const Scalar twice = readTwiceTransmitted(properties);
     properties.accept({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
                        "specular_transmittance_sampling_rate", "diffuse_transmittance_sampling_rate"});

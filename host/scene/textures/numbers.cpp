@@ -68,8 +68,8 @@ float meanOfNumbers(const TextureDescription& texture, const Scene& scene, float
     return static_cast<float>(sum / double(texture.texels.size()));
 }
 
-unsigned useScalarTexture(const Element& element, LoadContext& context) {
-    return scalarTexture(useColorTexture(element, context), context);
+unsigned useScalarTexture(const Element& element, LoadContext& context, TextureUse use) {
+    return scalarTexture(useColorTexture(element, context, use), context);
 }
 
 Scalar readWeight(Properties& properties, const std::string& name, float missing) {
@@ -87,10 +87,14 @@ double clampedWeight(Properties& properties, const std::string& name, double val
 }
 
 Scalar readShare(Properties& properties, const std::string& name, float missing) {
-    const Element* texture = properties.texture(name);
-    if (!texture) return {properties.share(name, missing), std::nullopt};
-    if (replacesTexture(*texture, properties.context())) return {0.5, std::nullopt};
-    const unsigned index = useScalarTexture(*texture, properties.context());
+    if (!properties.texture(name)) return {properties.share(name, missing), std::nullopt};
+    return readNumbers(properties, name, missing, TextureUse::reflectance);
+}
+
+Scalar readNumbers(Properties& properties, const std::string& name, float missing, TextureUse use) {
+    const Element& texture = *properties.texture(name);
+    if (replacesTexture(texture, properties.context())) return {0.5, std::nullopt};
+    const unsigned index = useScalarTexture(texture, properties.context(), use);
     const Scene& scene = properties.context().scene;
     return {meanOfNumbers(scene.textures[index], scene, missing), index};
 }

@@ -57,9 +57,9 @@ struct Scalar {
 };
 
 /// Index into Scene::textures of the colours that `element` gives; read once however often it is used.
-unsigned useColorTexture(const Element& element, LoadContext& context);
+unsigned useColorTexture(const Element& element, LoadContext& context, TextureUse use = TextureUse::reflectance);
 /// And of the numbers, as readShare takes them.
-unsigned useScalarTexture(const Element& element, LoadContext& context);
+unsigned useScalarTexture(const Element& element, LoadContext& context, TextureUse use = TextureUse::reflectance);
 
 /// Mean of numbers as the lookup of a texture at random places has it; of an attribute of meshes, not known yet,
 /// `missing`.
@@ -69,6 +69,8 @@ float meanOfNumbers(const TextureDescription& texture, const Scene& scene, float
 /// colours of a texture it takes, as Mitsuba, the luminance (bitmap) or the mean of the channels (others); a
 /// checkerboard's squares change places then, as in Mitsuba 3.9.
 Scalar readShare(Properties& properties, const std::string& name, float missing);
+/// The texture `name` of numbers for that use, taken likewise; of an attribute the mean is taken to be `missing`.
+Scalar readNumbers(Properties& properties, const std::string& name, float missing, TextureUse use);
 /// `value` of the parameter within [0, 1].
 double clampedWeight(Properties& properties, const std::string& name, double value);
 /// The same as readShare; a number out of range becomes the nearest with a warning, as Mitsuba clamps what it blends by.

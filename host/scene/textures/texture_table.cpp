@@ -42,7 +42,7 @@ Rgb largestValue(const TextureDescription& texture) {
 }
 
 /// Index into Scene::textures; read once however often it is used.
-int useTexture(const Element& element, LoadContext& context, TextureUse use = TextureUse::reflectance) {
+int useTexture(const Element& element, LoadContext& context, TextureUse use) {
     auto& indices = use == TextureUse::emission ? context.emissionTextureIndex
                     : use == TextureUse::index  ? context.indexTextureIndex
                                                 : context.textureIndex;
@@ -108,8 +108,8 @@ EmissionColor readEmission(Properties& properties, const std::string& name, Rgb 
     return {{1, 1, 1}, static_cast<unsigned>(index)};
 }
 
-unsigned useColorTexture(const Element& element, LoadContext& context) {
-    return static_cast<unsigned>(useTexture(element, context));
+unsigned useColorTexture(const Element& element, LoadContext& context, TextureUse use) {
+    return static_cast<unsigned>(useTexture(element, context, use));
 }
 
 } // namespace quasilux
