@@ -38,7 +38,7 @@ unsigned scalarTexture(unsigned index, LoadContext& context) {
             if (*number > 0) *number = scalarTexture(*number - 1, context) + 1;
     }
     if (grey.volume && grey.volume->device.channels != 1)
-        grey.volume = std::make_shared<const VolumeDescription>(meanOfChannels(*grey.volume));
+        grey.volume = std::make_shared<const VolumeDescription>(numbersOf(*grey.volume));
     std::vector<Rgb> luminances(grey.texels.size());
     std::transform(grey.texels.begin(), grey.texels.end(), luminances.begin(), luminanceOf);
     grey.texels = std::move(luminances);

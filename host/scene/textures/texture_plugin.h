@@ -19,8 +19,8 @@ void readCheckerboard(Properties& properties, TextureDescription& texture);
 void readBitmap(Properties& properties, TextureDescription& texture);
 void readMeshAttribute(Properties& properties, TextureDescription& texture);
 void readVolumeTexture(Properties& properties, TextureDescription& texture);
-/// A volume of one channel.
-VolumeDescription meanOfChannels(const VolumeDescription& volume);
+/// A volume of one channel: of a grid the luminance, of a constant the mean of the channels, as in Mitsuba 3.9.
+VolumeDescription numbersOf(const VolumeDescription& volume);
 
 /// A reflectance as the scene gives it: a colour, or 1 times a texture.
 struct Reflectance {
@@ -66,7 +66,7 @@ unsigned useScalarTexture(const Element& element, LoadContext& context, TextureU
 float meanOfNumbers(const TextureDescription& texture, const Scene& scene, float missing);
 
 /// The parameter `name`, a number or a texture within [0, 1], such as a weight; `missing` where it is not given. Of the
-/// colours of a texture it takes, as Mitsuba, the luminance (bitmap) or the mean of the channels (others); a
+/// colours of a texture it takes, as Mitsuba, the luminance (bitmap, gridvolume) or the mean of the channels (others); a
 /// checkerboard's squares change places then, as in Mitsuba 3.9.
 Scalar readShare(Properties& properties, const std::string& name, float missing);
 /// The texture `name` of numbers for that use, taken likewise; of an attribute the mean is taken to be `missing`.

@@ -1,4 +1,5 @@
 // <texture type="volume">: a volume at the places of the surface, whatever its texture coordinates.
+#include "scene/color.h"
 #include "scene/textures/texture_plugin.h"
 #include "scene/volumes/volume_plugin.h"
 
@@ -48,13 +49,16 @@ void readVolumeTexture(Properties& properties, TextureDescription& texture) {
     texture.volume = std::make_shared<const VolumeDescription>(std::move(volume));
 }
 
-VolumeDescription meanOfChannels(const VolumeDescription& volume) {
+VolumeDescription numbersOf(const VolumeDescription& volume) {
     if (volume.device.channels == 1) return volume;
     VolumeDescription grey = volume;
     grey.device.channels = 1;
     grey.values.clear();
-    for (size_t k = 0; k < volume.values.size(); k += 3)
-        grey.values.push_back((volume.values[k] + volume.values[k + 1] + volume.values[k + 2]) / 3);
+    const bool isConstant = volume.values.size() == 3;
+    for (size_t k = 0; k < volume.values.size(); k += 3) {
+        const Rgb color{volume.values[k], volume.values[k + 1], volume.values[k + 2]};
+        grey.values.push_back(static_cast<float>(isConstant ? (color.r + color.g + color.b) / 3 : luminance(color)));
+    }
     return grey;
 }
 
