@@ -1,5 +1,6 @@
 // Camera paths by pixel (CameraSampling::adaptive): how many each block has, whether the image is the same, and when
 // the search chooses them.
+#include "render/noise_probe.h"
 #include "render/path_allocation.h"
 
 #include "support/fake_search.h"
@@ -167,6 +168,21 @@ TEST(PathAllocation, LeavesTheMeanInLargerImages) {
 }
 
 // Nothing can be moved.
+// Passes of several paths know what nets leave of the noise; but no more than the image has, and not too many in all.
+TEST(PathAllocation, AProbeHasAsManyPathsAsItMay) {
+    const auto costOfProbe = [](unsigned width, unsigned pathsByPixel) {
+        shared::Camera camera{};
+        camera.width = camera.height = width;
+        return NoiseProbe::costByPixel(camera, pathsByPixel) * width * width;
+    };
+    constexpr double others = 22; // paths that it traces beside
+    const double single = costOfProbe(32, 1) - others * 32 * 32;
+    EXPECT_EQ(costOfProbe(32, 4) - others * 32 * 32, 4 * single);
+    EXPECT_EQ(costOfProbe(32, 64) - others * 32 * 32, 16 * single);
+    for (const unsigned width : {8u, 60u, 128u, 1000u, 4000u})
+        for (const unsigned paths : {2u, 64u}) EXPECT_LE(costOfProbe(width, paths), 2 * (1 << 19) + others * 128 * 128);
+}
+
 TEST(PathAllocation, OnePathIsEven) {
     EXPECT_EQ(renderLarge(CameraSampling::adaptive, 1, 1).radiance, renderLarge(CameraSampling::even, 1, 1).radiance);
 }

@@ -19,7 +19,7 @@ public:
     /// What camera paths by pixel would gain with so many of the mean pixel. No pass may follow.
     virtual SamplingGain samplingGain(unsigned cameraPaths) = 0;
     /// Camera paths that this traces, as a multiple of the image's pixels.
-    virtual double pathsOfSamplingGain() const = 0;
+    virtual double pathsOfSamplingGain(unsigned cameraPaths) const = 0;
     /// Of the scene, without compiling.
     virtual double secondsToPrepare() const = 0;
     /// Of all pixels.
@@ -40,7 +40,9 @@ public:
     PilotMeasure measure(const std::vector<float>& brightness) const override;
     double secondsOfPath() override;
     SamplingGain samplingGain(unsigned cameraPaths) override { return renderer_->samplingGain(cameraPaths); }
-    double pathsOfSamplingGain() const override { return renderer_->pathsOfSamplingGain(); }
+    double pathsOfSamplingGain(unsigned cameraPaths) const override {
+        return renderer_->pathsOfSamplingGain(cameraPaths);
+    }
     double secondsToPrepare() const override { return renderer_->counters().prepareSeconds; }
     std::vector<float> radiance() const override { return renderer_->develop().radiance; }
     unsigned photonsPerPass() const override { return renderer_->report().photonsPerPass; }

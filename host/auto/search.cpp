@@ -25,6 +25,8 @@ constexpr double farWorse = 4; // times the least relMSE: given up whatever the 
 constexpr double mostPhotonsFactor = 16, mostRadiusFactor = 2; // either way from where the search starts
 // Of the time that is left, for the pilot of camera paths by pixel, and as much again for that of the image.
 constexpr double shareOfSamplingPilot = 0.03;
+// That it is known to some 5 %, and a twentieth for both pilots.
+constexpr double leastGainOfSampling = 1.1;
 // The time of a render, in passes and in camera paths of all pixels that gather nothing, from which on it may lose a
 // few passes.
 constexpr double leastPassesOfTime = 16, leastPathsOfTime = 64;
@@ -138,11 +140,11 @@ CameraSampling Search::samplingOf(Contender& contender, const PilotMeasure& meas
     const CameraSampling before = contender.settings.cameraSampling;
     const double ofPath = (measure.secondsPerPass - measure.secondsOfPhotons) / cameraPaths;
     if (!freedom_.cameraSampling || cameraPaths == 1 || interrupted() ||
-        contender.pilot->pathsOfSamplingGain() * ofPath > shareOfSamplingPilot * secondsLeft())
+        contender.pilot->pathsOfSamplingGain(cameraPaths) * ofPath > shareOfSamplingPilot * secondsLeft())
         return before;
     SamplingGain gain;
     if (failureOf([&] { gain = contender.pilot->samplingGain(cameraPaths); })) return before;
-    return gainOfSampling(measure, gain) > leastGainOfNumbers ? CameraSampling::adaptive : CameraSampling::even;
+    return gainOfSampling(measure, gain) > leastGainOfSampling ? CameraSampling::adaptive : CameraSampling::even;
 }
 
 // Known from a pilot's noise and times alone, without rendering.

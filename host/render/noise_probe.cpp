@@ -10,9 +10,13 @@ namespace quasilux {
 
 namespace {
 
-// Their variance is known to some 15 % in the mean over a block and its neighbours.
-constexpr double pathsOfHalf = 1 << 16;
+// Of a half: the variance of passes of a pixel is known to some 15 % in the mean over a block and its neighbours.
+constexpr double samplesOfHalf = 1 << 15;
 constexpr double fewestPasses = 8, mostPasses = 32;
+// The paths of a pass lie on nets: what rare paths find stays when what is smooth has gone, and one path does not tell
+// them apart. 16 do (docs/notes/camera-paths.md).
+constexpr unsigned mostPathsOfPass = 16;
+constexpr double mostPathsOfHalf = 1 << 19;
 // The brightness, which errors are relative to, needs what photons carry too.
 constexpr unsigned passesThatGather = 4;
 constexpr unsigned passesThatCount = 2;
@@ -29,7 +33,15 @@ shared::Camera coarseOf(const shared::Camera& camera) { return coarseCamera(came
 
 unsigned passesOfHalf(const shared::Camera& coarse) {
     return static_cast<unsigned>(
-        std::clamp(pathsOfHalf / (double(coarse.width) * coarse.height), fewestPasses, mostPasses));
+        std::clamp(samplesOfHalf / (double(coarse.width) * coarse.height), fewestPasses, mostPasses));
+}
+
+// No more than the image has.
+unsigned pathsOfPass(const shared::Camera& coarse, unsigned paths) {
+    const double ofOne = double(passesOfHalf(coarse)) * coarse.width * coarse.height;
+    unsigned most = 1;
+    while (2 * most <= std::min(paths, mostPathsOfPass) && 2 * most * ofOne <= mostPathsOfHalf) most *= 2;
+    return most;
 }
 
 // What photons carry, of `classes` (bits); paths may find a part of its direct light themselves, which is there
@@ -44,8 +56,9 @@ void addPhotons(const FilmImage& gathered, const FilmImage& found, unsigned clas
 } // namespace
 
 NoiseProbe::NoiseProbe(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera,
-                       unsigned classes)
-    : device_(device), paths_(paths), photons_(photons), coarse_(coarseOf(camera)), passes_(passesOfHalf(coarse_)) {
+                       unsigned classes, unsigned pathsByPixel)
+    : device_(device), paths_(paths), photons_(photons), coarse_(coarseOf(camera)), pathsByPixel_(pathsByPixel),
+      passes_(passesOfHalf(coarse_)), pathsOfPass_(pathsOfPass(coarse_, pathsByPixel)) {
     measure(classes);
 }
 
@@ -56,10 +69,11 @@ BufferSizes NoiseProbe::plan(const shared::Camera& camera) {
     return sizes;
 }
 
-double NoiseProbe::pathsByPixel(const shared::Camera& camera) {
+double NoiseProbe::costByPixel(const shared::Camera& camera, unsigned pathsByPixel) {
     const shared::Camera coarse = coarseOf(camera);
-    const double passes = 2.0 * passesOfHalf(coarse) + passesThatGather + passesThatCount + 4 * mostTimedPaths;
-    return passes * coarse.width * coarse.height / (double(camera.width) * camera.height);
+    const double ofHalf = double(passesOfHalf(coarse)) * pathsOfPass(coarse, pathsByPixel);
+    const double paths = 2 * ofHalf + passesThatGather + passesThatCount + 4 * mostTimedPaths;
+    return paths * coarse.width * coarse.height / (double(camera.width) * camera.height);
 }
 
 // Two halves that know nothing of each other, relative to one brightness.
@@ -89,17 +103,15 @@ std::vector<double> NoiseProbe::costByBlock() {
 
 FilmImage NoiseProbe::render(Brings brings, unsigned from, unsigned passes) {
     Film film(device_, coarse_.width, coarse_.height, layout, Film::inOneBuffer, owner);
-    const PathCounts one(device_, coarse_, 1, owner);
+    const PathCounts counts(device_, coarse_, brings == Brings::ownLight ? pathsOfPass_ : 1, owner);
     for (unsigned pass = 0; pass < passes; ++pass) {
-        paths_.runCoarse(film, coarse_, from + pass, brings, one, photons_.stage());
+        paths_.runCoarse(film, coarse_, from + pass, brings, counts, photons_.stage());
         film.endPass();
     }
     return film.develop(passes);
 }
 
-std::vector<uint32_t> NoiseProbe::allocate(unsigned paths) {
-    return allocatePaths(meanOf(halves_[0], halves_[1]), paths);
-}
+std::vector<uint32_t> NoiseProbe::allocate() { return allocatePaths(meanOf(halves_[0], halves_[1]), pathsByPixel_); }
 
 double NoiseProbe::secondsOf(const PathCounts& paths) {
     Film film(device_, coarse_.width, coarse_.height, layout, Film::inOneBuffer, owner);
@@ -110,7 +122,8 @@ double NoiseProbe::secondsOf(const PathCounts& paths) {
     return watch.seconds();
 }
 
-SamplingGain NoiseProbe::gain(unsigned paths) {
+SamplingGain NoiseProbe::gain() {
+    const unsigned paths = pathsByPixel_;
     double inverse = 0; // of the variance that is saved
     for (unsigned k = 0; k < 2; ++k)
         inverse += 0.5 / varianceSaved(halves_[1 - k], allocatePaths(halves_[k], paths), paths);

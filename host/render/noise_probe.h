@@ -12,18 +12,18 @@ namespace quasilux {
 /// function of the scene, the settings and the seed alone, but for times.
 class NoiseProbe {
 public:
-    /// `classes`: bits of the light that photons carry.
-    NoiseProbe(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera,
-               unsigned classes);
+    /// `classes`: bits of the light that photons carry. `pathsByPixel`: of a pass of the image, in the mean.
+    NoiseProbe(Device& device, CameraStage& paths, PassPhotons& photons, const shared::Camera& camera, unsigned classes,
+               unsigned pathsByPixel);
 
     /// Its buffers, by label, while it runs.
     static BufferSizes plan(const shared::Camera& camera);
-    /// Camera paths that allocate() and gain() trace together, as a multiple of the image's pixels.
-    static double pathsByPixel(const shared::Camera& camera);
+    /// Camera paths that it traces, with those of gain(), as a multiple of the image's pixels.
+    static double costByPixel(const shared::Camera& camera, unsigned pathsByPixel);
 
-    /// Paths in a pass of each block of coarseBlock() pixels, `paths` in the mean.
-    std::vector<uint32_t> allocate(unsigned paths);
-    SamplingGain gain(unsigned paths);
+    /// Paths in a pass of each block of coarseBlock() pixels, at no more than the cost of equally many in all.
+    std::vector<uint32_t> allocate();
+    SamplingGain gain();
 
 private:
     void measure(unsigned classes);
@@ -35,7 +35,8 @@ private:
     CameraStage& paths_;
     PassPhotons& photons_;
     shared::Camera coarse_;
-    unsigned passes_; // of each half
+    unsigned pathsByPixel_;
+    unsigned passes_, pathsOfPass_; // of each half
     PathNoise halves_[2];
 };
 

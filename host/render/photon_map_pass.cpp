@@ -20,17 +20,17 @@ PhotonMapPass::PhotonMapPass(const PassContext& context) : context_(context) {
         allocatePaths();
 }
 
-NoiseProbe PhotonMapPass::noiseProbe() {
-    return {context_.device, *camera_, *photons_, context_.flat.camera, context_.classes};
+NoiseProbe PhotonMapPass::noiseProbe(unsigned paths) {
+    return {context_.device, *camera_, *photons_, context_.flat.camera, context_.classes, paths};
 }
 
 void PhotonMapPass::allocatePaths() {
     const shared::Camera& camera = context_.flat.camera;
     camera_->setPaths(
-        {context_.device, camera, coarseBlock(camera), noiseProbe().allocate(context_.settings.cameraPaths)});
+        {context_.device, camera, coarseBlock(camera), noiseProbe(context_.settings.cameraPaths).allocate()});
 }
 
-SamplingGain PhotonMapPass::samplingGain(unsigned paths) { return noiseProbe().gain(paths); }
+SamplingGain PhotonMapPass::samplingGain(unsigned paths) { return noiseProbe(paths).gain(); }
 
 void PhotonMapPass::run(unsigned pass, RenderCounters& counters) {
     catchUpRadii(pass, counters);

@@ -21,7 +21,7 @@ public:
     void restoreRadii(const StateSource& source) override;
 
 private:
-    NoiseProbe noiseProbe();
+    NoiseProbe noiseProbe(unsigned paths);
     void allocatePaths();
     void catchUpRadii(unsigned pass, RenderCounters& counters);
     void chooseRadii(unsigned pass, RenderCounters& counters);

@@ -198,7 +198,9 @@ double Renderer::secondsWithoutGathering() {
 
 SamplingGain Renderer::samplingGain(unsigned paths) { return stages_->passes->samplingGain(paths); }
 
-double Renderer::pathsOfSamplingGain() const { return NoiseProbe::pathsByPixel(stages_->flat.camera); }
+double Renderer::pathsOfSamplingGain(unsigned paths) const {
+    return NoiseProbe::costByPixel(stages_->flat.camera, paths);
+}
 
 bool Renderer::isFilmWhole() const { return stages_->film->isWhole(); }
 

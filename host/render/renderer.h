@@ -90,7 +90,7 @@ public:
     /// Pass::samplingGain.
     SamplingGain samplingGain(unsigned paths);
     /// Camera paths that samplingGain() traces, as a multiple of the image's pixels.
-    double pathsOfSamplingGain() const;
+    double pathsOfSamplingGain(unsigned paths) const;
     /// Traces one pass more, which is no part of the image, to count which photons its camera paths gather; none for
     /// meters and
     /// --map camera. Compiles kernels for it.

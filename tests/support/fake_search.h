@@ -41,7 +41,7 @@ public:
     unsigned passes() const override { return passes_; }
     double secondsOfPath() override { return (1 - truth_.shareOfPhotonSeconds) * truth_.secondsPerPass; }
     SamplingGain samplingGain(unsigned) override { return truth_.samplingGain; }
-    double pathsOfSamplingGain() const override { return truth_.pathsOfSamplingGain; }
+    double pathsOfSamplingGain(unsigned) const override { return truth_.pathsOfSamplingGain; }
     double secondsToPrepare() const override { return truth_.secondsToPrepare; }
     std::vector<float> radiance() const override { return {}; }
     PilotMeasure measure(const std::vector<float>&) const override {
