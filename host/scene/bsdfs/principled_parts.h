@@ -48,7 +48,7 @@ Rgb sum(Rgb a, Rgb b);
 LobeDescription weighted(LobeDescription lobe, const Share& by, unsigned parts = WEIGHS_REFLECTED | WEIGHS_TRANSMITTED);
 /// The function of the base's texture as a weight.
 Share ofBase(const Principled& p, unsigned function);
-/// Likewise of the index's, where it is one.
+/// The function of the texture of `eta`, which must be one, as a weight.
 Share ofIndex(const Principled& p, unsigned function);
 
 /// GGX facets of this type.
