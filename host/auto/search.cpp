@@ -25,7 +25,7 @@ constexpr double farWorse = 4; // times the least relMSE: given up whatever the 
 constexpr double mostPhotonsFactor = 16, mostRadiusFactor = 2; // either way from where the search starts
 // Of the time that is left, for the pilot of camera paths by pixel, and as much again for that of the image.
 constexpr double shareOfSamplingPilot = 0.03;
-// That it is known to some 5 %, and a twentieth for both pilots.
+// The gain is known to some 5 %, and both probes may take 6 % of the time.
 constexpr double leastGainOfSampling = 1.1;
 // The time of a render, in passes and in camera paths of all pixels that gather nothing, from which on it may lose a
 // few passes.

@@ -1,4 +1,5 @@
 // Textures where numbers are wanted.
+#include "scene/color.h"
 #include "scene/textures/texture_plugin.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ bool isGreyBitmap(const TextureDescription& texture) {
 
 Rgb greyOf(float value) { return {value, value, value}; }
 Rgb meanOf(Rgb color) { return greyOf((color.r + color.g + color.b) / 3); }
-Rgb luminanceOf(Rgb color) { return greyOf(0.212671f * color.r + 0.715160f * color.g + 0.072169f * color.b); }
+Rgb luminanceOf(Rgb color) { return greyOf(static_cast<float>(luminance(color))); }
 
 /// Index of the texture of numbers that the one of colours at `index` is where numbers are wanted.
 unsigned scalarTexture(unsigned index, LoadContext& context) {
