@@ -43,8 +43,8 @@ inline uint pathsAt(const World* world, uint index) {
     return world->pathCounts[blockOfPixel(&params->camera, pathPlace(world, index, 0).pixel, params->pathBlock)];
 }
 
-/* The mean of the paths of a pixel, or of a place in the grid of samples, in this pass. They look up the same photons,
- * so photons, which cost more, are traced once for all. */
+/* The mean of the paths of a pixel, or of a place in the grid of samples, in this pass, or what its part adds to that.
+ * They look up the same photons, so photons, which cost more, are traced once for all. */
 inline void tracePixel(const World* world, uint index, __global CameraCounters* counters, float3* mean) {
     const uint paths = pathsAt(world, index), all = paths + gathersApart(world->params, paths);
     for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] = 0;
@@ -53,7 +53,7 @@ inline void tracePixel(const World* world, uint index, __global CameraCounters* 
         countCut(counters, traceCameraPath(world, index, roleOfPath(world->params, path, paths), components));
         for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] += components[k];
     }
-    for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] /= paths;
+    for (uint k = 0; k < FILM_SAMPLES; ++k) mean[k] /= paths * world->params->parts;
 }
 
 __kernel void traceCameraPaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,

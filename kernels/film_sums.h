@@ -10,6 +10,8 @@
 /* Bits of a layout. */
 #define FILM_HAS_BIAS 1u
 #define FILM_HAS_COMPONENTS 2u
+/* Said of a pass, no part of where sums lie: its samples come in several parts, so a batch of one pass has a sum. */
+#define FILM_IN_PARTS 4u
 
 /* A compensated sum: high, low for each of R, G, B. */
 #define FILM_SUM_FLOATS 6

@@ -161,6 +161,7 @@ typedef struct {
     unsigned int firstPixel,
         pixels; /* of the part of the film, or grid of samples (shared_samples.clh), that the launch traces */
     unsigned int sampleRows; /* of that grid, which are kept at a time */
+    unsigned int parts;      /* of a pass, one of which these paths are (host/render/pass_part.h) */
     Camera camera;
     MapParams map;
     SceneTables scene;

@@ -138,39 +138,43 @@ TEST_F(MemoryTest, RoomForSplitPhotonsIsNearTheirNumber) {
     EXPECT_LT(room, 2 * stored);
 }
 
-// A render that just fits runs; with a byte less it ends before it starts, and says what it lacks.
+// A render that just fits runs; with less its photons come in parts; where these do not fit either it ends before it
+// starts, and says what it lacks.
 TEST_F(MemoryTest, RenderThatDoesNotFitDoesNotStart) {
     const Arguments arguments{scene("cornell_phong.xml"), "-D", "resolution=128"};
-    const auto needed = static_cast<uint64_t>(forecast(arguments).device);
-    const auto within = [&](uint64_t bytes) {
-        Arguments all = arguments;
+    const auto within = [&](uint64_t bytes, const Arguments& more = {}) {
+        Arguments all{"render"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
         all.insert(all.end(), {"--passes", "1", "-o", "limited.exr", "--device-memory", std::to_string(bytes)});
+        all.insert(all.end(), more.begin(), more.end());
         return all;
     };
-    Arguments fitting = within(needed);
-    fitting.insert(fitting.begin(), "render");
-    EXPECT_EQ(run(fitting).exitCode, 0);
+    const auto needed = static_cast<uint64_t>(forecast(arguments).device);
+    const auto partsWithin = [&](uint64_t bytes) {
+        EXPECT_EQ(run(within(bytes, {"--quiet", "--stats", "stats.json"})).exitCode, 0);
+        const auto statistics = nlohmann::json::parse(readText(folder / "stats.json"), nullptr, false);
+        EXPECT_LE(statistics.at("peakBufferBytes").get<uint64_t>(), bytes);
+        return statistics.at("sceneReport").at("photonParts").get<unsigned>();
+    };
+    EXPECT_EQ(partsWithin(needed), 1u);
+    EXPECT_EQ(partsWithin(needed - 1), 2u);
     std::filesystem::remove(folder / "limited.exr");
 
-    Arguments tight = within(needed - (1u << 20));
-    tight.insert(tight.begin(), "render");
-    expectRefused(tight, "1.0 MiB too little");
-    const std::string advice =
-        expectRefused(tight, "--photons (now 98304; more passes make up for them) or --map camera");
-    Arguments fewer = tight; // as many as it says fit; a tenth more do not
+    Arguments ofFewest = arguments; // a pass in as many parts as there may be
+    ofFewest.insert(ofFewest.end(), {"--photons", std::to_string(98304 / 64)});
+    const auto least = static_cast<uint64_t>(forecast(ofFewest).device) - 20'000;
+    const Arguments tight = within(least);
+    expectRefused(tight, "0.0 MiB too little");
+    const std::string advice = expectRefused(tight, "--photons (now 98304; more passes make up for them)");
+    EXPECT_THAT(advice, HasSubstr("or --map camera"));
     const unsigned photons = std::stoul(advice.substr(advice.find("at most ") + 8));
-    fewer.insert(fewer.end(), {"--photons", std::to_string(photons)});
-    EXPECT_EQ(run(fewer).exitCode, 0) << advice;
-    fewer.back() = std::to_string(photons * 11 / 10);
-    expectRefused(fewer, "too little");
+    const auto withPhotons = [&](unsigned number) { return within(least, {"--photons", std::to_string(number)}); };
+    EXPECT_EQ(run(withPhotons(photons)).exitCode, 0) << advice; // as many as it says fit; a tenth more do not
     std::filesystem::remove(folder / "limited.exr");
-    Arguments tiny = within(1000); // less than the scene alone: nothing is compiled for it, and photons do not matter
-    tiny.insert(tiny.begin(), "render");
-    EXPECT_THAT(expectRefused(tiny, "in one buffer"), Not(HasSubstr("--photons")));
-    Arguments points = within(1u << 20);
-    points.insert(points.begin(), "render");
-    points.insert(points.end(), {"--map", "camera"});
-    expectRefused(points, "too little");
+    expectRefused(withPhotons(photons * 11 / 10), "too little");
+    // Less than the scene alone: nothing is compiled for it, and photons do not matter.
+    EXPECT_THAT(expectRefused(within(1000), "in one buffer"), Not(HasSubstr("--photons")));
+    expectRefused(within(1u << 20, {"--map", "camera"}), "too little");
 }
 
 } // namespace

@@ -27,7 +27,10 @@ void printGeometry(const SceneReport& report) {
     if (report.instances > 0) fmt::print("instances: {}, of shapes that are there once\n", report.instances);
     fmt::print("features: {}\n", orNone(report.features));
     fmt::print("photon classes in use: {}\n", orNone(report.photonClasses));
-    fmt::print("photons per pass: {}\n", report.photonsPerPass);
+    fmt::print("photons per pass: {}{}\n", report.photonsPerPass,
+               report.photonParts == 1
+                   ? ""
+                   : fmt::format(", in {} parts, as the device has no room for all at once", report.photonParts));
 }
 
 void printEmitters(const SceneReport& report, bool photometric) {

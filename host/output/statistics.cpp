@@ -189,6 +189,7 @@ json sceneReportJson(const SceneReport& report) {
         {"bufferBytes", report.bufferBytes},
         {"forecast", {{"deviceBytes", report.forecast.deviceBytes}, {"hostPeakBytes", report.forecast.hostPeakBytes}}},
         {"photonsPerPass", report.photonsPerPass},
+        {"photonParts", report.photonParts},
         {"initialRadius", report.initialRadius},
         {"learned",
          {{"guided", report.learned.isGuided},

@@ -70,7 +70,7 @@ void CameraStage::runOn(Film& film, const Film::Pass& onFilm, shared::CameraPara
     params.pathBlock = tables.paths.block();
     params.batchWeight = onFilm.batchWeight;
     params.map.biasWeight = onFilm.biasWeight;
-    params.filmLayout = film.layout().bits();
+    params.filmLayout = onFilm.layout;
     if (shared_)
         shared_->addPass(film, params, geometry_, tracer(film, tables, photons));
     else
@@ -83,8 +83,9 @@ void CameraStage::runOn(Film& film, const Film::Pass& onFilm, shared::CameraPara
     traceCameraPaths_.watchParts({});
 }
 
-const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage& photons) {
-    params_.pass = pass;
+const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage& photons, PassPart part) {
+    params_.pass = part.numberOf(pass);
+    params_.parts = part.count;
     params_.map = photons.table().map();
     params_.radiusBlock = radii_ ? radii_->block() : 1;
     params_.pathBlock = paths_.block();
@@ -93,8 +94,8 @@ const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage
 
 PixelTables CameraStage::tables(unsigned pass) const { return {paths_, radiusScales(pass)}; }
 
-void CameraStage::run(unsigned pass, const PhotonStage& photons) {
-    runOn(film_, film_.beginPass(pass), params(pass, photons), tables(pass), photons);
+void CameraStage::run(unsigned pass, const PhotonStage& photons, PassPart part) {
+    runOn(film_, film_.beginPass(pass, part), params(pass, photons, part), tables(pass), photons);
 }
 
 void CameraStage::runWithoutGathering(const PhotonStage& photons) {
@@ -119,15 +120,16 @@ void CameraStage::runCoarse(Film& film, const shared::Camera& camera, unsigned p
 bool CameraStage::radiusIsDue(unsigned pass) const { return radii_ && radii_->coarsePassIsDue(pass); }
 
 // With the same photons: passes to come, whose radii this decides, have others.
-size_t CameraStage::chooseRadius(unsigned pass, const PhotonStage& photons) {
-    shared::CameraParams ofCoarse = params(pass, photons);
+size_t CameraStage::chooseRadius(unsigned pass, const PhotonStage& photons, PassPart part) {
+    shared::CameraParams ofCoarse = params(pass, photons, part);
     ofCoarse.camera = radii_->camera();
     ofCoarse.coarseness = radii_->block();
     ofCoarse.radiusBlock = 1;
     Film& film = radii_->coarseFilm();
-    runOn(film, film.beginPass(pass), ofCoarse, {onePath_, &radii_->coarseScales()}, photons);
-    radii_->endCoarsePass();
-    return film.pixels();
+    const size_t paths = film.pixels();
+    runOn(film, film.beginPass(pass, part), ofCoarse, {onePath_, &radii_->coarseScales()}, photons);
+    if (part.isLast()) radii_->endCoarsePass();
+    return paths;
 }
 
 } // namespace quasilux

@@ -31,8 +31,8 @@ public:
     /// Has the runtime compile the kernels, by a launch of as many work-items as a pass has, which do nothing.
     void compile(const PhotonStage& photons);
 
-    /// Of a pass's camera paths, with its photons.
-    const shared::CameraParams& params(unsigned pass, const PhotonStage& photons);
+    /// Of the camera paths of a pass, or of a part of it, with its photons.
+    const shared::CameraParams& params(unsigned pass, const PhotonStage& photons, PassPart part = {});
 
     /// What these read by pixel.
     PixelTables tables(unsigned pass) const;
@@ -42,7 +42,7 @@ public:
     }
     const PathCounts& paths() const { return paths_; }
 
-    void run(unsigned pass, const PhotonStage& photons);
+    void run(unsigned pass, const PhotonStage& photons, PassPart part);
 
     /// The same without photons, to learn what it takes: one path of each pixel, into the film.
     void runWithoutGathering(const PhotonStage& photons);
@@ -57,8 +57,8 @@ public:
 
     /// Are radii by pixel to be chosen with the photons of this pass? Then chooseRadius() is to follow run().
     bool radiusIsDue(unsigned pass) const;
-    /// Returns how many camera paths it traced. `photons` are those of `pass`.
-    size_t chooseRadius(unsigned pass, const PhotonStage& photons);
+    /// Returns how many camera paths it traced. `photons` are those of this part of `pass`.
+    size_t chooseRadius(unsigned pass, const PhotonStage& photons, PassPart part);
 
 private:
     void tracePart(Film& film, Film::Part& part, shared::CameraParams params, size_t pixels, const PixelTables& tables,

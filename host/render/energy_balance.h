@@ -38,6 +38,11 @@ struct EnergyBalance {
         return *this;
     }
 
+    EnergyBalance& operator*=(double factor) {
+        for (double* term : {&emitted, &absorbed, &escaped, &beyondDepth, &cut, &lost, &gained}) *term *= factor;
+        return *this;
+    }
+
     /// What the other terms leave of the flux emitted, as a share of it: rounding, in a right render.
     double imbalance() const {
         const double rest = emitted - absorbed - escaped - beyondDepth - cut - (lost - gained);

@@ -141,9 +141,22 @@ Buffer<float>& Film::sums() {
     return parts_.front().sums;
 }
 
-Film::Pass Film::beginPass(unsigned pass) {
-    if (pass < singlePasses) return beginBatch();
+Film::Pass Film::beginPass(unsigned pass, PassPart part) {
+    return part.isFirst() ? ofPart(countPass(pass), part) : ofPart(pass_, part);
+}
+
+Film::Pass Film::beginBatch(PassPart part) { return part.isFirst() ? ofPart(countBatch(), part) : ofPart(pass_, part); }
+
+// A batch ends with the last part.
+Film::Pass Film::ofPart(const Pass& last, PassPart part) {
     isWhole_ = false;
+    pass_ = last;
+    pass_.layout = layout_.bits() | (part.isWhole() ? 0 : FILM_IN_PARTS);
+    return {part.isLast() ? last.batchWeight : 0, last.biasWeight, pass_.layout};
+}
+
+Film::Pass Film::countPass(unsigned pass) {
+    if (pass < singlePasses) return countBatch();
     Pass now{0, pass % batchPasses == 1 || pass % batchPasses == 2 ? 2.f : 0.f};
     counts_.biasPasses += now.biasWeight;
     counts_.openBiasPasses += now.biasWeight;
@@ -155,8 +168,7 @@ Film::Pass Film::beginPass(unsigned pass) {
     return now;
 }
 
-Film::Pass Film::beginBatch() {
-    isWhole_ = false;
+Film::Pass Film::countBatch() {
     counts_.biasPasses += 1;
     counts_.openBiasPasses += 1;
     counts_.openPasses += 1;

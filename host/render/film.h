@@ -4,6 +4,7 @@
 #include "pass_types.h"
 #include "render/film_image.h"
 #include "render/film_layout.h"
+#include "render/pass_part.h"
 #include "render/planned_buffer.h"
 #include "util/state_archive.h"
 
@@ -64,20 +65,22 @@ public:
 
     /// What the kernels are to know of a pass that adds to the film.
     struct Pass {
-        float batchWeight; ///< shared::CameraParams::batchWeight
-        float biasWeight;  ///< shared::MapParams::biasWeight
+        float batchWeight = 0; ///< shared::CameraParams::batchWeight
+        float biasWeight = 0;  ///< shared::MapParams::biasWeight
+        unsigned layout = 0;   ///< shared::CameraParams::filmLayout
     };
-    /// To be called once before each pass is added, and after it.
-    Pass beginPass(unsigned pass);
+    /// To be called once before each part of a pass is added; endPass() after the last one.
+    Pass beginPass(unsigned pass, PassPart part = {});
     /// The same of a pass that is a batch of its own: those of a meter have no positions in common, and differ by less
     /// than the sum of a batch is rounded by.
-    Pass beginBatch();
+    Pass beginBatch(PassPart part = {});
     void endPass() {
         isWhole_ = true;
         pixelsAhead_ = 0;
     }
-    /// The first pixels, so many, have all of the pass that has begun.
+    /// The first pixels, so many, have all of the pass that has begun. Where it has several parts, none are noted.
     void noteAhead(size_t pixels) {
+        if (pass_.layout & FILM_IN_PARTS) return;
         pixelsAhead_ = pixels;
         if (onRows_) onRows_();
     }
@@ -119,6 +122,9 @@ public:
     Buffer<shared::CameraCounters>& counterBuffer() { return counters_; }
 
 private:
+    Pass ofPart(const Pass& last, PassPart part);
+    Pass countPass(unsigned pass);
+    Pass countBatch();
     void forEachPiece(const std::function<void(const std::vector<float>& sums, size_t firstPixel)>& use) const;
 
     unsigned width_, height_;
@@ -128,6 +134,7 @@ private:
     mutable std::function<void()> onRows_;
     mutable bool isAwaited_ = false;
     FilmCounts counts_;
+    Pass pass_; ///< that was begun last: its last part
     std::vector<Part> parts_;
     Buffer<shared::CameraCounters> counters_;
 };

@@ -6,6 +6,7 @@
 #include "render/meter_stage.h"
 #include "render/method.h"
 #include "render/noise_probe.h"
+#include "render/pass_part.h"
 #include "render/photon_stage.h"
 #include "render/shared_samples.h"
 #include "util/error.h"
@@ -71,11 +72,11 @@ BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, 
 }
 
 BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, uint64_t photons,
-                     const DeviceInfo& device) {
+                     const DeviceInfo& device, unsigned parts) {
     BufferSizes sizes = planScene(scene, settings, device);
     const unsigned classes = compiledClasses(scene.features, settings);
-    sizes.merge(PhotonStage::plan(photonsPerPass(settings, scene.camera), photons, classes,
-                                  storesDepth(scene, settings), device));
+    const unsigned paths = PassPart{0, parts}.share(photonsPerPass(settings, scene.camera));
+    sizes.merge(PhotonStage::plan(paths, photons, classes, storesDepth(scene, settings), device));
     if (const unsigned floats = SharedSamples::floatsPerSample(scene, settings))
         sizes.merge(SharedSamples::plan(scene.camera, floats, device));
     const bool isMeter = scene.offsets.meter.kind != METER_NONE,
@@ -102,18 +103,21 @@ uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings) 
 
 namespace {
 
-/// Photons of a pass for which the device has room, where one of all of them stores `stored`; none if it has no room
-/// even for the rest.
-std::optional<uint64_t> photonsThatFit(const DeviceScene& scene, const RenderSettings& settings, uint64_t stored,
-                                       const DeviceInfo& device) {
-    const unsigned all = photonsPerPass(settings, scene.camera);
+bool partsFit(const DeviceScene& scene, const RenderSettings& settings, const StoredPhotons& stored,
+              const DeviceInfo& device, unsigned parts) {
+    const unsigned paths = PassPart{0, parts}.share(photonsPerPass(settings, scene.camera));
+    return fits(planPass(scene, settings, stored(paths), device, parts), device);
+}
+
+/// Photons of a pass for which the device has room; none if it has no room even for the rest.
+std::optional<uint64_t> photonsThatFit(const DeviceScene& scene, const RenderSettings& settings,
+                                       const StoredPhotons& stored, const DeviceInfo& device) {
     RenderSettings fewer = settings;
     const auto fit = [&](unsigned photons) {
         fewer.photonsPerPass = photons;
-        const auto ofThese = static_cast<uint64_t>(double(stored) * photons / all);
-        return fits(planPass(scene, fewer, ofThese, device), device);
+        return partsFit(scene, fewer, stored, device, mostParts);
     };
-    uint64_t least = 0, most = all; // least fits, or nothing is known of it
+    uint64_t least = 0, most = photonsPerPass(settings, scene.camera); // least fits, or nothing is known of it
     while (most - least > most / 1000 + 1) {
         const uint64_t middle = (least + most) / 2;
         (fit(static_cast<unsigned>(middle)) ? least : most) = middle;
@@ -126,10 +130,17 @@ std::optional<uint64_t> photonsThatFit(const DeviceScene& scene, const RenderSet
 
 } // namespace
 
+unsigned partsThatFit(const DeviceScene& scene, const RenderSettings& settings, const StoredPhotons& stored,
+                      const DeviceInfo& device) {
+    for (unsigned parts = 1; parts <= mostParts; ++parts)
+        if (partsFit(scene, settings, stored, device, parts)) return parts;
+    return mostParts;
+}
+
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
-               const RenderSettings& settings, std::optional<uint64_t> stored) {
+               const RenderSettings& settings, const StoredPhotons& stored) {
     if (fits(sizes, device)) return;
-    const auto photons = stored ? photonsThatFit(scene, settings, *stored, device) : std::nullopt;
+    const auto photons = stored ? photonsThatFit(scene, settings, stored, device) : std::nullopt;
     for (const auto& [label, bytes] : sizes)
         if (bytes > device.maximumAllocation)
             throw InputError(

@@ -6,7 +6,7 @@
 #include "render/settings.h"
 
 #include <cstdint>
-#include <optional>
+#include <functional>
 
 namespace quasilux {
 
@@ -21,9 +21,18 @@ struct MemoryForecast {
 /// Buffers that depend on the scene and the film alone.
 BufferSizes planScene(const DeviceScene& scene, const RenderSettings& settings, const DeviceInfo& device);
 
-/// All buffers of a pass of --map photons with room for so many `photons`.
+/// All buffers of a pass of --map photons, which comes in so many parts, with room for so many `photons` of one of them.
 BufferSizes planPass(const DeviceScene& scene, const RenderSettings& settings, uint64_t photons,
-                     const DeviceInfo& device);
+                     const DeviceInfo& device, unsigned parts = 1);
+
+/// Photons that so many paths store, at most in all likelihood.
+using StoredPhotons = std::function<uint64_t(unsigned paths)>;
+
+inline constexpr unsigned mostParts = 64; ///< of a pass: each traces camera paths anew
+
+/// In how few parts a pass of --map photons has to come to fit into the device's memory, or mostParts.
+unsigned partsThatFit(const DeviceScene& scene, const RenderSettings& settings, const StoredPhotons& stored,
+                      const DeviceInfo& device);
 
 /// Bytes of the image on the host.
 uint64_t imageBytes(const DeviceScene& scene, const RenderSettings& settings);
@@ -31,9 +40,9 @@ uint64_t imageBytes(const DeviceScene& scene, const RenderSettings& settings);
 /// The same while its error is estimated.
 uint64_t developBytes(const DeviceScene& scene, const RenderSettings& settings);
 
-/// Throws InputError that says by how much the buffers exceed the device's memory, and what to do. `stored`: photons
-/// that a pass stores; how many to trace, so that they fit, is said then.
+/// Throws InputError that says by how much the buffers exceed the device's memory, and what to do; where photons are
+/// `stored`, how many to trace, so that they fit.
 void checkFits(const BufferSizes& sizes, const DeviceInfo& device, const DeviceScene& scene,
-               const RenderSettings& settings, std::optional<uint64_t> stored = {});
+               const RenderSettings& settings, const StoredPhotons& stored = {});
 
 } // namespace quasilux

@@ -15,10 +15,14 @@ MeterPass::MeterPass(const PassContext& context)
 }
 
 void MeterPass::run(unsigned pass, RenderCounters& counters) {
-    photons_.trace(pass, counters);
-    meter_.run(pass, photons_.stage());
+    for (const PassPart& part : photons_.parts()) {
+        photons_.trace(pass, part, counters);
+        meter_.run(pass, photons_.stage(), part);
+    }
 }
 
-uint64_t MeterPass::cameraPaths() const { return context_.film.pixels() * context_.flat.offsets.meter.samples; }
+uint64_t MeterPass::cameraPaths() const {
+    return context_.film.pixels() * context_.flat.offsets.meter.samples * photonParts();
+}
 
 } // namespace quasilux

@@ -14,6 +14,7 @@ public:
 
     void run(unsigned pass, RenderCounters& counters) override;
     uint64_t cameraPaths() const override;
+    unsigned photonParts() const override { return photons_.parts().front().count; }
 
 private:
     const PassContext& context_;

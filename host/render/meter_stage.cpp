@@ -35,16 +35,17 @@ void MeterStage::compile(const PhotonStage& photons) {
                             counted_.quantaPerRadiance, 0.f, film_.layout().bits());
 }
 
-void MeterStage::run(unsigned pass, const PhotonStage& photons) {
+void MeterStage::run(unsigned pass, const PhotonStage& photons, PassPart part) {
     const shared::Meter& meter = params_.scene.meter;
-    params_.pass = pass;
+    const Film::Pass onFilm = film_.beginBatch(part);
+    params_.pass = part.numberOf(pass);
     params_.map = photons.table().map();
-    params_.batchWeight = film_.beginBatch().batchWeight;
     traceMeterPaths_.launch(film_.pixels() * meter.samples, geometry_.nodes, geometry_.blocks, geometry_.tables,
                             photons.table().cellStart(), photons.sorted(), samples_, film_.counterBuffer(), params_);
     addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(),
-                            static_cast<unsigned>(film_.pixels()), meter.samples, sampleScale(meter),
-                            counted_.quantaPerRadiance, params_.batchWeight, film_.layout().bits());
+                            static_cast<unsigned>(film_.pixels()), meter.samples,
+                            sampleScale(meter) / static_cast<float>(part.count), counted_.quantaPerRadiance,
+                            onFilm.batchWeight, onFilm.layout);
 }
 
 } // namespace quasilux

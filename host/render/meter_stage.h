@@ -19,8 +19,8 @@ public:
     /// As CameraStage::compile.
     void compile(const PhotonStage& photons);
 
-    /// All paths of a pass; what was counted() since the last one is added.
-    void run(unsigned pass, const PhotonStage& photons);
+    /// All paths of a pass, or of a part of it; what was counted() since the last one is added.
+    void run(unsigned pass, const PhotonStage& photons, PassPart part);
     MeterSums& counted() { return counted_; }
 
 private:

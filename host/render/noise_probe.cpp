@@ -82,7 +82,7 @@ void NoiseProbe::measure(unsigned classes) {
     std::vector<float> brightness = halves[0].radiance;
     for (size_t k = 0; k < brightness.size(); ++k) brightness[k] = (brightness[k] + halves[1].radiance[k]) / 2;
     if (photons_.areTaken()) {
-        photons_.traceUncounted(0);
+        photons_.traceUncounted(0, photons_.parts().front());
         addPhotons(render(Brings::allLight, 0, passesThatGather), halves[0], classes, brightness);
     }
     const std::vector<double> cost = costByBlock();

@@ -41,6 +41,8 @@ public:
     virtual void run(unsigned pass, RenderCounters& counters) = 0;
     /// That each pass has traced, of all pixels.
     virtual uint64_t cameraPaths() const = 0;
+    /// PassPart::count of each.
+    virtual unsigned photonParts() const { return 1; }
     /// Memory that all passes will take, known once the pass is made.
     const MemoryForecast& forecast() const { return forecast_; }
 

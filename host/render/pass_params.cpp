@@ -45,6 +45,15 @@ shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, c
     return params;
 }
 
+// Each carries more: by the worth of one of more photons, weight windows would split all of them.
+shared::PhotonParams withPaths(shared::PhotonParams params, unsigned paths) {
+    const float more = static_cast<float>(params.paths) / static_cast<float>(paths);
+    params.paths = paths;
+    params.usualWorth *= more;
+    params.perFluxUnit /= more;
+    return params;
+}
+
 shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth) {
     shared::CameraParams params{};
     params.seedLow = static_cast<unsigned>(settings.seed);
@@ -56,6 +65,7 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     params.coarseness = 1;
     params.spread = 1;
     params.directSamples = 1;
+    params.parts = 1;
     params.causticsByPaths = settings.caustics == CausticLight::paths;
     params.camera = flat.camera;
     params.scene = sceneTables(flat, settings);

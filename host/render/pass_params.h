@@ -14,6 +14,8 @@ double firstRadiusByArea(double area, const RenderSettings& settings, unsigned p
 DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings, const SceneGeometry* known = nullptr);
 
 shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
+/// Of fewer photons, with all flux between them.
+shared::PhotonParams withPaths(shared::PhotonParams params, unsigned paths);
 shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth);
 
 /// Of the order of what the scene shows: the unit of splats need be no better.

@@ -1,6 +1,7 @@
 #include "render/pass_photons.h"
 
 #include "render/method.h"
+#include "render/pass_params.h"
 #include "render/photon_forecast.h"
 #include "render/scene_report.h"
 
@@ -11,27 +12,33 @@ PassPhotons::PassPhotons(const PassContext& context, const std::function<void(co
     : context_(context), areTaken_(photonClasses(context.flat.features, context.settings) != 0) {
     const DeviceScene& flat = context.flat;
     const RenderSettings& settings = context.settings;
+    const DeviceInfo& device = context.device.info();
     const PhotonForecast expected = forecastPhotons(context, context.program, compile);
-    const BufferSizes sizes = planPass(flat, settings, expected.photons, context.device.info());
-    checkFits(sizes, context.device.info(), flat, settings, expected.photons);
-    forecast_ = forecastOf(context, sizes, sumOf(sizes) - sumOf(planScene(flat, settings, context.device.info())));
-    stage_.emplace(context.device, context.program, context.geometry, context.photons, context.classes,
-                   storesDepth(flat, settings), expected.photons);
+    const StoredPhotons stored = [&](unsigned paths) { return expected.stored(paths); };
+    for (PassPart part{0, partsThatFit(flat, settings, stored, device)}; part.number < part.count; part = part.next())
+        parts_.push_back(part);
+    const unsigned paths = parts_.front().share(context.photons.paths), count = parts_.front().count;
+    const BufferSizes sizes = planPass(flat, settings, stored(paths), device, count);
+    checkFits(sizes, device, flat, settings, stored);
+    forecast_ = forecastOf(context, sizes, sumOf(sizes) - sumOf(planScene(flat, settings, device)));
+    stage_.emplace(context.device, context.program, context.geometry, withPaths(context.photons, paths),
+                   context.classes, storesDepth(flat, settings), stored(paths));
     stage_->thinVolume(expected.keepProbability);
     stage_->useField(context.field);
     if (counted) stage_->countAt(*counted);
 }
 
-PhotonPassCount PassPhotons::run(unsigned pass) {
-    return stage_->run(pass, context_.radii.radii(pass), context_.radii.volumeScale(pass));
+PhotonPassCount PassPhotons::run(unsigned pass, PassPart part) {
+    return stage_->run(part.numberOf(pass), context_.radii.radii(pass), context_.radii.volumeScale(pass));
 }
 
 // Kernels that other methods share know photons even where this one takes none: then their map is left empty, once for
 // all.
-void PassPhotons::trace(unsigned pass, RenderCounters& counters) {
+void PassPhotons::trace(unsigned pass, PassPart part, RenderCounters& counters) {
     if (mapIsEmpty_) return;
     mapIsEmpty_ = !areTaken_;
-    const PhotonPassCount count = run(pass);
+    PhotonPassCount count = run(pass, part);
+    count.weigh(1.0 / part.count);
     counters.photonsEmitted += stage_->photonsPerPass();
     counters.addTraced(count, meterCountsCaustics(context_.flat.features, context_.settings),
                        context_.settings.energyBalance);
@@ -40,6 +47,6 @@ void PassPhotons::trace(unsigned pass, RenderCounters& counters) {
                                                                     context_.device.info()));
 }
 
-void PassPhotons::traceUncounted(unsigned pass) { run(pass); }
+void PassPhotons::traceUncounted(unsigned pass, PassPart part) { run(pass, part); }
 
 } // namespace quasilux

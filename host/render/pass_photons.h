@@ -1,4 +1,5 @@
-// The photons of a pass, as a map: traced, indexed and counted (stages 1 and 2).
+// The photons of a pass, as a map, or as several, one after the other, where the device has no room for all at once:
+// traced, indexed and counted (stages 1 and 2).
 #pragma once
 
 #include "render/pass.h"
@@ -18,19 +19,22 @@ public:
     /// Pass::forecast(): how many photons a pass leaves decides how large its buffers are.
     const MemoryForecast& forecast() const { return forecast_; }
 
-    void trace(unsigned pass, RenderCounters& counters);
+    /// Of every pass.
+    const std::vector<PassPart>& parts() const { return parts_; }
+    void trace(unsigned pass, PassPart part, RenderCounters& counters);
     /// Once more, or for passes that others render: counted nowhere.
-    void traceUncounted(unsigned pass);
+    void traceUncounted(unsigned pass, PassPart part);
     /// Does this render take light from photons at all?
     bool areTaken() const { return areTaken_; }
-    /// Of the pass traced last.
+    /// Of the part traced last.
     const PhotonStage& stage() const { return *stage_; }
 
 private:
-    PhotonPassCount run(unsigned pass);
+    PhotonPassCount run(unsigned pass, PassPart part);
 
     const PassContext& context_;
     MemoryForecast forecast_;
+    std::vector<PassPart> parts_;
     std::optional<PhotonStage> stage_;
     bool areTaken_;
     bool mapIsEmpty_ = false; // and stays so

@@ -25,13 +25,8 @@ double upperBound(double perPath, double count) {
 PhotonForecast forecastPhotons(const PassContext& context, const Program& photonMap,
                                const std::function<void(const PhotonStage&)>& compile) {
     Device& device = context.device;
-    shared::PhotonParams params = context.photons;
-    params.paths = std::min(forecastPaths, params.paths);
-    // Fewer photons carry more each: by the worth of a whole pass's, weight windows would split all of them.
-    const float more = static_cast<float>(context.photons.paths) / static_cast<float>(params.paths);
-    params.usualWorth *= more;
-    params.perFluxUnit /= more;
-    PhotonStage stage(device, photonMap, context.geometry, params, context.classes,
+    const unsigned paths = std::min(forecastPaths, context.photons.paths);
+    PhotonStage stage(device, photonMap, context.geometry, withPaths(context.photons, paths), context.classes,
                       storesDepth(context.flat, context.settings));
     std::optional<MeterSums> uncounted;
     if (meterCountsPhotons(context.flat.features, context.settings))
@@ -55,9 +50,12 @@ PhotonForecast expectPass(const PhotonPassCount& counted, unsigned paths) {
         kept += keep * inVolume + onSurfaces;
     }
     // The few paths may have met fewer than is usual.
-    const double perPath = upperBound(kept / traced, traced) / traced;
-    result.photons = static_cast<uint64_t>(std::ceil(upperBound(perPath, paths)));
+    result.photonsOfPath = upperBound(kept / traced, traced) / traced;
     return result;
+}
+
+uint64_t PhotonForecast::stored(unsigned paths) const {
+    return static_cast<uint64_t>(std::ceil(upperBound(photonsOfPath, paths)));
 }
 
 } // namespace quasilux

@@ -12,7 +12,10 @@ namespace quasilux {
 struct PhotonForecast {
     /// Photons in media are many where a path collides often: as many of a class are kept as serve the estimate.
     std::array<float, LIGHT_CLASSES> keepProbability{1, 1, 1, 1};
-    uint64_t photons = 0; ///< that a pass stores, at most in all likelihood
+    double photonsOfPath = 0; ///< that one stores, at most in all likelihood
+
+    /// That so many paths store, at most in all likelihood.
+    uint64_t stored(unsigned paths) const;
 };
 
 constexpr unsigned forecastPaths = 2048;

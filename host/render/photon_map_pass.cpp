@@ -34,11 +34,14 @@ SamplingGain PhotonMapPass::samplingGain(unsigned paths) { return noiseProbe(pat
 
 void PhotonMapPass::run(unsigned pass, RenderCounters& counters) {
     catchUpRadii(pass, counters);
-    photons_->trace(pass, counters);
-    camera_->run(pass, photons_->stage());
-    if (!photons_->areTaken() || !camera_->radiusIsDue(pass)) return;
-    context_.device.finish();
-    chooseRadii(pass, counters);
+    const bool radiusIsDue = photons_->areTaken() && camera_->radiusIsDue(pass);
+    for (const PassPart& part : photons_->parts()) {
+        photons_->trace(pass, part, counters);
+        camera_->run(pass, photons_->stage(), part);
+        if (!radiusIsDue) continue;
+        context_.device.finish();
+        chooseRadii(pass, part, counters);
+    }
 }
 
 // Radii of this pass are chosen with the photons of earlier ones; where these were not rendered here, they are traced
@@ -46,14 +49,16 @@ void PhotonMapPass::run(unsigned pass, RenderCounters& counters) {
 void PhotonMapPass::catchUpRadii(unsigned pass, RenderCounters& counters) {
     while (radii_ && photons_->areTaken() && radii_->coarsePasses() < AdaptiveRadius::coarsePassesBefore(pass)) {
         const unsigned earlier = radii_->coarsePasses();
-        photons_->traceUncounted(earlier);
-        chooseRadii(earlier, counters);
+        for (const PassPart& part : photons_->parts()) {
+            photons_->traceUncounted(earlier, part);
+            chooseRadii(earlier, part, counters);
+        }
     }
 }
 
-void PhotonMapPass::chooseRadii(unsigned pass, RenderCounters& counters) {
+void PhotonMapPass::chooseRadii(unsigned pass, PassPart part, RenderCounters& counters) {
     const Stopwatch watch;
-    counters.radiusPaths += camera_->chooseRadius(pass, photons_->stage());
+    counters.radiusPaths += camera_->chooseRadius(pass, photons_->stage(), part);
     context_.device.finish();
     counters.radiusSeconds += watch.seconds();
 }
@@ -69,7 +74,7 @@ double PhotonMapPass::secondsWithoutGathering() {
 std::optional<GatheredCount> PhotonMapPass::countGathered(unsigned pass) {
     RenderCounters ofNoPass;
     catchUpRadii(pass, ofNoPass);
-    photons_->traceUncounted(pass);
+    photons_->traceUncounted(pass, photons_->parts().front());
     return quasilux::countGathered(context_.device, kernelOptions(context_.flat, context_.settings), context_.geometry,
                                    photons_->stage(), camera_->params(pass, photons_->stage()), camera_->tables(pass));
 }

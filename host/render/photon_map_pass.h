@@ -12,7 +12,8 @@ public:
     explicit PhotonMapPass(const PassContext& context);
 
     void run(unsigned pass, RenderCounters& counters) override;
-    uint64_t cameraPaths() const override { return camera_->paths().sum(); }
+    uint64_t cameraPaths() const override { return camera_->paths().sum() * photonParts(); }
+    unsigned photonParts() const override { return photons_->parts().front().count; }
     double secondsWithoutGathering() override;
     SamplingGain samplingGain(unsigned paths) override;
     std::optional<GatheredCount> countGathered(unsigned pass) override;
@@ -24,7 +25,7 @@ private:
     NoiseProbe noiseProbe(unsigned paths);
     void allocatePaths();
     void catchUpRadii(unsigned pass, RenderCounters& counters);
-    void chooseRadii(unsigned pass, RenderCounters& counters);
+    void chooseRadii(unsigned pass, PassPart part, RenderCounters& counters);
 
     const PassContext& context_;
     std::optional<AdaptiveRadius> radii_;  ///< by pixel, where they are

@@ -88,6 +88,7 @@ struct Renderer::Stages {
         context.emplace(PassContext{device, *program, *geometry, flat, settings, *radii, field, *film, buffers,
                                     compiledClasses(flat.features, settings), camera, photon});
         passes = makePass(*context);
+        report.photonParts = passes->photonParts();
         report.forecast = withLayers(passes->forecast(), scene, flat, settings, device.info());
     }
 

@@ -36,6 +36,7 @@ struct SceneReport {
     std::map<std::string, uint64_t> bufferBytes;
     MemoryForecast forecast;
     unsigned photonsPerPass = 0;
+    unsigned photonParts = 1;                    ///< of a pass (pass_part.h)
     std::map<std::string, double> initialRadius; ///< scene units, by photon class
     /// What was learned before pass 0 (docs/method/learning.md).
     struct Learned {

@@ -24,6 +24,12 @@ struct TraceCount {
         fluxCut += count.fluxCut;
         energy.add(count);
     }
+
+    /// Of flux: what was traced is this share of a pass, though it carries all of its flux.
+    void weigh(double share) {
+        fluxCut *= share;
+        energy *= share;
+    }
 };
 
 } // namespace quasilux

@@ -42,6 +42,9 @@ enum class SurfaceRule { right, axesByNormal, etaIsK, fresnelOfNormal, firstLeve
 /// Samples of a sky, or a mistake: directions of lobes are weighed against the density of the other map of it.
 enum class SkyRule { right, otherDensity };
 
+/// A pass in several parts, or a mistake: errors are estimated from the last part alone.
+enum class PartsRule { right, lastAlone };
+
 /// Compiler options; none where it is the right one.
 inline std::string optionOf(LawRule rule) {
     return rule == LawRule::right ? "" : fmt::format(" -DLAW_RULE={}", static_cast<int>(rule));
@@ -51,6 +54,9 @@ inline std::string optionOf(MediumRule rule) {
 }
 inline std::string optionOf(SamplingRule rule) {
     return rule == SamplingRule::right ? "" : fmt::format(" -DSAMPLING_RULE={}", static_cast<int>(rule));
+}
+inline std::string optionOf(PartsRule rule) {
+    return rule == PartsRule::right ? "" : fmt::format(" -DPARTS_RULE={}", static_cast<int>(rule));
 }
 inline std::string optionOf(SurfaceRule rule) {
     return rule == SurfaceRule::right ? "" : fmt::format(" -DSURFACE_RULE={}", static_cast<int>(rule));

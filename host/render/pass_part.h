@@ -1,0 +1,23 @@
+// Photons of a pass that the device has no room for come in several parts, one after the other.
+#pragma once
+
+#include <cstdint>
+
+namespace quasilux {
+
+/// Each part has its share of the photons, which carry all flux between them, and camera paths of its own; the estimate
+/// of the pass is the mean of its parts'.
+struct PassPart {
+    unsigned number = 0, count = 1;
+
+    bool isFirst() const { return number == 0; }
+    bool isLast() const { return number + 1 == count; }
+    bool isWhole() const { return count == 1; }
+    /// What stands for the number of the pass in random numbers.
+    unsigned numberOf(unsigned pass) const { return pass * count + number; }
+    PassPart next() const { return {number + 1, count}; }
+    /// Of the paths of a pass.
+    unsigned share(unsigned paths) const { return static_cast<unsigned>((uint64_t{paths} + count - 1) / count); }
+};
+
+} // namespace quasilux
