@@ -63,10 +63,13 @@ inline void foundEmission(ImportancePath* path, const ImportanceState* state, in
     path->radiance += weight;
     if (state->vertices > 0) path->vertices[state->vertices - 1].found += weight;
     if (!state->gathers && !isDirect) return;
-    if (keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element, isDirect ? 1 / probability : 0,
-                   position, -direction, rng) &&
-        isDirect)
+    if (!keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element,
+                    isDirect ? 1 / probability : 0, position, -direction, rng))
+        return;
+    if (isDirect)
         path->gatheredShare = gatheredShare;
+    else
+        path->laterProbability = probability;
 }
 
 inline void storeVertex(ImportancePath* path, ImportanceState* state, float3 position, uint face) {
@@ -361,7 +364,7 @@ __kernel void traceImportancePaths(__global const BvhNode* nodes, __global const
     path.indirect.emitter = path.direct.emitter = QL_NONE;
     path.indirect.weight = path.direct.weight = 0;
     path.indirect.inverseDensity = path.direct.inverseDensity = 0;
-    path.radiance = path.gatheredShare = 0;
+    path.radiance = path.gatheredShare = path.laterProbability = 0;
     path.pixel = path.indirect.pixel = path.direct.pixel = pixel;
     for (uint k = 0; k < IMPORTANCE_VERTICES; ++k) path.vertices[k].weight = path.vertices[k].found = 0;
     ImportanceState state;

@@ -111,6 +111,7 @@ typedef struct {
     float radiance;                                 /* of the whole path, mean of R, G, B */
     float gatheredShare; /* of the direct light, what photons might bring instead of samples */
     unsigned int pixel;
+    float laterProbability; /* with which the emitter of `indirect` was, or would be, chosen */
 } ImportancePath;
 
 /* ---- which emitters direct light is sampled from (kernels/light_choice.clh) ---- */
@@ -132,6 +133,7 @@ typedef struct {
     unsigned int lightBlockSize, lightBlockColumns; /* pixels of a row and column, blocks of a row */
     unsigned int aims, aimCount, aimSets;           /* AimSource records, and of how many sets */
     unsigned int directEnvironment; /* of the EnvironmentMaps, the one by which direct light is sampled: 0 or 1 */
+    unsigned int laterLights;       /* blocks from one that is of first events to that of later ones (lightBlock) */
     ImportanceGrid importance;
 } Learned;
 

@@ -12,6 +12,7 @@
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
+#include "support/wrong_rules.h"
 
 #include <gtest/gtest.h>
 #include <numeric>
@@ -19,6 +20,8 @@
 
 namespace quasilux {
 namespace {
+
+using test::optionOf, test::SamplingRule;
 
 using glm::dvec3;
 
@@ -194,17 +197,29 @@ RenderSettings furnaceSettings() {
     return settings;
 }
 
+/// Follows everything, with what others have learned.
+RenderSettings pathTracing(SamplingRule rule = SamplingRule::right) {
+    RenderSettings settings = furnaceSettings();
+    settings.quasiSpecular = "all";
+    settings.quasiSpecularOverridesScene = true;
+    settings.cameraPaths = 4;
+    settings.variant = Variant::alternative;
+    settings.controlOptions = optionOf(rule);
+    return settings;
+}
+
 /// Mean over the image, of ten batches with the choices of emitters that `change` makes of those learned.
 template <typename Change>
-MeanAndError furnaceMean(const Change& change) {
+MeanAndError furnaceMean(const Change& change, RenderSettings settings = furnaceSettings()) {
     const Scene scene = furnaceOfSquares();
     std::vector<double> means;
     for (unsigned batch = 0; batch < 10; ++batch) {
-        RenderSettings settings = furnaceSettings();
-        settings.seed = batch + 1;
-        LearnedScene learned = *Renderer(testDevice(), scene, settings).learned();
+        RenderSettings learning = furnaceSettings();
+        learning.seed = settings.seed = batch + 1;
+        LearnedScene learned = *Renderer(testDevice(), scene, learning).learned();
         EXPECT_FALSE(learned.tables.lights.empty());
-        change(learned.tables.lights);
+        EXPECT_EQ(learned.tables.lights.size(), learned.tables.laterLights.size());
+        change(learned.tables);
         Renderer renderer(testDevice(), scene, settings, std::make_shared<const LearnedScene>(learned));
         for (unsigned pass = 0; pass < 4; ++pass) renderer.renderPass(pass);
         const auto image = renderer.develop();
@@ -214,13 +229,35 @@ MeanAndError furnaceMean(const Change& change) {
     return meanAndError(means);
 }
 
+void halveTheUnlearned(std::vector<shared::LightChoice>& choices) {
+    for (size_t k = 0; k < choices.size(); k += LIGHT_CHOICES) choices[k].probability = 0.5f;
+}
+
 TEST(ManyEmitters, FurnaceIsAsBrightAsItsWalls) {
     const MeanAndError right = furnaceMean([](const auto&) {});
     EXPECT_NEAR(right.mean, 1, 4 * right.standardError + 0.003);
     EXPECT_LT(right.standardError, 0.004) << "too noisy to decide anything";
-    const MeanAndError wrong = furnaceMean([](std::vector<shared::LightChoice>& choices) {
-        for (size_t k = 0; k < choices.size(); k += LIGHT_CHOICES) choices[k].probability = 0.5f;
-    });
+    const MeanAndError wrong = furnaceMean([](LearnedTables& learned) { halveTheUnlearned(learned.lights); });
+    EXPECT_GT(std::abs(wrong.mean - 1), 4 * wrong.standardError + 0.003)
+        << "negative control: probabilities that are no choice's";
+}
+
+// Paths that are followed from wall to wall choose by another list after their first scattering, here as if nothing
+// were known; emission that they meet is weighed by the choice where they came from.
+TEST(ManyEmitters, LaterChoicesAreWeighedByTheirOwnList) {
+    const auto forget = [](LearnedTables& learned) {
+        for (size_t k = 0; k < learned.laterLights.size(); k += LIGHT_CHOICES) learned.laterLights[k] = {0, 0, 0, 1};
+    };
+    const MeanAndError learned = furnaceMean([](const auto&) {}, pathTracing()),
+                       unlearned = furnaceMean(forget, pathTracing());
+    for (const MeanAndError& right : {learned, unlearned}) {
+        EXPECT_NEAR(right.mean, 1, 4 * right.standardError + 0.003);
+        EXPECT_LT(right.standardError, 0.004) << "too noisy to decide anything";
+    }
+    const MeanAndError next = furnaceMean(forget, pathTracing(SamplingRule::nextChoice));
+    EXPECT_GT(std::abs(next.mean - 1), 4 * next.standardError + 0.003) << "negative control: by the next choice";
+    const MeanAndError wrong =
+        furnaceMean([](LearnedTables& tables) { halveTheUnlearned(tables.laterLights); }, pathTracing());
     EXPECT_GT(std::abs(wrong.mean - 1), 4 * wrong.standardError + 0.003)
         << "negative control: probabilities that are no choice's";
 }
@@ -235,7 +272,7 @@ TEST(ManyEmitters, ListsOfDistantEmittersEnd) {
         tables.emitters.push_back(makeDirectional({0, 0, -1}, {0, 0, 0}, 1));
         finds.push_back({k, k % 64, 1.0 + k, 0.01});
     }
-    const auto choice = chooseDirect(finds, tables, camera, false);
+    const auto choice = chooseDirect(finds, finds, tables, camera, false);
     ASSERT_EQ(choice.lights.size(), size_t(LIGHT_CHOICES));
     EXPECT_EQ(choice.lights[0].first, LIGHT_CHOICES - 1u);
     double sum = 0;

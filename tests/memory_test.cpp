@@ -151,7 +151,8 @@ TEST_F(MemoryTest, RenderThatDoesNotFitDoesNotStart) {
     };
     const auto needed = static_cast<uint64_t>(forecast(arguments).device);
     const auto partsWithin = [&](uint64_t bytes) {
-        EXPECT_EQ(run(within(bytes, {"--quiet", "--stats", "stats.json"})).exitCode, 0);
+        const Outcome outcome = run(within(bytes, {"--quiet", "--stats", "stats.json"}));
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
         const auto statistics = nlohmann::json::parse(readText(folder / "stats.json"), nullptr, false);
         EXPECT_LE(statistics.at("peakBufferBytes").get<uint64_t>(), bytes);
         return statistics.at("sceneReport").at("photonParts").get<unsigned>();
@@ -161,11 +162,11 @@ TEST_F(MemoryTest, RenderThatDoesNotFitDoesNotStart) {
     std::filesystem::remove(folder / "limited.exr");
 
     Arguments ofFewest = arguments; // a pass in as many parts as there may be
-    ofFewest.insert(ofFewest.end(), {"--photons", std::to_string(98304 / 64)});
+    ofFewest.insert(ofFewest.end(), {"--photons", std::to_string(1'000'000 / 64)});
     const auto least = static_cast<uint64_t>(forecast(ofFewest).device) - 20'000;
-    const Arguments tight = within(least);
+    const Arguments tight = within(least, {"--photons", "1000000"});
     expectRefused(tight, "0.0 MiB too little");
-    const std::string advice = expectRefused(tight, "--photons (now 98304; more passes make up for them)");
+    const std::string advice = expectRefused(tight, "--photons (now 1000000; more passes make up for them)");
     EXPECT_THAT(advice, HasSubstr("or --map camera"));
     const unsigned photons = std::stoul(advice.substr(advice.find("at most ") + 8));
     const auto withPhotons = [&](unsigned number) { return within(least, {"--photons", std::to_string(number)}); };

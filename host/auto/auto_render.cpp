@@ -50,6 +50,7 @@ std::unique_ptr<Renderer> openChosen(Device& device, const Scene& scene, const R
 void countGathered(Renderer& renderer, AutoRender& result) {
     try {
         result.gathered = renderer.countGathered();
+    } catch (const InputError&) { // no memory is left for it: not counted
     } catch (...) {
         result.failure = std::current_exception();
     }

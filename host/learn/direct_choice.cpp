@@ -179,10 +179,20 @@ std::vector<shared::LightChoice> listOf(const Block& seen, const EmitterTables& 
     return list;
 }
 
+std::vector<shared::LightChoice> listsOf(const Blocks& blocks, const EmitterTables& emitters,
+                                         const std::vector<bool>& byPhotons) {
+    std::vector<shared::LightChoice> lists;
+    for (size_t b = 0; b < blocks.seen.size(); ++b) {
+        const auto list = listOf(about(blocks, b), emitters, byPhotons);
+        lists.insert(lists.end(), list.begin(), list.end());
+    }
+    return lists;
+}
+
 } // namespace
 
-DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTables& emitters,
-                          const shared::Camera& camera, bool mayUsePhotons) {
+DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const std::vector<DirectFind>& later,
+                          const EmitterTables& emitters, const shared::Camera& camera, bool mayUsePhotons) {
     DirectChoice choice;
     const Blocks blocks = sortedByBlock(finds, camera);
     choice.byPhotons.resize(emitters.emitters.size());
@@ -194,10 +204,9 @@ DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTab
     }
     choice.lightBlockSize = blocks.size;
     if (sampled < 2) return choice;
-    for (size_t b = 0; b < blocks.seen.size(); ++b) {
-        const auto list = listOf(about(blocks, b), emitters, choice.byPhotons);
-        choice.lights.insert(choice.lights.end(), list.begin(), list.end());
-    }
+    choice.lights = listsOf(blocks, emitters, choice.byPhotons);
+    // Whoever follows everything has no diffuse light from photons.
+    choice.laterLights = listsOf(sortedByBlock(later, camera), emitters, std::vector<bool>(emitters.emitters.size()));
     return choice;
 }
 

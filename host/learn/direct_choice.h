@@ -7,7 +7,8 @@
 
 namespace quasilux {
 
-/// Direct light that one importance path found where the camera takes it.
+/// Direct light that one importance path found where the camera takes it, or at later events, where paths that follow
+/// everything take it.
 struct DirectFind {
     unsigned emitter = QL_NONE; ///< QL_NONE: none
     unsigned pixel = 0;
@@ -20,12 +21,14 @@ struct DirectChoice {
     /// By emitter: its light is taken from photons where it is genuinely diffusely reflected. True where samples of it
     /// mostly find it hidden.
     std::vector<bool> byPhotons;
-    std::vector<shared::LightChoice> lights; ///< as LearnedTables; empty where there is at most one emitter to sample
+    /// As LearnedTables; empty where there is at most one emitter to sample.
+    std::vector<shared::LightChoice> lights, laterLights;
     unsigned lightBlockSize = 1;
 };
 
-/// `finds`: one for each importance path. `mayUsePhotons`: or else none is taken from photons.
-DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const EmitterTables& emitters,
-                          const shared::Camera& camera, bool mayUsePhotons);
+/// `finds`, `later`: one for each importance path, in the same order. `mayUsePhotons`: or else none is taken from
+/// photons.
+DirectChoice chooseDirect(const std::vector<DirectFind>& finds, const std::vector<DirectFind>& later,
+                          const EmitterTables& emitters, const shared::Camera& camera, bool mayUsePhotons);
 
 } // namespace quasilux

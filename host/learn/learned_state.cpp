@@ -34,6 +34,7 @@ void saveLearned(StateSink& sink, const LearnedScene& learned) {
     sink.array("learned: direct by photons",
                std::vector<uint8_t>(tables.directByPhotons.begin(), tables.directByPhotons.end()));
     sink.array("learned: lights", tables.lights);
+    sink.array("learned: later lights", tables.laterLights);
     sink.array("learned: aims", tables.aims);
     sink.array("learned: importance", tables.importanceCells);
     sink.array("learned: seen cells", tables.seenCells);
@@ -55,6 +56,7 @@ LearnedScene restoreLearned(const StateSource& source) {
     const auto direct = source.array<uint8_t>("learned: direct by photons");
     tables.directByPhotons.assign(direct.begin(), direct.end());
     tables.lights = source.array<shared::LightChoice>("learned: lights");
+    tables.laterLights = source.array<shared::LightChoice>("learned: later lights");
     tables.lightBlockSize = numbers.lightBlockSize;
     tables.directEnvironment = numbers.directEnvironment;
     tables.aims = source.array<shared::AimSource>("learned: aims");

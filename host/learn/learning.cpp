@@ -170,22 +170,26 @@ void Learning::followImportance(bool directMayUsePhotons) {
     const auto paths = tracePathsByBetterEnvironment(buffer, count);
     const auto weights = pathWeights(paths, params_.camera);
     std::vector<shared::EmissionRecord> records;
-    std::vector<DirectFind> finds;
+    std::vector<DirectFind> finds, later;
     for (size_t k = 0; k < paths.size(); ++k) {
         records.push_back(paths[k].indirect);
         records.back().weight *= static_cast<float>(weights[k]);
         if (std::isfinite(records.back().weight)) learned_.lightOfPhotons += records.back().weight;
         gathered_ += weights[k] * paths[k].vertices[0].weight;
-        const auto& direct = paths[k].direct;
-        finds.push_back({direct.emitter, paths[k].pixel, weights[k] * double(count) * direct.weight,
+        const auto &direct = paths[k].direct, &indirect = paths[k].indirect;
+        const double scale = weights[k] * double(count);
+        finds.push_back({direct.emitter, paths[k].pixel, scale * direct.weight,
                          direct.inverseDensity > 0 ? 1 / double(direct.inverseDensity) : 1, paths[k].gatheredShare});
+        later.push_back(
+            {indirect.emitter, paths[k].pixel, scale * indirect.weight, double(paths[k].laterProbability), 1});
     }
     guide_.add(records);
     learned_.tables.guide = guide_.guide();
     makeImportance(buffer, paths, weights);
-    auto choice = chooseDirect(finds, scene_.emitters, params_.camera, directMayUsePhotons);
+    auto choice = chooseDirect(finds, later, scene_.emitters, params_.camera, directMayUsePhotons);
     learned_.tables.directByPhotons = std::move(choice.byPhotons);
     learned_.tables.lights = std::move(choice.lights);
+    learned_.tables.laterLights = std::move(choice.laterLights);
     learned_.tables.lightBlockSize = choice.lightBlockSize;
     upload();
 }

@@ -230,6 +230,8 @@ void setLearned(DeviceScene& scene, const LearnedTables& learned) {
     scene.offsets.learned.aimSets = static_cast<unsigned>(
         std::count_if(learned.aims.begin(), learned.aims.end(), [](const auto& aim) { return aim.count > 0; }));
     scene.offsets.learned.lights = learned.lights.empty() ? QL_NONE : tables.append(learned.lights);
+    scene.offsets.learned.laterLights = static_cast<unsigned>(learned.laterLights.size() / LIGHT_CHOICES);
+    tables.append(learned.laterLights); // each as many places behind its own
     scene.offsets.learned.lightBlockSize = learned.lightBlockSize;
     scene.offsets.learned.lightBlockColumns =
         (scene.camera.width + learned.lightBlockSize - 1) / learned.lightBlockSize;

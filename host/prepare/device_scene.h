@@ -65,6 +65,7 @@ struct LearnedTables {
     GuideTables guide;
     std::vector<bool> directByPhotons;       ///< by emitter, or empty: none
     std::vector<shared::LightChoice> lights; ///< LIGHT_CHOICES for each block of pixels, or empty: nothing is known
+    std::vector<shared::LightChoice> laterLights; ///< the same for later events of the paths (laterLightBlock)
     unsigned lightBlockSize = 1;
     unsigned directEnvironment = 0;        ///< shared::Learned
     std::vector<shared::AimSource> aims;   ///< openings at which scattered photons are aimed

@@ -31,8 +31,9 @@ enum class PhotonRule {
 };
 
 /// Camera paths of a pixel, or a mistake: the path that gathers for all counts as if there were four; or it is the first
-/// one, whose numbers are every fourth, eighth, ... of a sequence.
-enum class SamplingRule { right, fourEverywhere, firstGathers };
+/// one, whose numbers are every fourth, eighth, ... of a sequence; emission that a path meets is weighed by the choice
+/// of emitters at its next event.
+enum class SamplingRule { right, fourEverywhere, firstGathers, nextChoice };
 
 /// Surfaces, or a mistake: axes of anisotropic lobes follow from the normal alone; textures of eta and of k change
 /// places; where textures say the index, Fresnel's factor is that of the normal instead of the facet; roughness by
