@@ -49,7 +49,7 @@ Rendered render(Device& device, const Scene& scene, const RenderSettings& settin
     return result;
 }
 
-/// With room for a third of the photons.
+/// With room for two fifths of the photons.
 Device& smallDevice() {
     static const uint64_t limit = [] {
         const Rendered all = render(testDevice(), box(), settingsOf(photons), 1);
@@ -132,7 +132,7 @@ TEST(PassParts, HaveTheMeanAndTheErrorOfOne) {
     const double error = std::hypot(parts.standardError, one.standardError);
     EXPECT_LT(error, 0.006 * one.mean) << "too little to know";
     EXPECT_NEAR(parts.mean, one.mean, 5 * error);
-    // The parts' camera paths, three times as many, lower it.
+    // The parts' camera paths, of which there are more, lower it.
     EXPECT_LT(parts.found, 1.3 * one.found);
     EXPECT_GT(parts.found, 0.3 * one.found);
     EXPECT_NEAR(parts.found / parts.estimated, 1, 0.5);

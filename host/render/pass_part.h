@@ -15,7 +15,6 @@ struct PassPart {
     bool isWhole() const { return count == 1; }
     /// What stands for the number of the pass in random numbers.
     unsigned numberOf(unsigned pass) const { return pass * count + number; }
-    PassPart next() const { return {number + 1, count}; }
     /// Of the paths of a pass.
     unsigned share(unsigned paths) const { return static_cast<unsigned>((uint64_t{paths} + count - 1) / count); }
 };

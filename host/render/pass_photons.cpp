@@ -15,9 +15,9 @@ PassPhotons::PassPhotons(const PassContext& context, const std::function<void(co
     const DeviceInfo& device = context.device.info();
     const PhotonForecast expected = forecastPhotons(context, context.program, compile);
     const StoredPhotons stored = [&](unsigned paths) { return expected.stored(paths); };
-    for (PassPart part{0, partsThatFit(flat, settings, stored, device)}; part.number < part.count; part = part.next())
-        parts_.push_back(part);
-    const unsigned paths = parts_.front().share(context.photons.paths), count = parts_.front().count;
+    const unsigned count = partsThatFit(flat, settings, stored, device);
+    for (unsigned number = 0; number < count; ++number) parts_.push_back({number, count});
+    const unsigned paths = parts_.front().share(context.photons.paths);
     const BufferSizes sizes = planPass(flat, settings, stored(paths), device, count);
     checkFits(sizes, device, flat, settings, stored);
     forecast_ = forecastOf(context, sizes, sumOf(sizes) - sumOf(planScene(flat, settings, device)));
