@@ -1,5 +1,6 @@
-/* A pass of --map photons as one program: the compiler reads what the stages share only once. The order matters, since
- * a file is included where it is first named, and later ones name some under conditions that do not hold. */
+/* The kernels of a pass of --map photons that depend on the scene as one program: the compiler reads what the stages
+ * share only once. The others are programs of their own (host/render/pass_program.cpp). The order matters, since a file
+ * is included where it is first named, and later ones name some under conditions that do not hold. */
 #include "photon_map.cl"
 
 #include "camera_paths.cl"
@@ -10,8 +11,4 @@
 #include "importance_paths.cl"
 
 #include "importance_records.cl"
-#endif
-
-#ifdef ADAPTIVE_RADIUS
-#include "adaptive_radius.cl"
 #endif

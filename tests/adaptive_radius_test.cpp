@@ -4,6 +4,7 @@
 #include "bench/bench_run.h"
 #include "compare/measures.h"
 #include "render/adaptive_radius.h"
+#include "render/pass_program.h"
 #include "support/render_statistics.h"
 #include "support/test_kernels.h"
 
@@ -42,8 +43,7 @@ struct Choice {
 };
 
 Choice choose(const std::vector<float>& film, double largest = 2) {
-    Program program(testDevice(), "adaptive_radius.cl",
-                    "-DPHOTON_CLASSES=8u -DBVH_STACK_SIZE=32 -DESTIMATE_BIAS=1 -DADAPTIVE_RADIUS");
+    Program program(testDevice(), "adaptive_radius.cl", radiusOptions(1u << LIGHT_DIFFUSE));
     Buffer<float> sums(testDevice(), film, "film"), scales(testDevice(), size_t{width} * height, "scales");
     Buffer<float> before(testDevice(), size_t{width} * height, "scales before");
     Buffer<shared::RadiusMeasure> measures(testDevice(), size_t{width} * height, "measures");

@@ -137,17 +137,19 @@ void Kernel::enqueue(size_t count, size_t asked) {
     }
 }
 
-Program::Program(Device& device, const std::string& file, const std::string& options, const Sources& extra)
-    : device_(&device), file_(file) {
+namespace {
+
+cl::Program build(Device& device, const std::string& file, const std::string& options, const Sources& extra) {
     // In C99 a plain inline function has no definition to link where a compiler chooses not to inline it, as some for
     // GPUs do. Those for CPUs inline all, and PoCL takes twice the time to compile static ones.
     const std::string linkage = device.info().isCpu ? "" : "#undef inline\n#define inline static inline\n";
     const std::string source = linkage + joinKernelSource(file, extra);
     try {
-        program_ = cl::Program(device.context(), source);
+        cl::Program program(device.context(), source);
         // Fast-math stays off: it would let the compiler assume that there is no NaN or infinity. Where the build takes
         // warnings for errors (QUASILUX_WERROR), kernels do too: users would see how many there are.
-        program_.build(("-cl-std=CL1.2 " + options + QUASILUX_KERNEL_OPTIONS).c_str());
+        program.build(("-cl-std=CL1.2 " + options + QUASILUX_KERNEL_OPTIONS).c_str());
+        return program;
     } catch (const cl::BuildError& error) {
         std::string log;
         for (const auto& [builtFor, text] : error.getBuildLog()) log += text;
@@ -159,12 +161,27 @@ Program::Program(Device& device, const std::string& file, const std::string& opt
     }
 }
 
+} // namespace
+
+Program::Program(Device& device, const std::string& file, const std::string& options, const Sources& extra)
+    : device_(&device), files_(file), programs_{build(device, file, options, extra)} {}
+
+void Program::add(const std::string& file, const std::string& options) {
+    programs_.push_back(build(*device_, file, options, {}));
+    files_ += ", " + file;
+}
+
 Kernel Program::kernel(const std::string& name) const {
-    try {
-        return Kernel(*device_, cl::Kernel(program_, name.c_str()), name);
-    } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("{} holds no kernel '{}' (OpenCL error {})", file_, name, error.err()));
+    cl_int code = CL_INVALID_KERNEL_NAME;
+    for (const cl::Program& program : programs_) {
+        try {
+            return Kernel(*device_, cl::Kernel(program, name.c_str()), name);
+        } catch (const cl::Error& error) {
+            code = error.err();
+            if (code != CL_INVALID_KERNEL_NAME) break;
+        }
     }
+    throw DeviceError(fmt::format("{}: no kernel '{}' (OpenCL error {})", files_, name, code));
 }
 
 } // namespace quasilux

@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace quasilux {
 
@@ -86,12 +87,17 @@ public:
     Program(Device& device, const std::string& file, const std::string& options,
             const std::map<std::string, std::string>& extra = {});
 
+    /// Builds kernels of another file besides, with options of its own: what does not depend on the scene is taken from
+    /// the runtime's cache for the next one.
+    void add(const std::string& file, const std::string& options);
+
+    /// From the file that holds it.
     Kernel kernel(const std::string& name) const;
 
 private:
     Device* device_;
-    std::string file_;
-    cl::Program program_;
+    std::string files_;
+    std::vector<cl::Program> programs_;
 };
 
 } // namespace quasilux

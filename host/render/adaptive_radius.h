@@ -18,7 +18,7 @@ inline constexpr unsigned passesOfEqualRadius = 2;
 
 class AdaptiveRadius {
 public:
-    /// `pass`: with ADAPTIVE_RADIUS among its options. `classes`: bits of the photon classes in use.
+    /// `pass` holds adaptive_radius.cl. `classes`: bits of the photon classes in use.
     AdaptiveRadius(Device& device, const Program& pass, const shared::Camera& camera, unsigned classes);
 
     /// Its buffers, by label.

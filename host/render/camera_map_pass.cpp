@@ -2,6 +2,7 @@
 
 #include "render/method.h"
 #include "render/pass_params.h"
+#include "render/pass_program.h"
 #include "render/photon_forecast.h"
 
 namespace quasilux {
@@ -10,7 +11,7 @@ CameraMapPass::CameraMapPass(const PassContext& context)
     : context_(context), stage_(context.device, context.program, context.geometry, context.film, context.camera,
                                 context.photons, context.classes, meanRadiance(context.flat)) {
     if (!context.flat.media.empty()) {
-        const Program photonMap(context.device, "photon_map_pass.cl", kernelOptions(context.flat, context.settings));
+        const Program photonMap = passProgram(context.device, MapOrder::photons, context.flat, context.settings);
         stage_.thinVolume(forecastPhotons(context, photonMap).keepProbability);
     }
     stage_.makeRoom(forecastPass, context.radii.radii(0), context.radii.volumeScale(0));

@@ -123,7 +123,8 @@ void CellTable::sort(unsigned records, const FirstDigit& first, const Buffer<Rec
         else
             countOrdered_.launchLong(digit.chunks, keys, from.buffer, from.at, counts_, records, digit);
         scan(digit);
-        if (last == 0) copyCellStarts_.launch(cells() + 1, counts_, cellStart_, records, digit, map_);
+        if (last == 0)
+            copyCellStarts_.launch(cells() + 1, counts_, cellStart_, records, static_cast<unsigned>(cells()), digit);
         if (k == 0)
             first.place(digit, counts_, to);
         else
@@ -131,7 +132,8 @@ void CellTable::sort(unsigned records, const FirstDigit& first, const Buffer<Rec
                                      digit);
     }
     if (last > 0)
-        findCellStarts_.launch(cells() + 1, keys, order.buffer, order.at, cellStart_, records, digits_[last], map_);
+        findCellStarts_.launch(cells() + 1, keys, order.buffer, order.at, cellStart_, records,
+                               static_cast<unsigned>(cells()), digits_[last]);
 }
 
 template void CellTable::sort(unsigned records, const FirstDigit& first, const Buffer<uint32_t>& keys,

@@ -1,5 +1,5 @@
 // Where the records of each slot and cell stand in a pass's index, and the sort that puts them there
-// (kernels/cell_sort.clh), whether the records are photons or camera points.
+// (kernels/record_sort.cl), whether the records are photons or camera points.
 #pragma once
 
 #include "device/program.h"
@@ -29,7 +29,7 @@ std::vector<shared::SortDigit> sortDigits(size_t cells, const SortParts& parts, 
 
 class CellTable {
 public:
-    /// `pass` holds the kernels; `slots` are the bits 1 << slot that occur; `noun` names the records in labels of
+    /// `pass` holds record_sort.cl; `slots` are the bits 1 << slot that occur; `noun` names the records in labels of
     /// buffers and in messages; `keySide` as in SortDigit.
     CellTable(Device& device, const Program& pass, unsigned slots, unsigned keySide, std::string noun);
 

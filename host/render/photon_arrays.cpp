@@ -96,14 +96,16 @@ void PhotonArrays::sort(const Buffer<shared::RegionCount>& regionBuffer,
     const auto placeFirst = [&](const auto& digit, const auto& counts, const auto& to) {
         placePhotons_.launchLong(digit.chunks, arrays_, blocks_, regionBuffer, counts, to.buffer, to.at, digit, map);
     };
-    const uint64_t stride = map.photonStride, source = photonFields(storesDepth_) + 1;
+    const uint64_t stride = map.photonStride;
+    const unsigned source = photonFields(storesDepth_) + 1;
     table_.sort(static_cast<unsigned>(stored), {countFirst, placeFirst}, arrays_, {arrays_, source * stride},
                 {arrays_, (source + 1) * stride});
     for (unsigned field = 0; field < photonFields(storesDepth_); ++field)
-        movePhotons_.launch(std::max<size_t>(stored, recordsRead), arrays_, field, static_cast<unsigned>(stored), map);
+        movePhotons_.launch(std::max<size_t>(stored, recordsRead), arrays_, field, source,
+                            static_cast<unsigned>(stored), map);
 }
 
-void PhotonArrays::compile() { movePhotons_.launch(manyWorkItems, arrays_, 0u, 0u, table_.map()); }
+void PhotonArrays::compile() { movePhotons_.launch(manyWorkItems, arrays_, 0u, 0u, 0u, table_.map()); }
 
 size_t PhotonArrays::photonBytes(bool storesDepth, const DeviceInfo& device) {
     return arrayCount(storesDepth, device) * sizeof(uint32_t);

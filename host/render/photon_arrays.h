@@ -1,5 +1,5 @@
 // The photons of a pass: traced into arrays (kernels/photon_store.clh) and sorted by slot and cell within the same
-// memory (kernels/photon_map.cl).
+// memory (kernels/photon_map.cl, record_sort.cl).
 #pragma once
 
 #include "render/cell_table.h"
@@ -11,7 +11,7 @@ namespace quasilux {
 
 class PhotonArrays {
 public:
-    /// `pass` is photon_map_pass.cl or photon_map.cl; `slots` are the bits 1 << slot that occur; `storesDepth` where
+    /// `pass` holds photon_map.cl and record_sort.cl; `slots` are the bits 1 << slot that occur; `storesDepth` where
     /// the kernels are compiled with HAS_DEPTH_LIMIT.
     PhotonArrays(Device& device, const Program& pass, unsigned slots, bool storesDepth);
 

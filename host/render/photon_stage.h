@@ -1,4 +1,5 @@
-// Stages 1 and 2 of a pass: trace photons by kernels/photon_trace.cl, index them by kernels/photon_map.cl.
+// Stages 1 and 2 of a pass: trace photons by kernels/photon_trace.cl, index them by kernels/photon_map.cl
+// and record_sort.cl.
 #pragma once
 
 #include "render/meter_sums.h"
@@ -18,7 +19,7 @@ struct PhotonPassCount : TraceCount {
 
 class PhotonStage {
 public:
-    /// `pass` is photon_map_pass.cl; `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where
+    /// `pass`: of --map photons; `classes` are bits 1 << LIGHT_* or 1 << VOLUME_SLOT(LIGHT_*); `storesDepth` where
     /// the kernels are compiled with HAS_DEPTH_LIMIT; room for so many `photons` saves enlarging the buffers
     /// later.
     PhotonStage(Device& device, const Program& pass, const GeometryBuffers& geometry, shared::PhotonParams params,

@@ -1,4 +1,4 @@
-// The camera points of a pass, sorted by slot and cell (kernels/camera_point_map.cl).
+// The camera points of a pass, sorted by slot and cell (kernels/camera_point_map.cl, record_sort.cl).
 #pragma once
 
 #include "render/cell_table.h"
@@ -8,7 +8,7 @@ namespace quasilux {
 
 class PointIndex {
 public:
-    /// `pass` is camera_map_pass.cl; `slots` are the bits 1 << slot that occur.
+    /// `pass`: of --map camera; `slots` are the bits 1 << slot that occur.
     PointIndex(Device& device, const Program& pass, unsigned slots);
 
     /// Makes room for about `expected` points, which come from this many regions.

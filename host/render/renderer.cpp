@@ -6,6 +6,7 @@
 #include "render/noise_probe.h"
 #include "render/pass.h"
 #include "render/pass_params.h"
+#include "render/pass_program.h"
 #include "render/radius_field.h"
 #include "util/stopwatch.h"
 
@@ -46,8 +47,7 @@ struct Renderer::Stages {
     Stages(Device& device_, const Scene& scene, const RenderSettings& settings_, DeviceScene flat_, KnownScene known)
         : device(device_), settings(settings_), flat(std::move(flat_)), shapes(std::move(known.geometry)) {
         const AllocationNotes noting(device, buffers);
-        program.emplace(device, settings.map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
-                        kernelOptions(flat, settings));
+        program.emplace(passProgram(device, settings.map, flat, settings));
         geometry.emplace(device, flat);
         auto timingsBefore = device.timings();
         learned = known.learned ? std::move(known.learned) : learn(scene);

@@ -34,6 +34,7 @@ PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonI
     PhotonIndex index;
     index.photons = photons.size();
     Program program(device, "photon_map.cl", photonIndexOptions(settings));
+    program.add("record_sort.cl", "");
     CellTable table(device, program, settings.classes, 1, "photon");
     table.make(settings.cells, settings.regions, settings.parts);
     shared::MapParams& map = table.map();
@@ -57,13 +58,13 @@ PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonI
     const auto placeFirst = [&](const auto& digit, const auto& counts, const auto& to) {
         place.launchLong(digit.chunks, index.sorted, blocks, regions, counts, to.buffer, to.at, digit, map);
     };
-    const uint64_t source = settings.storesDepth ? 8 : 7; // PHOTON_SOURCE
+    const unsigned source = settings.storesDepth ? 8 : 7; // behind the last field as traced
     table.sort(unsigned(photons.size()), {countFirst, placeFirst}, index.sorted,
-               {index.sorted, source * map.photonStride}, {spare, 0});
+               {index.sorted, uint64_t(source) * map.photonStride}, {spare, 0});
     index.cellStart = table.cellStart();
     for (unsigned field = 0; field < (settings.storesDepth ? 7u : 6u); ++field)
         program.kernel("movePhotons")
-            .launch(std::max(photons.size(), recordsRead), index.sorted, field, unsigned(photons.size()), map);
+            .launch(std::max(photons.size(), recordsRead), index.sorted, field, source, unsigned(photons.size()), map);
     return index;
 }
 

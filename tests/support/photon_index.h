@@ -1,4 +1,4 @@
-// Photons made by a test, indexed by the kernels of kernels/photon_map.cl as the renderer does it.
+// Photons made by a test, indexed by the kernels of kernels/photon_map.cl and record_sort.cl as the renderer does it.
 #pragma once
 
 #include "bench/micro/traced_photons.h"

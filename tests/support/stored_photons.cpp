@@ -4,6 +4,7 @@
 #include "bench/micro/native_grid.h"
 #include "render/flux_unit.h"
 #include "render/method.h"
+#include "render/pass_program.h"
 #include "render/photon_stage.h"
 #include "scene/color.h"
 #include "support/test_kernels.h"
@@ -33,8 +34,8 @@ StoredPasses tracePhotons(const DeviceScene& flat, const RenderSettings& setting
     params.perFluxUnit = 1 / fluxUnit(flat.emittedFlux, params.paths);
     params.maxDepth = QL_NONE;
     params.scene = flat.offsets;
-    const Program program(testDevice(), "photon_map_pass.cl", kernelOptions(flat, settings) + tracing.options,
-                          tracing.replaced);
+    const Program program =
+        passProgram(testDevice(), MapOrder::photons, flat, settings, tracing.options, tracing.replaced);
     PhotonStage stage(testDevice(), program, geometry, params, photonClasses(flat.features, settings), false);
     stage.thinVolume(tracing.keep);
     StoredPasses stored(tracing.passes);

@@ -12,10 +12,16 @@ constexpr size_t microPhotonFields = 6; ///< PHOTON_X to PHOTON_DIRECTION (kerne
 /// Compiler options for photon_map.cl and what includes density.clh.
 std::string microPhotonOptions();
 
+inline Program microProgram(Device& device) {
+    Program program(device, "photon_map.cl", microPhotonOptions());
+    program.add("record_sort.cl", "");
+    return program;
+}
+
 class MicroIndex {
 public:
     MicroIndex(Device& device, const MicroPhotons& photons, float radius)
-        : device_(device), geometry_(device, DeviceScene{}), program_(device, "photon_map.cl", microPhotonOptions()),
+        : device_(device), geometry_(device, DeviceScene{}), program_(microProgram(device)),
           arrays_(device, program_, microClasses, false) {
         arrays_.make(photons.photons.size(), unsigned(photons.regionEnds.size()));
         shared::MapParams& map = arrays_.table().map();
