@@ -8,6 +8,7 @@ file(GLOB sources CONFIGURE_DEPENDS host/python/*.cpp)
 pybind11_add_module(quasilux_python MODULE NO_EXTRAS ${sources})
 set_target_properties(quasilux_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python/quasilux)
 target_link_libraries(quasilux_python PRIVATE quasilux_cli)
+target_compile_options(quasilux_python PRIVATE $<$<CONFIG:Release>:-O1>) # as layers that hardly compute
 # Names of static libraries are nobody else's business in a process that loads other modules too.
 target_link_options(quasilux_python PRIVATE -Wl,--exclude-libs,ALL)
 

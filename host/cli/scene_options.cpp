@@ -127,8 +127,8 @@ void declareDevice(CLI::App& command, SceneOptions& options) {
         ->group(group);
     command
         .add_option("--device-memory", options.deviceMemory,
-                    "Bytes of device memory that the render may take; one that needs more ends before it starts "
-                    "(default: what the device has)")
+                    "Bytes of device memory that the render may take: photons come in parts that fit; what does not "
+                    "fit even so ends before it starts (default: what the device has)")
         ->type_name("BYTES")
         ->transform(wholeNumber(1, UINT64_MAX))
         ->group(group);
