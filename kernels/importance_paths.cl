@@ -55,6 +55,15 @@ inline int keepRecord(EmissionRecord* kept, float weight, uint emitter, uint ele
     return 1;
 }
 
+/* Direct light at a meter, which samples emitters: no photon brings it. */
+inline int isSampledAtMeter(const ImportanceState* state) {
+#if defined(HAS_IRRADIANCE_METER) && defined(DIRECT_BY_EMITTERS)
+    return !state->hasScattered;
+#else
+    return 0;
+#endif
+}
+
 /* Light from an emitter, chosen with this probability, at the end of a segment along `direction`, where `weight` of it
  * comes to the image; direct light: of this, photons might bring `gatheredShare`. */
 inline void foundEmission(ImportancePath* path, const ImportanceState* state, int isDirect, float weight,
@@ -62,7 +71,7 @@ inline void foundEmission(ImportancePath* path, const ImportanceState* state, in
                           float3 direction, Rng* rng) {
     path->radiance += weight;
     if (state->vertices > 0) path->vertices[state->vertices - 1].found += weight;
-    if (!state->gathers && !isDirect) return;
+    if ((!state->gathers && !isDirect) || isSampledAtMeter(state)) return;
     if (!keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element,
                     isDirect ? 1 / probability : 0, position, -direction, rng))
         return;
@@ -382,7 +391,7 @@ __kernel void traceImportancePaths(__global const BvhNode* nodes, __global const
     state.medium = place.medium;
     state.ray = leavingRay(&s, toWorld(&frame, sampleCosineHemisphere(rngNext2(&state.rng))));
     state.gathers = 1;
-    state.events = SCATTER_GENUINE_DIFFUSE; /* direct light at the meter is sampled */
+    state.events = SCATTER_GENUINE_DIFFUSE; /* what it has from emitters is no image of them */
 #else
     state.ray = importanceRay(&params.camera, tables, pixel, &state.rng);
 #endif

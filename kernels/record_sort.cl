@@ -1,5 +1,4 @@
-/* The part of stage 2 that is the same for every scene: sorts records whose cells are known. A program of its own,
- * without options, so it is compiled once for all scenes. */
+/* The part of stage 2 that is the same for every scene: sorts records whose cells are known, photons or points. */
 #include "cell_sort.clh"
 #include "photon_store.clh"
 

@@ -65,6 +65,23 @@ std::vector<UsefulRay> raysThroughWindow(double turn, size_t count, std::mt19937
     return rays;
 }
 
+// Rays from outside that all end in one place, as at a meter of one point, come through no opening there: a photon
+// through it serves nothing, and others would have little chance. Control: where they go on beyond it, it is a pinhole.
+TEST(Openings, AreNotWhereRaysEnd) {
+    std::mt19937 random(4);
+    const glm::dvec3 end(0.3, 3, -0.4);
+    auto rays = raysThroughWindow(0, 2000, random);
+    for (auto& ray : rays) {
+        ray.direction = glm::normalize(end - (ray.position - ray.position.y / ray.direction.y * ray.direction));
+        ray.position = end;
+    }
+    for (const Opening& opening : findOpenings(rays, 20, {}, 4)) EXPECT_GT(glm::distance(opening.centre, end), 0.5);
+    for (auto& ray : rays) ray.position += 5.0 * ray.direction;
+    const auto pinholes = findOpenings(rays, 20, {}, 1);
+    ASSERT_EQ(pinholes.size(), 1u);
+    EXPECT_LT(glm::distance(pinholes[0].centre, end), 0.1);
+}
+
 // Photons through what an opening leaves out of its window are heavy, so an upright window must not be taken for one
 // that is turned a little, and one that is turned not for an upright one. No chance: seeds are fixed.
 TEST(Openings, WindowsKeepTheirAxes) {

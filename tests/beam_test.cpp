@@ -26,7 +26,7 @@ TEST(Beam, FollowsTheCosineLaw) {
         const double truth = std::cos(tilt * std::numbers::pi / 180);
         for (const Method& method : methods) {
             SCOPED_TRACE(fmt::format("{} {}", tilt, method.name));
-            expectReading(scene, method, truth, false, 16, 50000);
+            expectReading(scene, method, truth, false, 8, 50000);
         }
     }
 }
@@ -49,14 +49,15 @@ TEST(Beam, PassesAClearPaneWithAllItsReflections) {
     for (const double angle : {0.0, 45.0, 75.0}) {
         const auto scene = test::meterScene(beamAt(angle) + pane + test::meterAt(0, "y", 1));
         const double truth = std::cos(angle * std::numbers::pi / 180) * transmittance(angle, 1.5);
+        const unsigned passes = angle > 70 ? 16 : 8, photons = angle > 70 ? 200000 : 50000; // few enter it there
         for (const Method& method : methods) {
             SCOPED_TRACE(fmt::format("{} {}", angle, method.name));
-            expectReading(scene, method, truth, false, 16, 200000);
+            expectReading(scene, method, truth, false, passes, photons);
         }
         // Control: without what is reflected within the pane, (1 - R)^2.
         const double r = (1 - transmittance(angle, 1.5)) / (1 + transmittance(angle, 1.5));
         if (angle > 70) {
-            EXPECT_FALSE(agrees(measure(scene, methods[0], 16, 200000), truth * (1 - r) * (1 + r), false));
+            EXPECT_FALSE(agrees(measure(scene, methods[0], passes, photons), truth * (1 - r) * (1 + r), false));
         }
     }
 }

@@ -146,7 +146,7 @@ TEST(Cie171, ReflectionWithObstruction_5_7) {
                   {"+z", "2,0.25,0", 3.3823351929831587},
                   {"+z", "2,1.25,0", 3.01295124496136},
                   {"+z", "2,2.25,0", 0}},
-                 0.01 * 0.6 / std::sqrt(26), {"emitters"}, false, 160);
+                 0.01 * 0.6 / std::sqrt(26), {"emitters"}, false, 24);
 }
 
 // 10,000 lm in the middle of a cube of 4 m: mean over all its surfaces, direct light included.
@@ -155,7 +155,7 @@ TEST(Cie171, InternalReflectedComponent_5_8) {
         for (const unsigned bdd : {0u, 1u}) {
             SCOPED_TRACE(fmt::format("{} {}", rho, bdd));
             const auto scene = test::meterScene(pointLamp("2,2,2", 10000) + room(4, rho));
-            expectReading(scene, {"emitters", bdd}, 10000 / (96 * (1 - rho)), true, 64, 40000);
+            expectReading(scene, {"emitters", bdd}, 10000 / (96 * (1 - rho)), true, 8, 40000);
         }
 }
 

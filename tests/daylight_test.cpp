@@ -216,7 +216,7 @@ TEST_F(DaylightFactorTest, IsThatOfTheSkyAlone) {
     const std::string sky = "<emitter type=\"quasilux_cie_sky\"><float name=\"illuminance\" value=\"8000\"/><float "
                             "name=\"sun_illuminance\" value=\"90000\"/></emitter>";
     write(sky, lamps);
-    const Outcome outcome = run({"render", "room.xml", "--grid", "out.csv", "--stats", "out.json", "--passes", "64",
+    const Outcome outcome = run({"render", "room.xml", "--grid", "out.csv", "--stats", "out.json", "--passes", "24",
                                  "--fixed", "--daylight-factor"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
     EXPECT_THAT(outcome.errors, HasSubstr("3 emitters besides the sky are left out"));
@@ -258,7 +258,7 @@ TEST_F(DaylightFactorTest, SunOnTheGroundDoesNotCount) {
 
 TEST_F(DaylightFactorTest, OfAUniformSkyIsTheConfigurationFactor) {
     write("<emitter type=\"constant\"><rgb name=\"radiance\" value=\"3,2,1\"/></emitter>");
-    ASSERT_EQ(run({"render", "room.xml", "--grid", "out.csv", "--stats", "out.json", "--passes", "64", "--fixed",
+    ASSERT_EQ(run({"render", "room.xml", "--grid", "out.csv", "--stats", "out.json", "--passes", "24", "--fixed",
                    "--daylight-factor"})
                   .exitCode,
               0);

@@ -103,13 +103,31 @@ Sources throughOpenings(const EmitterTables& emitters, bool apart) {
     return all;
 }
 
-// scenes/furnace_split.xml: flux by class is known (photon_trace_test.cpp). Difference in standard errors.
-double directFlux(PhotonRule rule, const std::function<Sources(const EmitterTables&)>& learn) {
+// Nine of ten photons go through a pinhole, and carry a billionth of what the others do.
+Sources throughAPinhole(const EmitterTables& emitters) {
+    const Opening pinhole{{0.2, 0.1, 0}, {1, 0, 0}, {0, 0.8, 0.6}, 1e-5, 1e-5};
+    Sources all;
+    for (unsigned e = 0; e < emitters.emitters.size(); ++e) {
+        const auto first = static_cast<unsigned>(all.sources.size());
+        for (const auto& source : {openingSource(e, first, pinhole), plainSource(e, first)}) {
+            SourceBox whole{static_cast<unsigned>(all.sources.size()), {}};
+            whole.box.probability = source.halfU > 0 ? 0.9 : 0.1;
+            all.boxes.push_back(whole);
+            all.sources.push_back(source);
+        }
+    }
+    return all;
+}
+
+// scenes/furnace_split.xml: flux by class is known (photon_trace_test.cpp). Difference in standard errors. `typical`:
+// factor on the flux by which the range of what is stored is chosen.
+double directFlux(PhotonRule rule, const std::function<Sources(const EmitterTables&)>& learn, double typical = 1) {
     DeviceScene flat = flattenScene(projectScene("furnace_split.xml"));
     const Sources all = learn(flat.emitters);
     LearnedTables learned;
     learned.guide = makeGuideTables(flat.emitters, all.sources, all.boxes);
     learned.guide.isGuided = true;
+    learned.guide.typicalFlux *= typical;
     setLearned(flat, learned);
     RenderSettings settings;
     settings.direct = DirectLight::photons;
@@ -128,6 +146,11 @@ TEST(GuidedMean, EachRayThroughOpeningsIsEmittedOnce) {
     const auto twice = [](const EmitterTables& emitters) { return throughOpenings(emitters, false); };
     EXPECT_LT(std::abs(directFlux(PhotonRule::right, apart)), 4);
     EXPECT_GT(directFlux(PhotonRule::right, twice), 4) << "negative control: rays through both, and plain ones, again";
+}
+
+TEST(GuidedMean, HeavyPhotonsKeepTheirFlux) {
+    EXPECT_LT(std::abs(directFlux(PhotonRule::right, throughAPinhole)), 4);
+    EXPECT_LT(directFlux(PhotonRule::right, throughAPinhole, 0x1p-12), -4) << "negative control: most are cut";
 }
 
 const AimSet squareAboveTheFloor{{Opening{{0, -0.98, 0}, {1, 0, 0}, {0, 0, 1}, 0.3, 0.3}}, {1}};
@@ -184,22 +207,24 @@ std::string wall(const std::string& scale, const std::string& translate, double 
            std::to_string(emitted) + "\"/></emitter></shape>";
 }
 
-Scene furnaceRoom() {
+constexpr auto lookIntoTheRoom =
+    R"(<sensor type="perspective"><float name="fov" value="65"/>
+        <transform name="to_world"><lookat origin="2,0.3,1.5" target="2,3,1" up="0,0,1"/></transform>
+        <film type="hdrfilm"><rfilter type="box"/><integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>)";
+
+Scene furnaceRoom(const std::string& sensor = lookIntoTheRoom) {
     const auto inside = [](const std::string& scale, const std::string& translate) {
         return wall(scale, translate, 0.1, 0.9);
     };
     test::SceneFiles files;
     return loadScene(files.write(
-        "scene.xml",
-        R"(<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><float name="fov" value="65"/>
-        <transform name="to_world"><lookat origin="2,0.3,1.5" target="2,3,1" up="0,0,1"/></transform>
-        <film type="hdrfilm"><rfilter type="box"/><integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>
-        <emitter type="constant"><rgb name="radiance" value="1"/></emitter>)" +
-            inside("2.2,1.7,0.1", "2,1.5,-0.1") + inside("2.2,1.7,0.1", "2,1.5,2.9") +
-            inside("0.1,1.7,1.4", "-0.1,1.5,1.4") + inside("0.1,1.7,1.4", "4.1,1.5,1.4") +
-            inside("2,0.1,1.4", "2,3.1,1.4") + inside("0.7,0.1,1.4", "0.7,-0.1,1.4") +
-            inside("0.7,0.1,1.4", "3.3,-0.1,1.4") + inside("0.6,0.1,0.45", "2,-0.1,0.45") +
-            inside("0.6,0.1,0.35", "2,-0.1,2.45") + wall("10,10,0.1", "0,0,-0.4", 0.8, 0.2) + "</scene>"));
+        "scene.xml", R"(<scene version="3.0.0"><integrator type="path"/>)" + sensor +
+                         R"(<emitter type="constant"><rgb name="radiance" value="1"/></emitter>)" +
+                         inside("2.2,1.7,0.1", "2,1.5,-0.1") + inside("2.2,1.7,0.1", "2,1.5,2.9") +
+                         inside("0.1,1.7,1.4", "-0.1,1.5,1.4") + inside("0.1,1.7,1.4", "4.1,1.5,1.4") +
+                         inside("2,0.1,1.4", "2,3.1,1.4") + inside("0.7,0.1,1.4", "0.7,-0.1,1.4") +
+                         inside("0.7,0.1,1.4", "3.3,-0.1,1.4") + inside("0.6,0.1,0.45", "2,-0.1,0.45") +
+                         inside("0.6,0.1,0.35", "2,-0.1,2.45") + wall("10,10,0.1", "0,0,-0.4", 0.8, 0.2) + "</scene>"));
 }
 
 MeanAndError renderRoom(PhotonRule rule) {
@@ -222,6 +247,27 @@ TEST(GuidedMean, ARoomOfAFurnaceIsAsBrightAsItsSky) {
         const MeanAndError wrong = renderRoom(rule);
         EXPECT_FALSE(isOne(wrong)) << "negative control " << static_cast<int>(rule) << ": " << wrong.mean << " +- "
                                    << wrong.standardError;
+    }
+}
+
+// At single points paths are few, and all that comes from the sky goes through these points: as openings they would take
+// nearly all photons, which bring nothing.
+TEST(GuidedMean, PointsOfAMeterHaveTheirLight) {
+    std::string points;
+    for (const char* place : {"1.2,2.2,0.8", "2.9,2.6,0.8", "3.2,0.7,1.6"})
+        points += std::string("<?quasilux illuminance-grid origin=\"") + place +
+                  "\" edge-u=\"0.1,0,0\" edge-v=\"0,0.1,0\" nx=\"1\" ny=\"1\"?>";
+    const Scene scene = furnaceRoom(points);
+    RenderSettings settings;
+    settings.emission = Emission::guided;
+    settings.photonsPerPass = 16'000;
+    Renderer renderer(testDevice(), scene, settings);
+    for (unsigned pass = 0; pass < 48; ++pass) renderer.renderPass(pass);
+    EXPECT_EQ(renderer.counters().clipped, 0u);
+    const FilmImage image = renderer.develop();
+    for (size_t k = 0; k < image.radiance.size(); ++k) {
+        EXPECT_NEAR(image.radiance[k], std::numbers::pi, 4 * image.standardError[k] + 0.005 * std::numbers::pi);
+        EXPECT_LT(image.standardError[k], 0.01 * std::numbers::pi) << "too noisy to decide anything";
     }
 }
 

@@ -208,18 +208,34 @@ RenderSettings pathTracing(SamplingRule rule = SamplingRule::right) {
     return settings;
 }
 
-/// Mean over the image, of ten batches with the choices of emitters that `change` makes of those learned.
+constexpr unsigned furnaceBatches = 10;
+
+/// What batches of the furnace learn, each by a seed of its own.
+const std::vector<std::shared_ptr<const LearnedScene>>& learnedOfBatches() {
+    static const auto all = [] {
+        const Scene scene = furnaceOfSquares();
+        std::vector<std::shared_ptr<const LearnedScene>> learned;
+        for (unsigned batch = 0; batch < furnaceBatches; ++batch) {
+            RenderSettings settings = furnaceSettings();
+            settings.seed = batch + 1;
+            learned.push_back(Renderer(testDevice(), scene, settings).learned());
+        }
+        return learned;
+    }();
+    return all;
+}
+
+/// Mean over the image, of the batches with the choices of emitters that `change` makes of those learned.
 template <typename Change>
 MeanAndError furnaceMean(const Change& change, RenderSettings settings = furnaceSettings()) {
     const Scene scene = furnaceOfSquares();
     std::vector<double> means;
-    for (unsigned batch = 0; batch < 10; ++batch) {
-        RenderSettings learning = furnaceSettings();
-        learning.seed = settings.seed = batch + 1;
-        LearnedScene learned = *Renderer(testDevice(), scene, learning).learned();
+    for (unsigned batch = 0; batch < furnaceBatches; ++batch) {
+        LearnedScene learned = *learnedOfBatches()[batch];
         EXPECT_FALSE(learned.tables.lights.empty());
         EXPECT_EQ(learned.tables.lights.size(), learned.tables.laterLights.size());
         change(learned.tables);
+        settings.seed = batch + 1;
         Renderer renderer(testDevice(), scene, settings, std::make_shared<const LearnedScene>(learned));
         for (unsigned pass = 0; pass < 4; ++pass) renderer.renderPass(pass);
         const auto image = renderer.develop();

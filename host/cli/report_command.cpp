@@ -6,6 +6,7 @@
 #include "cli/text_table.h"
 #include "output/atomic_file.h"
 #include "output/progress_line.h"
+#include "report/decisive_points.h"
 #include "report/figure_text.h"
 #include "report/report_page.h"
 #include "util/messages.h"
@@ -100,17 +101,27 @@ private:
     /// Without lamps there is nothing that glares by night.
     std::vector<Observer> observers() const { return hasLamps() ? scene_.observers : std::vector<Observer>{}; }
 
-    /// `isEnough` is asked after each pass.
-    AutoRender render(const Scene& scene, double share, RenderedPart& part, const Enough& isEnough) {
-        const double begun = seconds(), budget = std::max(0.0, options_.seconds - begun) * share / sharesLeft_;
+    /// When a part with this share ends that begins now, in seconds().
+    double endOf(double share) {
+        const double now = seconds(), end = now + std::max(0.0, options_.seconds - now) * share / sharesLeft_;
         sharesLeft_ = std::max(sharesLeft_ - share, 1e-9);
+        return end;
+    }
+
+    uint64_t seed() const { return options_.settings(scene_).seed; }
+
+    /// Until `end`; `isEnough` is asked after each pass.
+    AutoRender render(const Scene& scene, double end, RenderedPart& part, const Enough& isEnough,
+                      std::optional<uint64_t> otherSeed = {}) {
+        const double begun = seconds();
         RenderOptions options;
         static_cast<SceneOptions&>(options) = options_;
+        if (otherSeed) options.seed = otherSeed;
         // A search wants to know its time; others end by `isEnough` or when the time is over, though not before there
         // is an error.
         const bool endsByTime = scene.sensor.meter == MeterKind::none;
         if (endsByTime)
-            options.stop.seconds = std::max(budget, 1e-3);
+            options.stop.seconds = std::max(end - begun, 1e-3);
         else
             options.stop.passes = manyPasses;
         std::atomic<bool> ends = false;
@@ -124,7 +135,7 @@ private:
         catchInterrupt();
         const auto afterPass = [&](const AutoRender&, const Renderer& renderer, double, bool) {
             if (renderer.counters().passes == 0) return;
-            const bool isLate = seconds() > begun + budget && renderer.counters().passes >= fewestBatches;
+            const bool isLate = seconds() > end && renderer.counters().passes >= fewestBatches;
             if (isEnough(renderer) || isLate || isInterrupted()) ends = true;
         };
         AutoRender result = started.render(onProgress, {}, ends, afterPass);
@@ -138,42 +149,79 @@ private:
     }
 
     /// Adds each pass to the readings until `isKnown` says so.
-    void measure(const Scene& scene, double share, RenderedPart& part, BatchedReadings& readings,
-                 const std::function<bool()>& isKnown) {
+    void measure(const Scene& scene, double end, RenderedPart& part, BatchedReadings& readings,
+                 const std::function<bool()>& isKnown, std::optional<uint64_t> otherSeed = {}) {
         double look = firstLook;
-        const AutoRender result = render(scene, share, part, [&](const Renderer& renderer) {
-            readings.add(renderer.develop());
-            if (readings.passes() < look) return false;
-            look = nextLook * readings.passes();
-            return isKnown();
-        });
+        const AutoRender result = render(
+            scene, end, part,
+            [&](const Renderer& renderer) {
+                readings.add(renderer.develop());
+                if (readings.passes() < look) return false;
+                look = nextLook * readings.passes();
+                return isKnown();
+            },
+            otherSeed);
         noteSettings(result, "of figures");
     }
 
-    /// All together: they share photons.
+    /// All together: they share photons. Then points that may be the darkest or brightest again, where that is less work
+    /// than to go on with all.
     void measureOwnGrids() {
         Scene scene = scene_;
         useGridsAsSensor(scene);
-        const std::vector<PixelRange> ranges = rangesOf(scene.grids);
-        BatchedReadings readings(photometric_);
-        RenderedPart rendered;
-        measure(scene, gridShare, rendered, readings, [&] {
-            return std::all_of(ranges.begin(), ranges.end(), [&](const PixelRange& range) {
-                return areKnown(normFigures(readings, range), options_.precision);
-            });
+        MeasuredGrids measured(photometric_);
+        measured.ranges = rangesOf(scene.grids);
+        const double end = endOf(gridShare);
+        std::optional<std::vector<DecisivePoints>> decisive;
+        const auto areAllKnown = [&] {
+            for (size_t k = 0; k < measured.ranges.size(); ++k)
+                if (!areKnown(measured.figures(k), options_.precision)) return false;
+            return true;
+        };
+        measure(scene, end, measured.rendered, measured.readings, [&] {
+            if (areAllKnown()) return true;
+            decisive = decisivePoints(measured.readings, measured.ranges, options_.precision);
+            return decisive.has_value();
         });
-        for (size_t k = 0; k < ranges.size(); ++k)
-            content_.grids.push_back(gridPart(scene.grids, k, ranges, rendered, readings));
+        if (decisive && !isInterrupted() && seconds() < end) {
+            Scene points = scene_;
+            points.grids = gridsOf(scene.grids, *decisive);
+            useGridsAsSensor(points);
+            measured.extremeRanges = extremeRanges(*decisive);
+            measure(points, end, measured.again, measured.extremes, areAllKnown, ~seed()); // independent of the others
+        }
+        for (size_t k = 0; k < measured.ranges.size(); ++k)
+            content_.grids.push_back(gridPart(scene.grids, k, measured));
     }
 
-    static GridPart gridPart(const std::vector<IlluminanceGrid>& grids, size_t k, const std::vector<PixelRange>& ranges,
-                             const RenderedPart& rendered, const BatchedReadings& readings) {
+    struct MeasuredGrids {
+        explicit MeasuredGrids(bool photometric) : readings(photometric), extremes(photometric) {}
+
+        std::vector<PixelRange> ranges;
+        RenderedPart rendered, again;
+        BatchedReadings readings, extremes;       ///< `extremes`: of points that may be extreme, measured again
+        std::vector<ExtremeRanges> extremeRanges; ///< empty: none were
+
+        bool isAgain() const { return extremes.passes() >= fewestBatches; }
+        NormFigures figures(size_t k) const {
+            return isAgain() ? normFigures(readings, ranges[k], extremes, extremeRanges[k])
+                             : normFigures(readings, ranges[k]);
+        }
+    };
+
+    static GridPart gridPart(const std::vector<IlluminanceGrid>& grids, size_t k, const MeasuredGrids& measured) {
+        const auto& ranges = measured.ranges;
+        const auto& readings = measured.readings;
         const IlluminanceGrid& grid = grids[k];
         GridPart part;
-        static_cast<RenderedPart&>(part) = rendered;
+        static_cast<RenderedPart&>(part) = measured.rendered;
+        if (measured.isAgain()) {
+            part.again = measured.again;
+            part.pointsAgain = measured.extremeRanges[k].least.count + measured.extremeRanges[k].largest.count;
+        }
         part.name = grid.name;
         part.isCylindrical = grid.kind == IlluminanceKind::cylindrical;
-        part.figures = normFigures(readings, ranges[k]);
+        part.figures = measured.figures(k);
         const auto means = readings.means();
         const auto first = means.begin() + static_cast<std::ptrdiff_t>(ranges[k].first);
         part.values = {grid.nx,
@@ -198,7 +246,7 @@ private:
             Scene scene = scene_;
             measureAtEye(scene, observer, EyeLight::direct);
             // Less than the noise of the rest.
-            measure(scene, directShare, part, direct, [&] {
+            measure(scene, endOf(directShare), part, direct, [&] {
                 return direct.figure([](const auto& points) { return points.front(); }).relativeHalfWidth() <
                        directNoise * options_.precision;
             });
@@ -206,7 +254,7 @@ private:
         const RenderedPart ofDirect = part;
         Scene scene = scene_;
         measureAtEye(scene, observer, EyeLight::all);
-        measure(scene, observerShare, part, all,
+        measure(scene, endOf(observerShare), part, all,
                 [&] { return isKnown(observerFigures(observer, sources, direct, all), options_.precision); });
         part.seconds += ofDirect.seconds;
         part.figures = observerFigures(observer, sources, direct, all);
@@ -217,7 +265,7 @@ private:
     void takePicture() {
         if (isInterrupted()) return;
         PicturePart part;
-        const AutoRender result = render(scene_, pictureShare, part, [](const Renderer&) { return false; });
+        const AutoRender result = render(scene_, endOf(pictureShare), part, [](const Renderer&) { return false; });
         const FilmImage& image = result.image;
         part.luminance = luminanceImage(image.width, image.height, image.radiance, image.standardError, photometric_);
         part.toneMapped = toneMap(image, chooseToneCurve(image, {}));
@@ -235,7 +283,7 @@ private:
         };
         note("device", device_.info().name);
         note("units of radiance", photometric_ ? "cd/m²" : "W sr⁻¹ m⁻², 683 lm/W");
-        note("seed", std::to_string(chosen.seed));
+        note("seed", std::to_string(seed()));
         note("method " + what,
              fmt::format("{}, BDD {}, quasi-specular {}, direct light by {}, {} photons a pass", name(chosen.variant),
                          chosen.bdd, chosen.quasiSpecular, name(chosen.direct), render.report.photonsPerPass));

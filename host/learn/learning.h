@@ -53,7 +53,8 @@ struct LearnedScene {
 
 class Learning {
 public:
-    /// `program` has kernels/importance_paths.cl and importance_records.cl; `params` as camera paths have them.
+    /// `program` has kernels/importance_paths.cl, importance_records.cl and importance_cells.cl; `params` as camera
+    /// paths have them.
     Learning(Device& device, const Program& program, DeviceScene& scene, SceneBuffers buffers,
              const shared::CameraParams& params);
 

@@ -23,7 +23,7 @@ constexpr int refinements = 4;          // of the best place
 constexpr double margin = 1.25;         // of an opening's region to what its rays come through
 constexpr double aroundBall = 2.5;      // radii of a ball within which rays may come through the same opening
 constexpr int rectangleFits = 2;        // the second one to rays about the first
-constexpr double nearestOpening = 1e-3; // to where rays begin, relative to coordinates
+constexpr double nearestOpening = 1e-3; // to where rays begin, or from outside end, relative to coordinates
 constexpr double leastSlope = 0.1;      // of rays on a rectangle: flatter ones say too much of it
 constexpr double leastBeyond = 0.1;     // behind a rectangle, to its size: nearer rays end at it
 // Shares of the weight that bounds leave out on either side: where all rays come through the opening, and where some do
@@ -73,10 +73,9 @@ struct Ball {
 // Probability with which a ray passes a ball by chance. All rays of a point pass it, however small a ball; but so near a
 // ray's beginning kernels, which compute in floats, could not tell where it passes.
 double byChance(const UsefulRay& ray, const glm::dvec3& centre, double r, double radius) {
-    if (!ray.isScattered) return std::min(1.0, r * r / (radius * radius));
     const double away = glm::distance(centre, ray.position);
     if (away <= nearestOpening * (glm::length(centre) + glm::length(ray.position))) return 1;
-    return std::min(1.0, r * r / (4 * away * away));
+    return std::min(1.0, r * r / (ray.isScattered ? 4 * away * away : radius * radius));
 }
 
 // The best radius about a place.

@@ -12,7 +12,7 @@ namespace quasilux {
 struct UsefulRay {
     glm::dvec3 position{}, direction{}; ///< direction is of unit length
     double weight = 0;
-    /// Begins at `position`, where its light is scattered into all directions; or else comes from outside
+    /// Begins at `position`, where its light is scattered into all directions; or else comes from outside and ends there
     bool isScattered = false;
     double length = std::numeric_limits<double>::infinity(); ///< from `position` to where it arrives
 };

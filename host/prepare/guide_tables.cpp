@@ -4,6 +4,7 @@
 #include "prepare/pack.h"
 #include "scene/color.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -11,6 +12,11 @@
 namespace quasilux {
 
 namespace {
+
+// The flux of stored photons has a range (kernels/packed_flux.clh). Photons that carry too much for it would be cut, and
+// their light be missing, so most of them must not be so light that heavy ones are out of it: of light ones too little
+// for it one in a few carries what the others lack.
+constexpr double heaviestToTypical = 0x1p18;
 
 // Of a photon by even numbers, times the number of photons.
 double fluxOf(const EmitterTables& emitters, const shared::GuideSource& source) {
@@ -43,7 +49,7 @@ double GuideBox::volume() const {
 GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::GuideSource> sources,
                             const std::vector<SourceBox>& boxes) {
     GuideTables tables;
-    double all = 0, cdf = 0, logFlux = 0;
+    double all = 0, cdf = 0, logFlux = 0, heaviest = 0;
     for (const auto& [source, box] : boxes) all += box.probability;
     for (const auto& [source, box] : boxes) {
         const double probability = box.probability / all, weight = box.volume() / probability;
@@ -57,10 +63,12 @@ GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::G
             leaf.size[d] = static_cast<float>(box.size[d]);
         }
         tables.leaves.push_back(leaf);
-        logFlux += probability * std::log(weight * fluxOf(emitters, sources[source]));
+        const double flux = weight * fluxOf(emitters, sources[source]);
+        logFlux += probability * std::log(flux);
+        heaviest = std::max(heaviest, flux);
     }
     if (!tables.leaves.empty()) tables.leaves.back().cdf = 1;
-    tables.typicalFlux = std::exp(logFlux);
+    tables.typicalFlux = std::max(std::exp(logFlux), heaviest / heaviestToTypical);
     tables.sources = std::move(sources);
     return tables;
 }

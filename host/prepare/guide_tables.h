@@ -24,8 +24,10 @@ struct GuideBox {
 struct GuideTables {
     std::vector<shared::GuideSource> sources;
     std::vector<shared::GuideLeaf> leaves;
-    bool isGuided = false;  ///< or else photons begin in proportion to power alone
-    double typicalFlux = 0; ///< of a photon, times the number of photons, W: the geometric mean over photons
+    bool isGuided = false; ///< or else photons begin in proportion to power alone
+    /// Of a photon, times the number of photons, W: the geometric mean over photons, but no less than leaves the heaviest
+    /// ones within the range of stored flux.
+    double typicalFlux = 0;
 };
 
 /// Boxes with their sources, which together fill every emitter's cube; only the ratios of their probabilities count.

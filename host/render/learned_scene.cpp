@@ -56,7 +56,7 @@ LearnedScene learnScene(Device& device, const Program& program, const Scene& sce
     Learning learning(device, program, flat, SceneBuffers{geometry.nodes, geometry.blocks, geometry.tables},
                       cameraParams(flat, settings, QL_NONE));
     learning.followImportance(mayTakeDirectFromPhotons(flat.features, settings));
-    if (settings.map == MapOrder::photons && flat.offsets.meter.kind == METER_NONE)
+    if (settings.map == MapOrder::photons)
         learning.traceRounds([&](unsigned round) {
             return tracePhotonRound(device, program, geometry, photonParams(scene, flat, settings), round);
         });

@@ -12,7 +12,7 @@ Program passProgram(Device& device, MapOrder map, const DeviceScene& scene, cons
                     const std::string& further, const std::map<std::string, std::string>& extra) {
     Program program(device, map == MapOrder::camera ? "camera_map_pass.cl" : "photon_map_pass.cl",
                     kernelOptions(scene, settings) + further, extra);
-    program.add("record_sort.cl", "");
+    program.add("every_scene.cl", "");
     if (adaptsRadius(scene.features, settings))
         program.add("adaptive_radius.cl", radiusOptions(compiledClasses(scene.features, settings)));
     return program;

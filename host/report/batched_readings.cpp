@@ -84,6 +84,21 @@ std::pair<BatchedReadings::Points, BatchedReadings::Points> BatchedReadings::hal
     return {meansOf(parts[0].sums, parts[0].passes), meansOf(parts[1].sums, parts[1].passes)};
 }
 
+BatchedReadings::Points BatchedReadings::standardErrors() const {
+    const auto n = static_cast<double>(batches_.size());
+    Points sums(sums_.size()), squares(sums_.size());
+    for (const Batch& batch : batches_)
+        for (size_t k = 0; k < sums.size(); ++k) {
+            const double mean = batch.sums[k] / batch.passes;
+            sums[k] += mean;
+            squares[k] += mean * mean;
+        }
+    Points errors(sums.size());
+    for (size_t k = 0; k < sums.size(); ++k)
+        errors[k] = std::sqrt(std::max(squares[k] - sums[k] * sums[k] / n, 0.0) / (n * (n - 1)));
+    return errors;
+}
+
 Figure BatchedReadings::figure(const Rule& rule) const {
     Figure figure;
     if (passes_ == 0) return {std::nan(""), std::nan("")};

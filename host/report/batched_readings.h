@@ -39,6 +39,8 @@ public:
 
     unsigned passes() const { return passes_; }
     Points means() const { return meansOf(sums_, passes_); }
+    /// Of each point's mean, from the batches; there must be two.
+    Points standardErrors() const;
     /// Of every other batch, and of the rest; nothing is left out but what is no whole batch yet.
     std::pair<Points, Points> halves() const;
     Figure figure(const Rule& rule) const;

@@ -52,7 +52,10 @@ nlohmann::json gridJson(const GridPart& part) {
             {"U0", figureJson(part.figures.overall)},
             {"Ud", figureJson(part.figures.diversity)},
             {"passes", part.passes},
-            {"seconds", part.seconds}};
+            {"seconds", part.seconds},
+            {"pointsAgain", part.pointsAgain},
+            {"passesAgain", part.again.passes},
+            {"secondsAgain", part.again.seconds}};
 }
 
 nlohmann::json observerJson(const ObserverPart& part) {

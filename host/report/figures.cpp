@@ -24,18 +24,17 @@ Points partOf(const Points& points, PixelRange range) {
     return {first, first + static_cast<std::ptrdiff_t>(range.count)};
 }
 
-/// The point that one half of the passes says is extreme, by the other half, and the other way round: the mean of both
-/// is that of a real point, so it is no less than the minimum of the true values, and no more than the maximum.
-struct Crossed {
-    double least, largest;
-};
-Crossed crossed(const BatchedReadings& readings, PixelRange range) {
+/// The point that one half of the passes says is least (of `sign` times the values), by the other half, and the other
+/// way round: the mean of both is that of a real point, so a least one is no less than the minimum of the true values.
+double crossed(const BatchedReadings& readings, PixelRange range, double sign) {
     const auto halves = readings.halves();
     const Points a = partOf(halves.first, range), b = partOf(halves.second, range);
-    const auto placeOf = [](const Points& points, auto place) { return static_cast<size_t>(place - points.begin()); };
-    const auto least = [&](const Points& by) { return placeOf(by, std::min_element(by.begin(), by.end())); };
-    const auto largest = [&](const Points& by) { return placeOf(by, std::max_element(by.begin(), by.end())); };
-    return {(b[least(a)] + a[least(b)]) / 2, (b[largest(a)] + a[largest(b)]) / 2};
+    const auto placeOfLeast = [&](const Points& points) {
+        return static_cast<size_t>(
+            std::min_element(points.begin(), points.end(), [&](double x, double y) { return sign * x < sign * y; }) -
+            points.begin());
+    };
+    return (b[placeOfLeast(a)] + a[placeOfLeast(b)]) / 2;
 }
 
 // From the lamp to the eye (Scene::maxDepth).
@@ -48,21 +47,70 @@ Figure difference(const Figure& a, const Figure& b) {
 
 } // namespace
 
-NormFigures normFigures(const BatchedReadings& readings, PixelRange range) {
-    const auto figure = [&](const BatchedReadings::Rule& rule) {
-        return readings.figure([&](const Points& points) { return rule(partOf(points, range)); });
+namespace {
+
+/// Readings of all points of a grid and, where there are any, others of those that may be extreme.
+struct GridReadings {
+    struct Extreme {
+        const BatchedReadings& readings;
+        PixelRange range;
+        bool isOwn; ///< of other readings than the mean
     };
-    NormFigures found{figure(meanOf), figure(leastOf), figure(largestOf),
-                      figure([](const Points& p) { return leastOf(p) / meanOf(p); }),
-                      figure([](const Points& p) { return leastOf(p) / largestOf(p); })};
-    if (!found.mean.isKnown()) return found;
-    const Crossed real = crossed(readings, range);
-    found.minimum.bias = std::max(0.0, real.least - found.minimum.value);
-    found.maximum.bias = std::min(0.0, real.largest - found.maximum.value);
+    const BatchedReadings& all;
+    PixelRange range;
+    Extreme least, largest;
+
+    /// What `rule` makes of the grid's points and of those that may be least and largest. Of independent readings the
+    /// errors add up: each is the jackknife's with the means of the others.
+    template <typename Rule>
+    Figure figure(const Rule& rule) const {
+        const auto with = [&](const Points& points, const Points& ofExtremes) {
+            return rule(partOf(points, range), partOf(least.isOwn ? ofExtremes : points, least.range),
+                        partOf(largest.isOwn ? ofExtremes : points, largest.range));
+        };
+        if (!least.isOwn && !largest.isOwn) return all.figure([&](const Points& points) { return with(points, {}); });
+        const BatchedReadings& other = least.isOwn ? least.readings : largest.readings;
+        const Points means = all.means(), extremes = other.means();
+        const Figure a = all.figure([&](const Points&points) { return with(points, extremes); }),
+                     b = other.figure([&](const Points&points) { return with(means, points); });
+        return {a.value, std::hypot(a.standardError, b.standardError), std::min(a.batches, b.batches)};
+    }
+};
+
+NormFigures normFigures(const GridReadings& grid) {
+    const auto figure = [&](const auto& rule) { return grid.figure(rule); };
+    NormFigures found{
+        figure([](const Points& all, const Points&, const Points&) { return meanOf(all); }),
+        figure([](const Points&, const Points& least, const Points&) { return leastOf(least); }),
+        figure([](const Points&, const Points&, const Points& largest) { return largestOf(largest); }),
+        figure([](const Points& all, const Points& least, const Points&) { return leastOf(least) / meanOf(all); }),
+        figure([](const Points&, const Points& least, const Points& largest) {
+            return leastOf(least) / largestOf(largest);
+        })};
+    if (!found.mean.isKnown() || !found.diversity.isKnown()) return found;
+    const double least = crossed(grid.least.readings, grid.least.range, 1),
+                 largest = crossed(grid.largest.readings, grid.largest.range, -1);
+    found.minimum.bias = std::max(0.0, least - found.minimum.value);
+    found.maximum.bias = std::min(0.0, largest - found.maximum.value);
     found.overall.bias = found.minimum.bias / found.mean.value;
     found.diversity.bias =
         (found.minimum.value + found.minimum.bias) / (found.maximum.value + found.maximum.bias) - found.diversity.value;
     return found;
+}
+
+} // namespace
+
+NormFigures normFigures(const BatchedReadings& readings, PixelRange range) {
+    return normFigures({readings, range, {readings, range, false}, {readings, range, false}});
+}
+
+NormFigures normFigures(const BatchedReadings& readings, PixelRange range, const BatchedReadings& extremes,
+                        const ExtremeRanges& extremeRanges) {
+    const auto extreme = [&](PixelRange own) -> GridReadings::Extreme {
+        if (own.count == 0) return {readings, range, false};
+        return {extremes, own, true};
+    };
+    return normFigures({readings, range, extreme(extremeRanges.least), extreme(extremeRanges.largest)});
 }
 
 Figure ratioOfMeans(const BatchedReadings& readings, PixelRange over, PixelRange under) {

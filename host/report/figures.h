@@ -16,6 +16,15 @@ struct NormFigures {
 };
 /// Of some of the points.
 NormFigures normFigures(const BatchedReadings& readings, PixelRange range);
+
+/// Points that may be the darkest and the brightest of a grid; none: all of the grid's may.
+struct ExtremeRanges {
+    PixelRange least, largest;
+};
+/// The same with the extremes of other, independent readings, which have these points.
+NormFigures normFigures(const BatchedReadings& readings, PixelRange range, const BatchedReadings& extremes,
+                        const ExtremeRanges& extremeRanges);
+
 /// Ratio of the means of two grids.
 Figure ratioOfMeans(const BatchedReadings& readings, PixelRange over, PixelRange under);
 

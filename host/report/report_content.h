@@ -22,6 +22,8 @@ struct GridPart : RenderedPart {
     bool isCylindrical = false;
     GridValues values;
     NormFigures figures;
+    RenderedPart again; ///< of the points that may be the darkest or brightest
+    size_t pointsAgain = 0;
     std::optional<Figure> modelling; ///< cylindrical over horizontal illuminance of the same points, ratio of the means
 };
 

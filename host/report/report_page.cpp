@@ -78,13 +78,22 @@ std::string pictures(const PicturePart& part) {
     return out + "</section>\n";
 }
 
+std::string pointsAgain(const GridPart& part) {
+    if (part.pointsAgain == 0) return "";
+    return fmt::format(
+        " The {} points that may be the darkest or brightest were measured once more for the minimum, the "
+        "maximum and their ratios: {} passes of all such points, {:.1f} s.",
+        part.pointsAgain, part.again.passes, part.again.seconds);
+}
+
 std::string grid(const GridPart& part, bool isAlone) {
     const ValueScale scale = scaleOfGrid(part.values, false);
     return fmt::format("<section><h2>{}{}</h2>\n", part.isCylindrical ? "Cylindrical illuminance" : "Illuminance",
                        isAlone ? "" : ": " + htmlEscaped(part.name)) +
            figure(isoluxDrawing(part.values, {ColourMap::viridis, scale}, {}, "isolux lines"),
                   "isolux lines; numbers: illuminance of the points in lx") +
-           paragraph(fmt::format("{} passes, {:.1f} s.", part.passes, part.seconds)) + "</section>\n";
+           paragraph(fmt::format("{} passes, {:.1f} s.", part.passes, part.seconds) + pointsAgain(part)) +
+           "</section>\n";
 }
 
 std::string sourceTable(const GlareSources& sources) {

@@ -34,7 +34,7 @@ PhotonIndex indexPhotons(const std::vector<TracedPhoton>& photons, const PhotonI
     PhotonIndex index;
     index.photons = photons.size();
     Program program(device, "photon_map.cl", photonIndexOptions(settings));
-    program.add("record_sort.cl", "");
+    program.add("every_scene.cl", "");
     CellTable table(device, program, settings.classes, 1, "photon");
     table.make(settings.cells, settings.regions, settings.parts);
     shared::MapParams& map = table.map();

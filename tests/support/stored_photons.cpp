@@ -31,7 +31,7 @@ StoredPasses tracePhotons(const DeviceScene& flat, const RenderSettings& setting
     shared::PhotonParams params{};
     params.seedLow = tracing.seed;
     params.paths = tracing.paths;
-    params.perFluxUnit = 1 / fluxUnit(flat.emittedFlux, params.paths);
+    params.perFluxUnit = 1 / fluxUnit(flat, params.paths);
     params.maxDepth = QL_NONE;
     params.scene = flat.offsets;
     const Program program =

@@ -14,7 +14,7 @@ std::string microPhotonOptions();
 
 inline Program microProgram(Device& device) {
     Program program(device, "photon_map.cl", microPhotonOptions());
-    program.add("record_sort.cl", "");
+    program.add("every_scene.cl", "");
     return program;
 }
 
