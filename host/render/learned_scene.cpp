@@ -56,7 +56,8 @@ LearnedScene learnScene(Device& device, const Program& program, const Scene& sce
     Learning learning(device, program, flat, SceneBuffers{geometry.nodes, geometry.blocks, geometry.tables},
                       cameraParams(flat, settings, QL_NONE));
     learning.followImportance(mayTakeDirectFromPhotons(flat.features, settings));
-    if (settings.map == MapOrder::photons)
+    // Rounds know photons by what camera paths gather, not by what a meter counts itself.
+    if (settings.map == MapOrder::photons && !meterCountsPhotons(flat.features, settings))
         learning.traceRounds([&](unsigned round) {
             return tracePhotonRound(device, program, geometry, photonParams(scene, flat, settings), round);
         });
