@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 
 namespace quasilux {
 
@@ -121,6 +122,12 @@ CLI::Validator oneOf(std::vector<std::string> names) {
             return fmt::format("unknown value '{}', {}", text, expectedNames(text, names));
         },
         "", known);
+}
+
+CLI::Option* optionOf(CLI::App& command, const std::string& name) {
+    for (CLI::Option* option : command.get_options())
+        if (option->check_name(name)) return option;
+    throw std::logic_error("no option " + name);
 }
 
 std::vector<std::string> choicesOf(CLI::Option& option) {

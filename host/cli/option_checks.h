@@ -1,4 +1,4 @@
-// Checks of option values whose messages say what was expected.
+// Checks of options whose messages say what was expected.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -25,6 +25,8 @@ bool isHostAndPort(const std::string& text);
 CLI::Validator oneOf(std::vector<std::string> names);
 /// The names of that one; empty for an option without it.
 std::vector<std::string> choicesOf(CLI::Option& option);
+/// The option of this name, which there must be. (App::get_option ends the program where memory fails.)
+CLI::Option* optionOf(CLI::App& command, const std::string& name);
 /// parseDeviceList() knows it.
 CLI::Validator deviceList();
 /// "name=value" with a name.

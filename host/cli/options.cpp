@@ -98,11 +98,11 @@ void declareTev(CLI::App& command, RenderOptions& options) {
 // What has one terminal or one page for itself.
 void excludeEachOther(CLI::App& render) {
     for (const char* name : {"--watch", "--view", "--show", "--resume"})
-        render.get_option("--jobs")->excludes(render.get_option(name));
+        optionOf(render, "--jobs")->excludes(optionOf(render, name));
     // A checkpoint is of one render, and that of the scene before would be in the way of the next.
     for (const char* name : {"--view", "--resume", "--checkpoint"})
-        render.get_option("--watch")->excludes(render.get_option(name));
-    render.get_option("--show")->excludes(render.get_option("--json"));
+        optionOf(render, "--watch")->excludes(optionOf(render, name));
+    optionOf(render, "--show")->excludes(optionOf(render, "--json"));
 }
 
 void declareCheckpoints(CLI::App& command, RenderOptions& options) {
@@ -130,7 +130,7 @@ void declareCheckpoints(CLI::App& command, RenderOptions& options) {
 
 // Of one image; other commands take one device.
 void declareDevices(CLI::App& command, RenderOptions& options) {
-    command.remove_option(command.get_option("--device"));
+    command.remove_option(optionOf(command, "--device"));
     const char* group = "Device";
     command
         .add_option("--device", options.devices,
@@ -321,7 +321,7 @@ void declareRenderCommand(CLI::App& app, RenderOptions& options) {
     declareView(render, options);
     declareTev(render, options);
     excludeEachOther(render);
-    for (const char* name : {"--listen", "--port", "--no-browser"}) render.get_option(name)->needs(viewed);
+    for (const char* name : {"--listen", "--port", "--no-browser"}) optionOf(render, name)->needs(viewed);
 }
 
 void declareViewCommand(CLI::App& app, RenderOptions& options) {
@@ -333,12 +333,12 @@ void declareViewCommand(CLI::App& app, RenderOptions& options) {
     declareStop(view, options.stop, "none; 600 with --auto if no stop rule is given");
     declareSettings(view, options);
     declareDevice(view, options);
-    for (const char* ofFiles : {"--json", "--energy-balance"}) view.remove_option(view.get_option(ofFiles));
-    view.get_option("--quiet")->description(
-        "No progress and no warnings on the terminal; errors are still printed (default: off)");
-    view.get_option("--auto")->description(
-        "Search the settings first, once, as render does; only then there is a picture (default: off)");
-    view.get_option("--fixed")->description("Search nothing (default: on, but for --auto)");
+    for (const char* ofFiles : {"--json", "--energy-balance"}) view.remove_option(optionOf(view, ofFiles));
+    optionOf(view, "--quiet")
+        ->description("No progress and no warnings on the terminal; errors are still printed (default: off)");
+    optionOf(view, "--auto")
+        ->description("Search the settings first, once, as render does; only then there is a picture (default: off)");
+    optionOf(view, "--fixed")->description("Search nothing (default: on, but for --auto)");
 }
 
 } // namespace

@@ -26,7 +26,7 @@ void declareReport(CLI::App& app, ReportOptions& options) {
         ->check(numberAbove(0, 1));
     declareSettings(command, options);
     declareDevice(command, options);
-    for (const char* ofFiles : {"--energy-balance", "--without"}) command.remove_option(command.get_option(ofFiles));
+    for (const char* ofFiles : {"--energy-balance", "--without"}) command.remove_option(optionOf(command, ofFiles));
 }
 
 } // namespace quasilux

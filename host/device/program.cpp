@@ -164,7 +164,9 @@ cl::Program build(Device& device, const std::string& file, const std::string& op
 } // namespace
 
 Program::Program(Device& device, const std::string& file, const std::string& options, const Sources& extra)
-    : device_(&device), files_(file), programs_{build(device, file, options, extra)} {}
+    : device_(&device), files_(file) {
+    programs_.push_back(build(device, file, options, extra)); // moved: a copy is a call that may fail
+}
 
 void Program::add(const std::string& file, const std::string& options) {
     programs_.push_back(build(*device_, file, options, {}));
