@@ -62,9 +62,9 @@ protected:
         return {report.at("deviceBytes"), report.at("hostPeakBytes")};
     }
 
-    /// Has the kernels of a render compiled.
+    /// Has the kernels of a render and its statistics compiled.
     void compile(Arguments arguments) const {
-        arguments.insert(arguments.end(), {"--json", "--quiet", "--passes", "1"});
+        arguments.insert(arguments.end(), {"--json", "--quiet", "--passes", "1", "--stats", "stats.json"});
         runJson(arguments, "render");
     }
 
