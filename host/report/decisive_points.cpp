@@ -67,8 +67,8 @@ std::vector<IlluminanceGrid> gridsOf(const std::vector<IlluminanceGrid>& grids,
             IlluminanceGrid point = grid;
             point.edgeU = grid.edgeU / double(grid.nx);
             point.edgeV = grid.edgeV / double(grid.ny);
-            point.origin =
-                grid.origin + double(number % grid.nx) * point.edgeU + double(number / grid.nx) * point.edgeV;
+            const size_t column = number % grid.nx, row = number / grid.nx;
+            point.origin = grid.origin + double(column) * point.edgeU + double(row) * point.edgeV;
             point.nx = point.ny = 1;
             points.push_back(point);
         }

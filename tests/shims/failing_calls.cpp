@@ -159,9 +159,17 @@ struct ProgramCode {
     }
 };
 
+// Before, libraries make their globals, whose strings may take functions of the program's: nobody can catch what fails.
+std::atomic<bool> isMainRunning = false;
+int (*mainOfProgram)(int, char**, char**) = nullptr;
+int runMain(int argc, char** argv, char** environment) {
+    isMainRunning = true;
+    return mainOfProgram(argc, argv, environment);
+}
+
 void* allocate(size_t bytes, size_t alignment, const void* caller) {
     static const ProgramCode code;
-    if (code.holds(caller) && fails(indexOf("new"))) throw std::bad_alloc();
+    if (isMainRunning && code.holds(caller) && fails(indexOf("new"))) throw std::bad_alloc();
     void* const memory = alignment > 0 ? std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)
                                        : std::malloc(bytes > 0 ? bytes : 1);
     if (memory == nullptr) throw std::bad_alloc();
@@ -191,6 +199,13 @@ void* operator new[](size_t bytes, std::align_val_t alignment) {
 }
 
 extern "C" {
+
+int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(), void (*end)(),
+                      void (*endOfLoader)(), void* stackEnd) {
+    mainOfProgram = main;
+    static auto* call = real<decltype(__libc_start_main)>("__libc_start_main");
+    return call(runMain, argc, argv, init, end, endOfLoader, stackEnd);
+}
 
 #define STATUS_CALL(name, error, parameters, arguments)                                                                \
     cl_int name parameters {                                                                                           \
