@@ -198,7 +198,7 @@ TEST(CameraMap, GivesTheSameBitsWhateverTheScheduling) {
     for (const auto& scene : {cornell(), thinSlab()}) {
         const auto settings = settingsOf(1, mainVariant, "level:0.1", byPhotons);
         const auto expected = render(scene, settings, MapOrder::camera).image;
-        for (const unsigned size : {64u, 1u, 7u}) {
+        for (const unsigned size : {64u, 1u, 7u, 256u}) {
             const auto image = render(scene, settings, MapOrder::camera, size).image;
             expectSameBits(expected.radiance, image.radiance);
             expectSameBits(expected.standardError, image.standardError);

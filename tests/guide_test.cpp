@@ -83,40 +83,37 @@ Sources inCorners(const EmitterTables& emitters) {
     return all;
 }
 
-// Nearly all photons go through two openings, some of them through both. `apart`: they know of each other.
-Sources throughOpenings(const EmitterTables& emitters, bool apart) {
-    Opening window{{0.2, 0.1, 0}, {1, 0, 0}, {0, 0.8, 0.6}, 0.4, 0.3}, facing{{-0.1, 0.2, 0.1}};
-    facing.halfU = facing.halfV = 0.25;
-    facing.faces = true;
+// Photons of each emitter go through these openings, `ofEach` of them, and the rest anyhow. `apart`: openings know of each
+// other.
+Sources through(const EmitterTables& emitters, const std::vector<Opening>& openings, double ofEach, double rest,
+                bool apart = true) {
     Sources all;
     for (unsigned e = 0; e < emitters.emitters.size(); ++e) {
         const auto first = static_cast<unsigned>(all.sources.size());
-        for (const auto& source :
-             {openingSource(e, first, window), openingSource(e, first, facing), plainSource(e, first)}) {
+        const auto add = [&](shared::GuideSource source, double probability) {
             SourceBox whole{static_cast<unsigned>(all.sources.size()), {}};
-            whole.box.probability = source.halfU > 0 ? 0.4 : 0.2;
+            whole.box.probability = probability;
+            if (!apart) source.first = whole.source;
             all.boxes.push_back(whole);
             all.sources.push_back(source);
-            if (!apart) all.sources.back().first = whole.source;
-        }
+        };
+        for (const Opening& opening : openings) add(openingSource(e, first, opening), ofEach);
+        add(plainSource(e, first), rest);
     }
     return all;
 }
 
+// Nearly all photons go through two openings, some of them through both.
+Sources throughOpenings(const EmitterTables& emitters, bool apart) {
+    Opening window{{0.2, 0.1, 0}, {1, 0, 0}, {0, 0.8, 0.6}, 0.4, 0.3}, facing{{-0.1, 0.2, 0.1}};
+    facing.halfU = facing.halfV = 0.25;
+    facing.faces = true;
+    return through(emitters, {window, facing}, 0.4, 0.2, apart);
+}
+
 // Nine of ten photons go through a pinhole, and carry a billionth of what the others do.
 Sources throughAPinhole(const EmitterTables& emitters) {
-    const Opening pinhole{{0.2, 0.1, 0}, {1, 0, 0}, {0, 0.8, 0.6}, 1e-5, 1e-5};
-    Sources all;
-    for (unsigned e = 0; e < emitters.emitters.size(); ++e) {
-        const auto first = static_cast<unsigned>(all.sources.size());
-        for (const auto& source : {openingSource(e, first, pinhole), plainSource(e, first)}) {
-            SourceBox whole{static_cast<unsigned>(all.sources.size()), {}};
-            whole.box.probability = source.halfU > 0 ? 0.9 : 0.1;
-            all.boxes.push_back(whole);
-            all.sources.push_back(source);
-        }
-    }
-    return all;
+    return through(emitters, {Opening{{0.2, 0.1, 0}, {1, 0, 0}, {0, 0.8, 0.6}, 1e-5, 1e-5}}, 0.9, 0.1);
 }
 
 // scenes/furnace_split.xml: flux by class is known (photon_trace_test.cpp). Difference in standard errors. `typical`:
