@@ -163,8 +163,7 @@ std::shared_ptr<const Features> featuresOfAll() {
     return shared;
 }
 
-MeanAndError measure(const Case& c, const std::string& split, const std::string& options = "") {
-    const Scene scene = sceneOf(c);
+MeanAndError measure(const Scene& scene, const std::string& split, const std::string& options = "") {
     RenderSettings settings;
     settings.quasiSpecular = split;
     settings.quasiSpecularOverridesScene = true;
@@ -174,6 +173,10 @@ MeanAndError measure(const Case& c, const std::string& split, const std::string&
     settings.controlOptions += options;
     const std::vector<int> group(size_t(scene.sensor.width) * scene.sensor.height, 0);
     return renderGroups(scene, settings, group, 20, 16).front();
+}
+
+MeanAndError measure(const Case& c, const std::string& split, const std::string& options = "") {
+    return measure(sceneOf(c), split, options);
 }
 
 class NearPoints : public testing::TestWithParam<Case> {};
@@ -223,6 +226,42 @@ TEST(NearPointsOfMany, BringWhatTheIntegralHas) {
     const auto result = measure(c, "all");
     EXPECT_NEAR(result.mean, truth, 4 * result.standardError + 0.003 * truth);
     EXPECT_LT(result.standardError, 0.015 * truth) << "too noisy to decide anything";
+}
+
+/// Whether one is near depends on which one the tree chooses; what a path draws after that, such as its flight, must not.
+/// Behind a mirror a ray passes fog that scatters nothing, half of the lamps being points near it, and meets an emitter: what
+/// comes of it is the transmittance.
+TEST(NearPointsOfMany, LeaveFurtherFlightsAlone) {
+    constexpr double extinction = 0.4;
+    std::string lamps;
+    for (int k = 0; k < 40; ++k) // of points, and as many that are none
+        lamps += fmt::format(R"(<emitter type="point"><point name="position" value="1,{0},-1"/></emitter>
+            <shape type="rectangle"><transform name="to_world"><scale value="0.02"/><rotate y="1" angle="90"/>
+            <translate x="-1" y="{1}" z="-1"/></transform><emitter type="area"><rgb name="radiance" value="20000"/></emitter>
+            </shape>)",
+                             0.1 + 0.002 * k, 0.05 * k - 1);
+    test::SceneFiles files;
+    const Scene scene = loadScene(files.write("scene.xml", fmt::format(
+                                                               R"(<scene version="3.0.0"><integrator type="volpath"/>
+        <sensor type="orthographic"><transform name="to_world"><scale x="1e-4" y="1e-4"/><translate x="0.1" z="-3"/></transform>
+        <film type="hdrfilm"><rfilter type="box"/><integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>
+        <shape type="sphere"><float name="radius" value="{}"/><bsdf type="null"/><medium name="interior" type="homogeneous">
+        <rgb name="sigma_t" value="{}"/><float name="albedo" value="1e-9"/></medium></shape>
+        <shape type="rectangle"><transform name="to_world"><scale value="0.2"/><rotate y="1" angle="135"/>
+        <translate x="0.1" z="-1"/></transform><bsdf type="conductor"><string name="material" value="none"/></bsdf></shape>
+        <shape type="rectangle"><transform name="to_world"><scale value="0.2"/><rotate y="1" angle="-90"/>
+        <translate x="2.5" z="-1"/></transform><emitter type="area"/></shape>{}</scene>)",
+                                                               radius, extinction, lamps)));
+    const double within = std::sqrt(radius * radius - 0.01) - 1 + std::sqrt(radius * radius - 1) - 0.1; // of the fog
+    const double truth = std::exp(-extinction * within);
+    const auto differs = [&](const MeanAndError& found) {
+        return std::abs(found.mean - truth) > 4 * found.standardError + 0.003 * truth;
+    };
+    const auto result = measure(scene, "all");
+    EXPECT_FALSE(differs(result)) << result.mean << " +- " << result.standardError << " instead of " << truth;
+    EXPECT_LT(result.standardError, 0.015 * truth) << "too noisy to decide anything";
+    const auto wrong = measure(scene, "all", " -DNEAR_POINTS_RULE=2");
+    EXPECT_TRUE(differs(wrong)) << "control: numbers are drawn again";
 }
 
 } // namespace
