@@ -256,6 +256,23 @@ TEST(Grid, ReadsItsPoints) {
         }
 }
 
+/// Photons of distant light begin on a disc about the scene; points beyond its shapes are of it, too.
+TEST(Grid, BeyondAllShapesHasDistantLight) {
+    const std::string floor = "<shape type=\"rectangle\">" + test::diffuse(0) + "</shape>";
+    const std::string sun = "<emitter type=\"directional\"><vector name=\"direction\" value=\"0,0,-1\"/>"
+                            "<rgb name=\"irradiance\" value=\"2\"/></emitter>";
+    const Scene scene = test::meterScene(floor + sun +
+                                         "<?quasilux illuminance-grid origin=\"-3,-3,0.1\" edge-u=\"6,0,0\" "
+                                         "edge-v=\"0,6,0\" nx=\"2\" ny=\"2\"?>");
+    RenderSettings settings;
+    settings.direct = photons;
+    settings.photonsPerPass = 20000;
+    Renderer renderer(testDevice(), scene, settings);
+    for (unsigned pass = 0; pass < 16; ++pass) renderer.renderPass(pass);
+    const FilmImage image = renderer.develop();
+    for (size_t k = 0; k < 12; ++k) EXPECT_NEAR(image.radiance[k], 2, 4 * image.standardError[k] + 2e-5) << k;
+}
+
 TEST(Radiancemeter, ReadsTheRadianceOfARay) {
     const std::string sensor = "<sensor type=\"radiancemeter\"><point name=\"origin\" x=\"0.1\" y=\"0\" z=\"0.3\"/>"
                                "<vector name=\"direction\" x=\"1\" y=\"2\" z=\"-2\"/>" +

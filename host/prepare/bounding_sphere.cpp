@@ -22,6 +22,15 @@ void forEachBall(const Scene& scene, Visit visit) {
                              corner & 4 ? box.lower.z : box.upper.z),
                   0.0);
     }
+    if (scene.sensor.meter != MeterKind::grid) return;
+    for (const IlluminanceGrid& grid : scene.grids) { // distant light is to reach all points, counted as photons too
+        const glm::dvec3 aside = 0.5 * grid.height * grid.normal();
+        for (const glm::dvec3& corner :
+             {grid.origin, grid.origin + grid.edgeU, grid.origin + grid.edgeV, grid.origin + grid.edgeU + grid.edgeV}) {
+            visit(corner + aside, 0.0);
+            visit(corner - aside, 0.0);
+        }
+    }
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// A sphere about everything in the scene.
+// A sphere about everything in the scene, and about the grids that are measured.
 #pragma once
 
 #include "scene/scene.h"

@@ -201,13 +201,16 @@ std::vector<std::string> findWarnings(const Scene& scene, const SurfaceBorders& 
 void setDirectByPhotons(DeviceScene& scene, const std::vector<bool>& byPhotons) {
     auto& emitters = scene.emitters.emitters;
     std::vector<shared::Emitter> sampled;
+    size_t sampledByAll = 0;
     for (size_t k = 0; k < emitters.size(); ++k) {
         emitters[k].directByPhotons = k < byPhotons.size() && byPhotons[k];
-        if (!emitters[k].directByPhotons) sampled.push_back(emitters[k]);
+        sampledByAll += !emitters[k].directByPhotons;
+        // Quasi-specular lobes sample the others, too.
+        if (!emitters[k].directByPhotons || scene.hasBroadQuasiSpecular) sampled.push_back(emitters[k]);
     }
     std::memcpy(scene.tables.data() + scene.offsets.emitters, emitters.data(),
                 emitters.size() * sizeof(shared::Emitter));
-    scene.offsets.emittersSampled = static_cast<unsigned>(sampled.size());
+    scene.offsets.emittersSampled = static_cast<unsigned>(sampledByAll);
     scene.offsets.directSharing = directSharing(sampled, scene.surfaceArea, scene.features.irradianceMeter);
 }
 
@@ -262,6 +265,10 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings, co
         tree = std::move(own.tree);
     out.warnings = findWarnings(scene, geometry.borders);
     out.surfaceArea = scatteringArea(scene);
+    out.hasBroadQuasiSpecular =
+        std::any_of(materials.lobes.begin(), materials.lobes.end(), [](const shared::Lobe& lobe) {
+            return LOBE_IS_BROAD(lobe.type) && lobe.scattering == SCATTER_QUASI_SPECULAR;
+        });
     out.features = findFeatures(scene, materials, out.emitters, out.media, geometry.borderTrees);
     out.offsets.directSharing = directSharing(out.emitters.emitters, out.surfaceArea, out.features.irradianceMeter);
     out.features.sharingLambert = out.offsets.directSharing & DIRECT_SHARING_LAMBERT;

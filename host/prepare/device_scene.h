@@ -38,11 +38,12 @@ struct DeviceScene {
     Features features; // the meter is described by offsets.meter
     // For people:
     size_t triangles = 0, spheres = 0, patches = 0, borderSegments = 0, instances = 0;
-    double surfaceArea = 0; ///< of everything that scatters, scene units squared
-    double emittedFlux = 0; ///< W, mean of R, G, B
-    size_t sceneWords = 0;  ///< of the tables, before what was learned
-    bool isGuided = false;  ///< GuideTables::isGuided
-    double typicalFlux = 0; ///< GuideTables::typicalFlux
+    double surfaceArea = 0;             ///< of everything that scatters, scene units squared
+    bool hasBroadQuasiSpecular = false; ///< some lobe as broad as Lambert's is followed like a mirror
+    double emittedFlux = 0;             ///< W, mean of R, G, B
+    size_t sceneWords = 0;              ///< of the tables, before what was learned
+    bool isGuided = false;              ///< GuideTables::isGuided
+    double typicalFlux = 0;             ///< GuideTables::typicalFlux
     EmitterTables emitters;
     std::vector<BsdfDecision> split;
     std::vector<MediumDecision> mediumSplit;
