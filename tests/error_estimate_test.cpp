@@ -41,7 +41,7 @@ TEST(ErrorEstimate, IsRelativeToTheValueWithAFloor) {
 
 TEST(ErrorEstimate, KnowsWhatItDoesNotKnow) {
     FilmImage image = noiselessImage(2, 2, 1.f);
-    image.passes = 1;
+    image.batches = 1;
     EXPECT_EQ(estimateError(image).sum(), INFINITY); // so that no error limit counts as reached
     EXPECT_EQ(estimateError(noiselessImage(2, 2, 0.f)).sum(), 0);
     EXPECT_FALSE(estimateError(image).hasBias);
@@ -53,7 +53,7 @@ FilmImage simulate(const std::vector<double>& deviation, unsigned passes, double
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     FilmImage image = noiselessImage(unsigned(deviation.size()), 1, 1.f);
-    image.passes = passes;
+    image.passes = image.batches = passes;
     image.bias.resize(image.radiance.size());
     image.biasError.resize(image.radiance.size());
     for (size_t pixel = 0; pixel < deviation.size(); ++pixel) {

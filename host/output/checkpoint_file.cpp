@@ -45,7 +45,8 @@ void CheckpointWriter::write(const void* data, size_t bytes) {
 
 void CheckpointWriter::finish(nlohmann::json description) {
     description["arrays"] = arrays_;
-    const std::string text = description.dump();
+    // Names of files may have any bytes.
+    const std::string text = description.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     const uint64_t bytes = text.size();
     put(text.data(), text.size());
     put(&bytes, sizeof bytes);

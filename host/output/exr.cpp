@@ -52,7 +52,7 @@ std::vector<Layer> layersOf(const FilmImage& image, const OtherTerms& terms, con
     for (unsigned i = 0; i < FILM_COMPONENTS; ++i)
         if (const auto& values = image.components[i].radiance; !values.empty())
             layers.push_back(colors(componentName(i) + ".", values));
-    if (!image.standardError.empty()) layers.push_back(colors("stderr.", image.standardError));
+    if (image.isErrorKnown()) layers.push_back(colors("stderr.", image.standardError));
     if (!image.bias.empty()) {
         layers.push_back(colors("bias.", image.bias));
         layers.push_back(colors("bias_stderr.", image.biasError));
@@ -76,7 +76,7 @@ size_t channelsOf(const std::vector<Layer>& layers) {
 
 /// Keys `quasilux:noiseMean` … of the whole image, `quasilux:diffuse.noiseMean` … of its components.
 void describeError(OIIO::ImageSpec& spec, const ErrorEstimate& error) {
-    if (!std::isfinite(error.sum())) return; // after one pass nothing is known
+    if (!error.isKnown()) return; // after one pass nothing is known
     const auto real = [&](const std::string& key, double value) {
         spec.attribute("quasilux:" + key, static_cast<float>(value));
     };

@@ -20,7 +20,7 @@ void writeSettings(std::ostream& out, const RenderRecord& record) {
     const auto line = [&](const char* key, const auto& value) { fmt::print(out, "# {}: {}\n", key, value); };
     line("quasilux", record.version);
     record.forEachSetting(line);
-    if (std::isfinite(record.error.sum())) line("relativeError", record.error.sum());
+    if (record.error.isKnown()) line("relativeError", record.error.sum());
     line("units", settings.photometric ? "photometric, irradiance in lm/m2" : "radiometric, irradiance in W/m2");
     line("illuminance",
          settings.photometric ? "lx: 0.2126 R + 0.7152 G + 0.0722 B" : "lx: 683 lm/W (0.2126 R + 0.7152 G + 0.0722 B)");
@@ -95,7 +95,7 @@ void writeGridCsv(const std::string& path, const FilmImage& image, const RenderR
             for (unsigned i = 0; i < grid.nx; ++i) {
                 if (hasNames) out << grid.name << ',';
                 const size_t pixel = ranges[k].first + size_t{j} * grid.nx + i;
-                writePoint(out, grid, i, j, readingOf(image, pixel, record.settings.photometric), image.passes > 1,
+                writePoint(out, grid, i, j, readingOf(image, pixel, record.settings.photometric), image.isErrorKnown(),
                            record.unobstructedIlluminance);
             }
     }

@@ -80,7 +80,7 @@ double errorOfRatio(const MeterReading& over, double under, double underError) {
 /// An error, or null after a single pass, which gives no estimate of it.
 template <typename Value>
 nlohmann::json known(const FilmImage& image, const Value& error) {
-    return image.passes > 1 ? nlohmann::json(error) : nlohmann::json();
+    return image.isErrorKnown() ? nlohmann::json(error) : nlohmann::json();
 }
 
 /// Of one meter, or one grid.
@@ -263,7 +263,7 @@ Modelling modelling(const FilmImage& image, PixelRange cylindrical, PixelRange h
 }
 
 std::string errorText(const FilmImage& image, double error) {
-    return image.passes > 1 ? fmt::format(" +- {:.2g}", error) : "";
+    return image.isErrorKnown() ? fmt::format(" +- {:.2g}", error) : "";
 }
 
 nlohmann::json meterJson(const RenderRecord& record, const FilmImage& image) {

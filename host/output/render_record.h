@@ -68,7 +68,7 @@ struct RenderRecord {
         visit("radius", name(settings.radius));
         visit("radiusScale", settings.radiusScale);
         visit("auto", search.line());
-        visit("passes", counters.passes);
+        visit("passes", static_cast<unsigned>(counters.passes));
         visit("seconds", counters.renderSeconds);
         visit("nonFinite", counters.nonFinite);
     }

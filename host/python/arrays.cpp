@@ -19,13 +19,15 @@ std::string layerName(const std::string& channel) { return channel.substr(0, cha
 py::tuple readingArrays(const Rendered& rendered, size_t first, unsigned width, unsigned height,
                         const IlluminanceGrid* grid) {
     const std::vector<size_t> shape{height, width};
+    const bool isErrorKnown = rendered.image.isErrorKnown();
     py::array_t<double> values(shape), errors(shape);
     for (unsigned y = 0; y < height; ++y)
         for (unsigned x = 0; x < width; ++x) {
             const MeterReading reading =
                 readingOf(rendered.image, first + size_t{y} * width + x, rendered.record.settings.photometric);
             values.mutable_at(y, x) = reading.photometricValue;
-            errors.mutable_at(y, x) = reading.photometricStandardError;
+            errors.mutable_at(y, x) =
+                isErrorKnown ? reading.photometricStandardError : std::numeric_limits<double>::infinity();
         }
     if (!grid) return py::make_tuple(py::none(), values, errors, py::none());
     py::array_t<double> points({size_t{height}, size_t{width}, size_t{3}});
@@ -61,7 +63,7 @@ py::dict layerArrays(const RenderedPointer& owner) {
         if (!values.empty()) arrays[py::str(name)] = imageArray(owner, values, channels);
     };
     const FilmImage& image = owner->image;
-    add("stderr", image.standardError, 3);
+    if (image.isErrorKnown()) add("stderr", image.standardError, 3);
     add("bias", image.bias, 3);
     add("bias_stderr", image.biasError, 3);
     for (const AovImage& layer : owner->layers)
@@ -101,7 +103,7 @@ RadianceImage radianceOf(const Rendered& rendered, const std::string& name) {
     image.width = rendered.image.width;
     image.height = rendered.image.height;
     image.radiance = rendered.image.radiance;
-    image.standardError = rendered.image.standardError;
+    if (rendered.image.isErrorKnown()) image.standardError = rendered.image.standardError;
     dropUnusableErrors(image);
     return image;
 }

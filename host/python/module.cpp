@@ -117,7 +117,10 @@ py::tuple compare(const py::handle& first, const py::handle& second, const std::
     requireEqualSizes(image, reference);
     std::vector<RegionGroup> named;
     named.reserve(groups.size());
-    for (const auto& [name, values] : groups) named.push_back({name, values});
+    for (const auto& [name, values] : groups) {
+        if (name == "all") throw InputError("regions: 'all' means the whole picture, expected another name");
+        named.push_back({name, values});
+    }
     CompareSettings settings;
     settings.referenceNoise = referenceNoise;
     settings.netOfImageNoise = netOfImageNoise;
@@ -126,6 +129,7 @@ py::tuple compare(const py::handle& first, const py::handle& second, const std::
     if (netOfImageNoise && image.standardError.empty())
         throw InputError("net_of_image_noise: " + image.path + " has no usable standard errors");
     const auto regions = chooseRegions(mask, named, image.width, image.height);
+    for (const auto& [region, noise] : referenceNoise) checkReferenceNoise("reference_noise", region, noise, regions);
     const std::string text = textOf(comparisonJson(compareImages(image, reference, regions, settings)));
     std::vector<std::string> warnings;
     for (const auto* one : {&image, &reference})

@@ -101,14 +101,14 @@ double percentile95(std::vector<double> variances, double n) {
     return std::exp(middle - offset + share * (std::log(found) - middle));
 }
 
-ErrorPart partOf(const RadianceEstimate& estimate, const std::vector<float>& scales, double passes) {
+ErrorPart partOf(const RadianceEstimate& estimate, const std::vector<float>& scales, double batches) {
     ErrorPart part;
     std::vector<double> squares = squaredByPixel(estimate.standardError, scales);
     part.noiseRms = std::sqrt(mean(squares));
     double roots = 0;
     for (const double square : squares) roots += std::sqrt(square);
-    part.noiseMean = roots / static_cast<double>(squares.size()) / meanOfSampleDeviation(passes);
-    part.noisePercentile95 = std::sqrt(percentile95(std::move(squares), passes));
+    part.noiseMean = roots / static_cast<double>(squares.size()) / meanOfSampleDeviation(batches);
+    part.noisePercentile95 = std::sqrt(percentile95(std::move(squares), batches));
     const double noiseOfBias = mean(squaredByPixel(estimate.biasError, scales));
     part.biasRms = std::sqrt(std::max(0.0, mean(squaredByPixel(estimate.bias, scales)) - noiseOfBias));
     part.biasNoiseRms = std::sqrt(noiseOfBias);
@@ -125,16 +125,16 @@ ErrorPart unknownPart() {
 ErrorEstimate estimateError(const FilmImage& image) {
     ErrorEstimate estimate;
     estimate.hasBias = !image.bias.empty();
-    if (image.passes < 2 || image.radiance.empty() || image.standardError.size() != image.radiance.size()) {
+    if (!image.isErrorKnown() || image.standardError.size() != image.radiance.size()) {
         estimate.total = unknownPart();
         estimate.components.fill(unknownPart());
         return estimate;
     }
     const auto scales = relativeScales(image, image.radiance);
-    estimate.total = partOf(image, scales, image.passes);
+    estimate.total = partOf(image, scales, image.batches);
     for (size_t c = 0; c < LIGHT_CLASSES; ++c)
         if (!image.components[c].standardError.empty())
-            estimate.components[c] = partOf(image.components[c], scales, image.passes);
+            estimate.components[c] = partOf(image.components[c], scales, image.batches);
     return estimate;
 }
 

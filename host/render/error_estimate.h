@@ -4,6 +4,8 @@
 
 #include "render/film_image.h"
 
+#include <cmath>
+
 namespace quasilux {
 
 /// Of one component, or of the whole image. The relative error of a pixel is the root mean square over R, G, B of
@@ -17,7 +19,7 @@ struct ErrorPart {
     double biasNoiseRms = 0;      ///< that noise: what the bias of a single pixel is known to
 };
 
-/// All infinite where fewer than two passes give no estimate; all 0 for a black image.
+/// All infinite where fewer than two batches of passes give no estimate; all 0 for a black image.
 struct ErrorEstimate {
     ErrorPart total;
     std::array<ErrorPart, LIGHT_CLASSES> components; ///< by LIGHT_*; zeros where the image has no such light
@@ -25,6 +27,7 @@ struct ErrorEstimate {
 
     /// What `--error` is compared with: the mean noise plus the bias.
     double sum() const { return total.noiseMean + total.biasRms; }
+    bool isKnown() const { return std::isfinite(sum()); }
     /// Estimate of relMSE, the mean over pixels and channels of (I - truth)^2 / (I^2 + 0.01 m^2).
     double relativeMse() const { return total.noiseRms * total.noiseRms + total.biasRms * total.biasRms; }
 };

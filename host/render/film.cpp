@@ -226,6 +226,7 @@ void FilmDeveloper::develop(const float* sums, size_t firstPixel, size_t pixels)
 
 void FilmDeveloper::finish() {
     image_.passes = passes_;
+    image_.batches = static_cast<unsigned>(counts_.closed().batches);
     for (RadianceEstimate& component : image_.components)
         if (isBlack(component.radiance)) component.resize(0, false, false);
 }

@@ -31,9 +31,13 @@ struct RadianceEstimate {
 struct FilmImage : RadianceEstimate {
     unsigned width = 0, height = 0;
     unsigned passes = 0;
+    /// Batches of passes, complete or not, that `standardError` is from: single passes at first, later several in a row.
+    unsigned batches = 0;
     /// By FILM component (LIGHT_* and FILM_EMISSION, which has no error); empty where the scene has no such light.
     std::array<RadianceEstimate, FILM_COMPONENTS> components;
 
+    /// Or else the values of `standardError` say nothing.
+    bool isErrorKnown() const { return batches > 1 && !standardError.empty(); }
     /// Or else the image is black, or its film kept none.
     bool hasComponents() const {
         return std::any_of(components.begin(), components.end(), [](const auto& one) { return !one.radiance.empty(); });

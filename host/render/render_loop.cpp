@@ -38,7 +38,8 @@ void renderPasses(Renderer& renderer, const StopRule& stop, const std::function<
         progress.seconds = elapsed();
         if (afterPass) afterPass(renderer, progress.seconds, false);
         if (progress.passes >= fewestPassesForError && isErrorDue(progress.seconds - lastCheck, checkCost)) {
-            progress.relativeError = estimateError(known.note(renderer)).sum();
+            if (const ErrorEstimate error = estimateError(known.note(renderer)); error.isKnown())
+                progress.relativeError = error.sum();
             lastCheck = elapsed();
             checkCost = lastCheck - progress.seconds;
         }

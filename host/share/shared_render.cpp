@@ -153,7 +153,8 @@ void SharedRender::publish(bool isLast) {
     if (sums_.isEmpty() || (!isWhole && !isLast)) return;
     sums_.counters.renderSeconds = renderedBefore_ + watch_.seconds();
     if (!isLast && sums_.counters.passes >= fewestPassesForError)
-        progress_.relativeError = estimateError(sums_.develop()).sum();
+        if (const ErrorEstimate error = estimateError(sums_.develop()); error.isKnown())
+            progress_.relativeError = error.sum();
     if (isWhole && hooks_.onSums) hooks_.onSums({sums_, {first_, added_.front().end}, radii_}, elapsed(), isLast);
     if (isLast && !isWhole && hooks_.onGap) hooks_.onGap(added_);
     report();

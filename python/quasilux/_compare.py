@@ -26,7 +26,7 @@ def compare(
     max_non_finite: int = 0,
     worst: int = 5,
 ) -> dict[str, Any]:
-    """The error of an image against a reference: what `quasilux compare --json` says, by the same keys (``regions``, ``worst`` …).
+    """The error of an image against a reference: what `quasilux compare --json` says, by the same keys but those of its files and limits (``regions``, ``worst`` …).
 
     Images are files, arrays of floats (height, width, 3) or (height, width), or renders; renders and files know their standard errors.
 
@@ -39,7 +39,7 @@ def compare(
     if regions and mask is None:
         raise _core.InputError("regions are values of a mask; give one.")
     groups = [(name, [str(value) for value in values]) for name, values in (regions or {}).items()]
-    noise = {"": reference_noise} if isinstance(reference_noise, (int, float)) else dict(reference_noise or {})
+    noise = {"": float(reference_noise)} if isinstance(reference_noise, (int, float, np.number)) else dict(reference_noise or {})
     text, said = _core.compare(
         _image(image, "image"), _image(reference, "reference"), "" if mask is None else os.fspath(mask), groups, noise,
         net_of_image_noise, max_non_finite, worst)

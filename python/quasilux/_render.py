@@ -31,6 +31,7 @@ class RenderOptions(TypedDict, total=False):
     variant: Literal["main", "alternative"] | None
     quasi_specular: str | Sequence[str] | None
     direct: Literal["emitters", "photons"] | None
+    caustics: Literal["photons", "paths"] | None
     map: Literal["photons", "camera"] | None
     emission: Literal["guided", "plain"] | None
     photons: int | None
@@ -91,7 +92,7 @@ class Render:
     @property
     def stderr(self) -> NDArray[np.float32]:
         """(height, width, 3): standard error of the image, in its unit; not finite after a single pass."""
-        return self.layers["stderr"]
+        return self.layers.get("stderr", np.full_like(self.image, np.inf))
 
     @property
     def bias(self) -> NDArray[np.float32] | None:
@@ -204,7 +205,7 @@ def render(
     the first pass). In the search that may come first its ``phase`` is "pilot passes" and its ``passes`` is 0.
 
     options: those of `quasilux render` by their names with underscores, None for the default:
-    bdd, variant, quasi_specular, direct, map, emission, photons, camera_paths, camera_sampling, seed, radius, radius_scale, energy_balance, auto,
+    bdd, variant, quasi_specular, direct, caustics, map, emission, photons, camera_paths, camera_sampling, seed, radius, radius_scale, energy_balance, auto,
     fixed, device, work_group_size, device_memory (bytes), without (names, such as ["bias"]), kernels, checkpoint, every (s), resume.
 
     The same seed gives the same bits as the program on the same device. Other Python threads go on meanwhile. Ctrl-C ends the render

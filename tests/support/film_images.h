@@ -10,7 +10,7 @@ inline FilmImage uniformImage(unsigned width, unsigned height, float value, unsi
     FilmImage image;
     image.width = width;
     image.height = height;
-    image.passes = passes;
+    image.passes = image.batches = passes;
     image.radiance.assign(size_t{width} * height * 3, value);
     image.standardError.assign(image.radiance.size(), standardError);
     return image;
