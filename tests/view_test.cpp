@@ -95,6 +95,31 @@ TEST(Camera, TurnsAboutThePointBeforeIt) {
     EXPECT_EQ(moved(plainCamera(), {}, 5, false), plainCamera());
 }
 
+// As by <scale x="-1"/> before <lookat>: camera and moves are those of the mirrored world.
+TEST(Camera, AMirroredOneMovesAsItsMirrorImage) {
+    glm::dmat4 mirror(1);
+    mirror[0][0] = -1;
+    const glm::dmat4 plain = moved(plainCamera(), {0.2, 0.3, 0, 0, 0}, 5, false), mirrored = mirror * plain;
+    for (const CameraMove& move :
+         {CameraMove{}, CameraMove{0.4, 0.5, 1, 0.2, 0.1}, CameraMove{0, 100, 0, 0, 0}, CameraMove{0, -100, 0, 0, 0}}) {
+        const glm::dmat4 found = moved(mirrored, move, 5, false), expected = mirror * moved(plain, move, 5, false);
+        for (int k = 0; k < 4; ++k) expectNear(glm::dvec3(found[k]), glm::dvec3(expected[k]));
+        EXPECT_GT(found[1].y, 0) << "not over the top";
+    }
+    EXPECT_GT(moved(mirrored, {0, 0.5, 0, 0, 0}, 5, false)[3].y, mirrored[3].y) << "it rises";
+}
+
+TEST(Camera, PitchesEndWhereItStays) {
+    const glm::dmat4 raised = moved(plainCamera(), {0, 0.6, 0, 0, 0}, 5, false);
+    const PitchRange range = pitchRange(raised);
+    EXPECT_NEAR(range.highest - range.lowest, 3.1, 1e-12);
+    EXPECT_NEAR(range.highest, 0.95, 1e-12);
+    const auto height = [&](double pitch) { return moved(raised, {0, pitch, 0, 0, 0}, 5, false)[3].y; };
+    EXPECT_EQ(height(range.highest), height(range.highest + 1));
+    EXPECT_EQ(height(range.lowest), height(range.lowest - 1));
+    EXPECT_LT(height(range.highest - 0.01), height(range.highest)) << "and not before";
+}
+
 TEST(Camera, OfParallelRaysShowsLessInsteadOfComingNearer) {
     CameraMove move;
     move.nearer = 1;
@@ -148,6 +173,39 @@ TEST(Edits, AreReadOrRefused) {
     for (const char* wrong : {R"({"bdd": 1.5})", R"({"camera": {"yaw": "left"}})", R"({"camera": {"nearer": 99}})",
                               R"({"lamps": 1})", R"({"map": "both"})", R"({"quasiSpecular": 1})", "[]"})
         EXPECT_THROW(parseEdits(nlohmann::json::parse(wrong)), InputError) << wrong;
+}
+
+TEST(Edits, AreWrittenAsTheyAreRead) {
+    const auto expectTheSame = [](const std::string& text) {
+        const auto given = nlohmann::json::parse(text), written = toJson(parseEdits(text));
+        EXPECT_EQ(toJson(parseEdits(written)), written);
+        for (const auto& [key, value] : given.items()) EXPECT_EQ(written.at(key), value) << key;
+    };
+    expectTheSame("{}");
+    expectTheSame(R"({"camera": {"yaw": 0.1, "pitch": -0.2, "nearer": 1.5, "right": 0.3, "up": 0.4}, "lamps": [0, 2.5],
+        "bdd": 3, "variant": "main", "direct": "photons", "map": "camera", "quasiSpecular": "level:1", "isDraft": true})");
+    expectTheSame(R"({"bdd": null, "variant": null, "direct": null, "map": null, "quasiSpecular": null})");
+}
+
+// After a single batch of passes standard errors are 0.
+TEST(Frame, ErrorsAreKnownOrSaidNotToBe) {
+    FilmCutChoice errors;
+    errors.content = FilmCutChoice::Content::errors;
+    FilmImage cut;
+    cut.width = cut.height = 1;
+    cut.resize(3, true, true);
+    const auto isKnown = [&](const std::string& layer, const FilmCutChoice& choice, unsigned batches) {
+        cut.batches = batches;
+        FrameWish wish;
+        wish.layer = layer;
+        return makeFrame(wish, choice, cut, 0).isKnown;
+    };
+    for (const char* layer : {"stderr", "relative_error"}) {
+        EXPECT_FALSE(isKnown(layer, errors, 1)) << layer;
+        EXPECT_TRUE(isKnown(layer, errors, 2)) << layer;
+    }
+    EXPECT_TRUE(isKnown("bias", errors, 1)) << "a mean";
+    EXPECT_TRUE(isKnown("image", {}, 1));
 }
 
 // The moment's renderer and settings are not looked at here.

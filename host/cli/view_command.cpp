@@ -61,7 +61,7 @@ private:
         return std::make_unique<EditedScene>(loadScene(options_.scene, options_.parameters(), options_.choice()));
     }
 
-    void tellEditable() { view_.state().setEditable(scene_->lamps(), scene_->hasCamera()); }
+    void tellEditable() { view_.state().setEditable({scene_->lamps(), scene_->pitches(), edits_}); }
 
     // What the page asks for, over the command line.
     RenderOptions optionsNow() const {
@@ -163,9 +163,9 @@ private:
             learned_ = nullptr;
             geometry_ = nullptr;
             warn(scene_->scene().warnings);
-            tellEditable();
         }
         if (const auto edits = view_.takeEdits()) edits_ = *edits;
+        tellEditable();
     }
 
     RenderOptions options_;

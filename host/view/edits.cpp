@@ -36,8 +36,9 @@ std::optional<std::string> text(const nlohmann::json& json, const char* key) {
 CameraMove parseMove(const nlohmann::json& json) {
     constexpr double far = 1e3;
     if (!json.is_object()) throw InputError("camera is " + json.dump() + ", expected an object");
-    return {number(json, "yaw", -far, far), number(json, "pitch", -far, far), number(json, "nearer", -30, 30),
-            number(json, "right", -far, far), number(json, "up", -far, far)};
+    return {number(json, "yaw", -far, far), number(json, "pitch", -far, far),
+            number(json, "nearer", -mostNearer, mostNearer), number(json, "right", -far, far),
+            number(json, "up", -far, far)};
 }
 
 std::vector<double> parseLamps(const nlohmann::json& json) {
@@ -98,6 +99,22 @@ ViewEdits parseEdits(const std::string& text) {
     return parseEdits(json);
 }
 
+nlohmann::json toJson(const ViewEdits& edits) {
+    const auto orNull = [](const auto& value) { return value ? nlohmann::json(*value) : nlohmann::json(); };
+    const CameraMove& move = edits.camera;
+    const nlohmann::json camera{
+        {"yaw", move.yaw}, {"pitch", move.pitch}, {"nearer", move.nearer}, {"right", move.right}, {"up", move.up}};
+    return {{"camera", camera},
+            {"lamps", edits.lamps},
+            {"bdd", orNull(edits.bdd)},
+            {"variant", orNull(edits.variant)},
+            {"direct", orNull(edits.direct)},
+            {"map", orNull(edits.map)},
+            {"quasiSpecular", orNull(edits.quasiSpecular)},
+            {"isDraft", edits.isDraft},
+            {"number", edits.number}};
+}
+
 EditedScene::EditedScene(Scene scene) : scene_(std::move(scene)), pivotDistance_(distanceToMiddle()) {
     original_.view = scene_.sensor.toWorld;
     for (const auto& shape : scene_.shapes) original_.byShape.push_back(shape.emitter);
@@ -118,6 +135,10 @@ std::vector<EditedScene::Lamp> EditedScene::lamps() const {
     for (const auto& beam : original_.beams) all.push_back({beam.id, "directional"});
     if (original_.surroundings) all.push_back({original_.surroundings->id, original_.surroundings->plugin});
     return all;
+}
+
+std::optional<PitchRange> EditedScene::pitches() const {
+    return hasCamera() ? std::optional(pitchRange(original_.view)) : std::nullopt;
 }
 
 // In the order of lamps().
@@ -170,15 +191,23 @@ double EditedScene::distanceToMiddle() const {
     return std::max(depth, 0.05 * box.diagonal());
 }
 
+PitchRange pitchRange(const glm::dmat4& toWorld) {
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(toWorld[2])), upright = uprightAxis(glm::dvec3(toWorld[1]));
+    const double before = std::asin(std::clamp(-glm::dot(forward, upright), -1.0, 1.0));
+    return {std::min(before, -steepest) - before, std::max(before, steepest) - before};
+}
+
 glm::dmat4 moved(const glm::dmat4& toWorld, const CameraMove& move, double distance, bool isOrthographic) {
     const glm::dmat3 axes(toWorld);
     const glm::dvec3 eye(toWorld[3]), forward = glm::normalize(axes[2]), up = glm::normalize(axes[1]);
     const glm::dvec3 upright = uprightAxis(up), pivot = eye + distance * forward;
-    // Seen from the point, the camera rises by the pitch; not over the top.
-    const double before = std::asin(std::clamp(-glm::dot(forward, upright), -1.0, 1.0));
-    const double pitch =
-        std::clamp(before + move.pitch, std::min(before, -steepest), std::max(before, steepest)) - before;
-    const glm::dmat3 turn = rotation(move.yaw, upright) * rotation(pitch, glm::normalize(axes[0]));
+    // The left of the picture is axes[0], which a mirrored camera has to its right: it rises as others do, but turns the
+    // other way about, so that the picture follows the hand.
+    const glm::dvec3 left = glm::cross(up, forward);
+    const double yaw = glm::dot(left, axes[0]) < 0 ? -move.yaw : move.yaw;
+    const PitchRange pitches = pitchRange(toWorld);
+    const double pitch = std::clamp(move.pitch, pitches.lowest, pitches.highest); // seen from the point
+    const glm::dmat3 turn = rotation(yaw, upright) * rotation(pitch, left);
     const double closeness = std::exp2(-move.nearer);
     glm::dmat3 turned = turn * axes;
     const glm::dvec3 shift =

@@ -18,6 +18,16 @@ struct CameraMove {
     bool operator==(const CameraMove&) const = default;
 };
 
+/// How large CameraMove::nearer may be, either way.
+inline constexpr double mostNearer = 30;
+
+/// Of CameraMove::pitch. Beyond it the camera stays where it is, as left and right are lost over the top.
+struct PitchRange {
+    double lowest = 0, highest = 0;
+};
+/// `toWorld`: of the camera before it is moved.
+PitchRange pitchRange(const glm::dmat4& toWorld);
+
 struct ViewEdits {
     CameraMove camera;
     std::vector<double> lamps; ///< factor on the power of each lamp, at least 0; those that are missing: 1
@@ -25,6 +35,7 @@ struct ViewEdits {
     std::optional<unsigned> bdd;
     std::optional<std::string> variant, direct, map, quasiSpecular;
     bool isDraft = false; ///< others follow at once, as while the camera is dragged
+    uint64_t number = 0;  ///< how many changes had come with this one
 
     /// Whether what was learned for the others serves this render as well.
     bool learnsAs(const ViewEdits& others) const {
@@ -37,6 +48,8 @@ struct ViewEdits {
 ViewEdits parseEdits(const nlohmann::json& json);
 /// The same of its text.
 ViewEdits parseEdits(const std::string& text);
+/// As the page sends them, and their number.
+nlohmann::json toJson(const ViewEdits& edits);
 
 /// A scene whose camera and lamps can be changed again and again.
 class EditedScene {
@@ -55,6 +68,8 @@ public:
     std::vector<Lamp> lamps() const;
     /// Whether the sensor is one that can be moved.
     bool hasCamera() const { return scene_.sensor.meter == MeterKind::none; }
+    /// How far it can be raised; not set where there is no such camera.
+    std::optional<PitchRange> pitches() const;
 
 private:
     /// As the file has them.

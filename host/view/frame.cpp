@@ -119,6 +119,7 @@ Frame makeFrame(const FrameWish& wish, const FilmCutChoice& choice, const FilmIm
     frame.meanRadiance = meanOf(cut.radiance);
     const bool isFigure = choice.content != FilmCutChoice::Content::values;
     frame.channels = isFigure ? 1 : 3;
+    frame.isKnown = !isFigure || wish.layer == biasLayer || cut.isErrorKnown();
     // A power of two, so that it changes no digit.
     if (!isFigure || wish.layer == noiseLayer) frame.scale = std::exp2(std::round(std::log2(frame.curve.scale)));
     const auto values = isFigure ? figuresOf(wish.layer, cut, mean > 0 ? mean : frame.meanRadiance) : cut.radiance;

@@ -34,6 +34,7 @@ struct Frame {
     unsigned width = 0, height = 0;  ///< pixels of the frame
     unsigned channels = 3;           ///< 3: colours; 1: figures
     unsigned passes = 0;
+    bool isKnown = true;          ///< or else the figures say nothing: standard errors after a single pass
     double scale = 1;             ///< on the values, so that halves hold them
     ToneCurve curve;              ///< the automatic one, for what this piece shows, of a figure for the image
     double meanRadiance = 0;      ///< of this piece

@@ -8,13 +8,15 @@ constexpr size_t mostChartPoints = 512;
 
 nlohmann::json orNull(double value) { return value < 0 ? nlohmann::json() : nlohmann::json(value); }
 
+nlohmann::json limitsOf(const PitchRange& pitches) {
+    return {{"pitch", {pitches.lowest, pitches.highest}}, {"nearer", {-mostNearer, mostNearer}}};
+}
+
 } // namespace
 
-void LiveState::setEditable(std::vector<EditedScene::Lamp> lamps, bool hasCamera) {
+void LiveState::setEditable(Editable editable) {
     const std::lock_guard lock(mutex_);
-    isEditable_ = true;
-    lamps_ = std::move(lamps);
-    hasCamera_ = hasCamera;
+    editable_ = std::move(editable);
     change();
 }
 
@@ -93,6 +95,14 @@ nlohmann::json LiveState::wait(uint64_t seen, std::chrono::milliseconds patience
     return json();
 }
 
+nlohmann::json LiveState::origin() const {
+    const std::lock_guard lock(mutex_);
+    return {{"render", renders_},
+            {"settings", settings_},
+            {"seconds", progress_.seconds},
+            {"relativeError", orNull(progress_.relativeError)}};
+}
+
 nlohmann::json LiveState::json() const {
     nlohmann::json state{{"version", version_},
                          {"render", renders_},
@@ -111,10 +121,14 @@ nlohmann::json LiveState::json() const {
                          {"pathsPerSecond", progress_.pathsPerSecond},
                          {"errors", errors_},
                          {"settings", settings_},
-                         {"isEditable", isEditable_},
-                         {"hasCamera", hasCamera_},
+                         {"isEditable", editable_.has_value()},
+                         {"cameraLimits", nullptr},
+                         {"edits", nullptr},
                          {"lamps", nlohmann::json::array()}};
-    for (const auto& lamp : lamps_) state["lamps"].push_back({{"id", lamp.id}, {"kind", lamp.kind}});
+    if (!editable_) return state;
+    if (editable_->pitches) state["cameraLimits"] = limitsOf(*editable_->pitches);
+    state["edits"] = toJson(editable_->edits);
+    for (const auto& lamp : editable_->lamps) state["lamps"].push_back({{"id", lamp.id}, {"kind", lamp.kind}});
     return state;
 }
 

@@ -21,8 +21,13 @@ public:
         bool isEndless = false; ///< then no time is left to tell
         bool isMeter = false;
     };
-    /// What can be changed; empty: the render is only looked at.
-    void setEditable(std::vector<EditedScene::Lamp> lamps, bool hasCamera);
+    /// What can be changed, and how it is changed now. Not called: the render is only looked at.
+    struct Editable {
+        std::vector<EditedScene::Lamp> lamps;
+        std::optional<PitchRange> pitches; ///< not set: the camera cannot be moved
+        ViewEdits edits;
+    };
+    void setEditable(Editable editable);
     /// Another render begins; its chart is empty.
     void begin(const Render& render);
     void setSettings(const RenderSettings& settings);
@@ -38,6 +43,8 @@ public:
 
     /// As JSON, once it is newer than `seen`, or after `patience`; key `version` is what to give as `seen` next.
     nlohmann::json wait(uint64_t seen, std::chrono::milliseconds patience) const;
+    /// The part of it that says what a picture of this moment is of: render, settings, seconds, error.
+    nlohmann::json origin() const;
 
 private:
     void change() {
@@ -51,8 +58,8 @@ private:
     uint64_t version_ = 1, renders_ = 0;
     Render render_;
     std::vector<std::string> layers_;
-    bool isEditable_ = false, hasCamera_ = false, isClosed_ = false;
-    std::vector<EditedScene::Lamp> lamps_;
+    bool isClosed_ = false;
+    std::optional<Editable> editable_;
     std::string phase_ = "loading", problem_;
     nlohmann::json settings_;
     Progress progress_;

@@ -119,12 +119,14 @@ void LiveView::stop() {
     interrupted_ = true;
 }
 
-void LiveView::edit(const ViewEdits& edits) {
+uint64_t LiveView::edit(const ViewEdits& edits) {
     const std::lock_guard lock(mutex_);
     edits_ = edits;
+    edits_->number = ++editsSoFar_;
     areDrafts_ = edits.isDraft;
     hasEdits_ = true;
     interrupted_ = true;
+    return editsSoFar_;
 }
 
 LiveView::Saved LiveView::saved(const RenderMoment& moment) const {

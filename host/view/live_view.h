@@ -71,7 +71,8 @@ public:
     Errands& errands() { return errands_; }
     FilmCutter& cutter() { return *cutter_; }
     void stop();
-    void edit(const ViewEdits& edits);
+    /// The number that they have.
+    uint64_t edit(const ViewEdits& edits);
     /// The image as it is, with what headers say of it.
     struct Saved {
         FilmImage image;
@@ -96,6 +97,7 @@ private:
     std::atomic<uint64_t> renders_{0};
     std::mutex mutex_;
     std::optional<ViewEdits> edits_;
+    uint64_t editsSoFar_ = 0;
     LiveState state_;
     Errands errands_;
     std::unique_ptr<FilmCutter> cutter_;

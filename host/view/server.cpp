@@ -178,6 +178,7 @@ struct ViewServer::Http {
         const uint64_t after = wholeParameter(request, "after", 0);
         FilmCutChoice choice;
         FilmImage cut;
+        nlohmann::json origin;
         uint64_t moment = 0;
         bool isWhole = false;
         const bool isDone = view.errands().run(
@@ -187,6 +188,7 @@ struct ViewServer::Http {
                 choice = cutFor(wish, film, now.goesOn ? std::optional(pace.mostPixels()) : std::nullopt);
                 isWhole = choice.width == film.width() && choice.height == film.height();
                 cut = view.cutter().develop(film, static_cast<unsigned>(now.renderer.counters().passes), choice);
+                origin = view.state().origin();
                 moment = now.number;
                 pace.note(view.renders(), pixelsRead(choice), start, Clock::now());
             },
@@ -197,23 +199,25 @@ struct ViewServer::Http {
         }
         const Frame made = makeFrame(wish, choice, cut, isWhole && !choice.component ? 0 : meanRadiance.load());
         if (isWhole && !choice.component) meanRadiance = made.meanRadiance;
-        sendFrame(made, wish.layer, moment, response);
+        origin.update({{"layer", wish.layer}, {"moment", moment}});
+        sendFrame(made, std::move(origin), response);
     }
 
-    static void sendFrame(const Frame& frame, const std::string& layer, uint64_t moment, Response& response) {
-        const nlohmann::json header{{"x", frame.x},
-                                    {"y", frame.y},
-                                    {"step", frame.step},
-                                    {"width", frame.width},
-                                    {"height", frame.height},
-                                    {"channels", frame.channels},
-                                    {"layer", layer},
-                                    {"passes", frame.passes},
-                                    {"moment", moment},
-                                    {"scale", frame.scale},
-                                    {"exposure", frame.curve.scale},
-                                    {"white", frame.curve.white}};
-        response.set_header("X-Frame", header.dump());
+    // `header`: what the frame itself does not know.
+    static void sendFrame(const Frame& frame, nlohmann::json header, Response& response) {
+        header.update({{"x", frame.x},
+                       {"y", frame.y},
+                       {"step", frame.step},
+                       {"width", frame.width},
+                       {"height", frame.height},
+                       {"channels", frame.channels},
+                       {"passes", frame.passes},
+                       {"isKnown", frame.isKnown},
+                       {"scale", frame.scale},
+                       {"exposure", frame.curve.scale},
+                       {"white", frame.curve.white}});
+        // In ASCII, as names in the settings may be any text.
+        response.set_header("X-Frame", header.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
         response.set_content(reinterpret_cast<const char*>(frame.halves.data()), frame.halves.size() * sizeof(uint16_t),
                              "application/octet-stream");
     }
@@ -238,18 +242,25 @@ struct ViewServer::Http {
             response.status = noContent;
             return;
         }
+        reply(response, pixelJson(choice, one));
+    }
+
+    static nlohmann::json pixelJson(const FilmCutChoice& choice, const FilmImage& one) {
+        const auto orNull = [](const std::vector<float>& values, bool isKnown) {
+            return isKnown && !values.empty() ? nlohmann::json(values) : nlohmann::json();
+        };
         nlohmann::json json{{"x", choice.x},
                             {"y", choice.y},
                             {"value", one.radiance},
-                            {"stderr", one.standardError},
+                            {"stderr", orNull(one.standardError, one.isErrorKnown())},
+                            {"bias", orNull(one.bias, true)},
+                            {"biasStderr", orNull(one.biasError, one.isErrorKnown())},
                             {"passes", one.passes}};
-        json["bias"] = one.bias.empty() ? nlohmann::json() : nlohmann::json(one.bias);
-        json["biasStderr"] = one.biasError.empty() ? nlohmann::json() : nlohmann::json(one.biasError);
         json["components"] = nlohmann::json::object();
         for (unsigned c = 0; c < FILM_COMPONENTS; ++c)
             if (const auto& values = one.components[c].radiance; !values.empty())
                 json["components"][componentName(c)] = values;
-        reply(response, json);
+        return json;
     }
 
     // Made in a folder of our own, which nobody else can name.
@@ -307,8 +318,7 @@ struct ViewServer::Http {
             response.status = unsupportedType;
             return;
         }
-        view.edit(parseEdits(request.body));
-        reply(response, nlohmann::json::object());
+        reply(response, {{"number", view.edit(parseEdits(request.body))}});
     }
 
     LiveView& view;

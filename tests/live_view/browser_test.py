@@ -138,6 +138,53 @@ class Page(unittest.TestCase):
         self.browser.key("+")
         self.assertGreater(numpy.abs(self.picture() - before).mean(), 5)
 
+    def drag(self, x, y):
+        left, top, width, height = self.box()
+        middle = left + width / 2, top + height / 2
+        self.browser.mouse("mousePressed", *middle, 1)
+        self.browser.mouse("mouseMoved", middle[0] + x, middle[1] + y, 1)
+        self.browser.mouse("mouseReleased", middle[0] + x, middle[1] + y)
+
+    def camera_after(self, action):
+        """What the program has of it when the page has sent what `action` does."""
+        before = self.view.state()["edits"]["number"]
+        action()
+        return self.view.wait(lambda state: state["edits"]["number"] > before and not state["edits"]["isDraft"])["edits"]["camera"]
+
+    def test_the_camera_has_no_dead_zone_beyond_its_limits(self):
+        limits = self.view.state()["cameraLimits"]
+        self.assertEqual(self.camera_after(lambda: self.drag(0, 300))["pitch"], limits["pitch"][1])
+        self.assertAlmostEqual(self.camera_after(lambda: self.drag(0, -100))["pitch"], limits["pitch"][1] - 0.6, delta=0.02)
+        wheel = "document.getElementById('picture').dispatchEvent(new WheelEvent('wheel', {deltaY: %d}))"
+        self.assertEqual(self.camera_after(lambda: self.browser.run(wheel % -30000))["nearer"], limits["nearer"][1])
+        self.assertEqual(self.camera_after(lambda: self.browser.run(wheel % 15000))["nearer"], limits["nearer"][1] - 30)
+        self.assertEqual(self.browser.run("document.getElementById('problem').textContent"), "")
+        self.assertAlmostEqual(self.camera_after(lambda: self.drag(-400, 0))["yaw"], 2.4, delta=0.02)
+        self.assertAlmostEqual(self.camera_after(lambda: self.drag(-400, 0))["yaw"], 4.8 - 2 * numpy.pi, delta=0.02)
+
+    def test_the_page_shows_changes_that_it_did_not_make(self):
+        edits = {"camera": {"yaw": 0.5, "nearer": 1}, "bdd": 1, "variant": "main", "quasiSpecular": "none", "lamps": [3]}
+        self.view.post("edit", **edits)
+        shown = "['bdd', 'variant', 'quasiSpecular', 'yaw', 'lamp-0'].map(id => document.getElementById(id)?.value).join()"
+        expected = "1,main,none,0.5,1.5"
+        self.browser.wait(f"{shown} === '{expected}'")
+        self.assertIn("× 3", self.browser.run("document.getElementById('lamps').textContent"))
+        self.browser.open(self.view.address)
+        self.browser.wait(f"{shown} === '{expected}'")
+        self.choose("bdd", 2)  # is sent with all others
+        state = self.view.wait(lambda state: state["edits"]["bdd"] == 2)
+        self.assertEqual((state["edits"]["camera"]["yaw"], state["edits"]["lamps"], state["edits"]["variant"]), (0.5, [3], "main"))
+
+    def test_what_is_typed_is_not_overwritten(self):
+        self.browser.run("document.getElementById('quasiSpecular').focus()")
+        self.browser.run("(field => { field.value = 'al'; field.dispatchEvent(new Event('input')); })(document.getElementById('quasiSpecular'))")
+        number = self.view.post("edit", bdd=1)[1]["number"]
+        self.view.wait(lambda state: state["edits"]["number"] == number)
+        self.browser.wait("/bdd 1/.test(document.getElementById('settings').textContent)")
+        self.assertEqual(self.browser.run("document.getElementById('quasiSpecular').value"), "al")
+        self.browser.run("document.getElementById('quasiSpecular').blur()")
+        self.browser.wait("document.getElementById('bdd').value === '1'")
+
     def test_a_broken_scene_shows_its_line(self):
         line, good = self.view.break_scene()
         self.browser.wait(f"document.querySelector('#problem:not([hidden])')?.textContent.includes('scene.xml:{line}:')")
@@ -160,6 +207,57 @@ class Page(unittest.TestCase):
         self.assertLessEqual({"application", "status", "complementary", "slider", "combobox", "spinbutton"}, roles)
         self.browser.resize(360, 740, mobile=True)
         self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 360)
+
+
+class OtherRenders(unittest.TestCase):
+    def opened(self, *options):
+        view = Viewed(PROGRAM, SCENE, *options)
+        self.addCleanup(view.__exit__)
+        browser = Chromium()
+        self.addCleanup(browser.close)
+        browser.resize(1200, 800)
+        browser.open(view.address)
+        browser.wait("document.body.dataset.passes > 0 && /done/.test(document.getElementById('status').textContent)", 60)
+        return view, browser
+
+    def colours(self, browser):
+        """Those of the canvas, rows by columns by R, G, B, A."""
+        width, height, pixels = browser.run("""(canvas => [canvas.width, canvas.height,
+            [...canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data]])(document.getElementById('picture'))""")
+        return numpy.array(pixels, numpy.uint8).reshape(height, width, 4)
+
+    def test_errors_of_one_pass_are_unknown(self):
+        view, browser = self.opened("-D", "resolution=48", "--photons", "4000", "--passes", "1")
+        table = "document.getElementById('pixel').tBodies[0].textContent"
+        browser.wait(f"/± errorunknown/.test({table})")
+        for layer in ("stderr", "relative_error"):
+            browser.choose("layer", layer)
+            browser.wait("/unknown/.test(document.getElementById('legend-marks').textContent)")
+            seen = self.colours(browser)
+            self.assertEqual(numpy.unique(seen[seen[:, :, 3] > 0][:, :3]).tolist(), [128], "plain grey")
+        browser.choose("layer", "bias")
+        browser.wait("!/unknown/.test(document.getElementById('legend-marks').textContent)")
+        self.assertEqual(browser.problems, [])
+
+    def test_the_kept_picture_of_a_large_film_is_the_render_s_own(self):
+        view, browser = self.opened("-D", "resolution=1536", "--photons", "4000", "--passes", "2")
+        browser.run("document.getElementById('picture').focus()")
+        browser.key("1")  # a part of the film is looked at from now on
+        browser.wait("document.body.dataset.step === '1'")
+        before = view.state()["render"]
+        browser.choose("lamp-0", -3)
+        view.wait(lambda state: state["render"] > before and state["phase"] == "done", 60)
+        browser.wait(f"Number(document.body.dataset.render) > {before} && document.body.dataset.passes === '2'", 60)
+        browser.run("document.getElementById('keep').click()")
+        browser.wait("/2 passes/.test(document.getElementById('kept').textContent)")
+        browser.key("0")
+        browser.wait("document.body.dataset.step === '2'")
+        browser.choose("split", 100)
+        kept = self.colours(browser)
+        browser.choose("split", 0)
+        numpy.testing.assert_array_equal(kept, self.colours(browser))
+        self.assertGreater(kept[:, :, :3].max(), 40, "control: there is something")
+        self.assertEqual(browser.problems, [])
 
 
 if __name__ == "__main__":

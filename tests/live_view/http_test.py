@@ -166,6 +166,30 @@ class DoneRender(unittest.TestCase):
         self.view.edit(camera={"yaw": 0})
         numpy.testing.assert_array_equal(self.view.frame()[1], before)
 
+    def test_the_state_says_what_is_changed(self):
+        self.assertEqual(self.view.edit()["edits"]["lamps"], [])
+        edits = {"camera": {"yaw": 0.3, "pitch": 0.2, "nearer": -1, "right": 0, "up": 0}, "lamps": [2], "bdd": 1, "variant": "main",
+                 "direct": None, "map": None, "quasiSpecular": "none", "isDraft": False}
+        number = self.view.post("edit", **edits)[1]["number"]
+        state = self.view.wait(lambda state: state["edits"]["number"] == number)
+        self.assertEqual(state["edits"], {**edits, "number": number})
+        self.assertEqual(self.view.edit()["edits"]["number"], number + 1)
+
+    def test_the_state_says_how_far_the_camera_goes(self):
+        limits = self.view.state()["cameraLimits"]
+        self.assertEqual(self.view.post("edit", camera={"nearer": limits["nearer"][1]})[0], 200)
+        self.assertEqual(self.view.post("edit", camera={"nearer": limits["nearer"][1] + 0.01})[0], 400)
+        self.view.edit(camera={"pitch": limits["pitch"][1]})
+        _, highest = self.view.frame()
+        self.view.edit(camera={"pitch": limits["pitch"][1] + 1})
+        numpy.testing.assert_array_equal(self.view.frame()[1], highest)
+
+    def test_a_picture_says_what_it_is_of(self):
+        state = self.view.edit(bdd=1)
+        header, _ = self.view.frame()
+        self.assertEqual({key: header[key] for key in ("render", "settings", "seconds", "passes")},
+                         {key: state[key] for key in ("render", "settings", "seconds", "passes")})
+
     def test_what_cannot_be_rendered_is_said(self):
         before = self.view.state()["render"]
         self.view.post("edit", quasiSpecular="nowhere")
@@ -196,6 +220,20 @@ class DoneRender(unittest.TestCase):
         before = self.view.wait(done)["render"]
         scene.write_text(good)
         self.view.wait(done)
+
+
+class SinglePass(unittest.TestCase):
+    def test_its_errors_are_not_known(self):
+        for passes in (1, 2):
+            with Viewed(PROGRAM, SCENE, *SMALL, "--passes", str(passes)) as view:
+                view.wait(lambda state: state["phase"] == "done")
+                pixel = json.loads(view.get("pixel", x=20, y=30)[2])
+                is_known = passes > 1  # control
+                self.assertGreater(min(pixel["value"]), 0)
+                self.assertEqual([pixel[key] is not None for key in ("stderr", "bias", "biasStderr")], [is_known, True, is_known])
+                for layer in ("stderr", "relative_error"):
+                    self.assertEqual(view.frame(layer=layer)[0]["isKnown"], is_known, layer)
+                self.assertTrue(view.frame(layer="bias")[0]["isKnown"])
 
 
 class GltfScene(unittest.TestCase):

@@ -39,4 +39,7 @@ export async function getPixel(x, y) {
 }
 
 export const stop = () => post('stop', {});
-export const edit = edits => post('edit', edits);
+/** The number that these changes have in the state. */
+export async function edit(edits) {
+  return (await (await post('edit', edits)).json()).number;
+}

@@ -33,8 +33,11 @@ const diverging = ramp(['#08306b', '#4292c6', '#f7f7f7', '#f0872f', '#7f2704']);
 
 const percent = x => `${+(100 * x).toPrecision(2)} %`;
 
+const unknown = {ramp: ramp(['#808080', '#808080']), place: () => 0, marks: ['unknown until two passes are done']};
+
 /** How figures become colours: `place` of a figure on the ramp, 0 … 1; `marks` below it. */
-export function scaleOf(layer, exposure) {
+export function scaleOf(layer, exposure, isKnown) {
+  if (!isKnown) return unknown;
   if (layer === 'bias') {
     const most = 0.2;
     return {ramp: diverging, place: v => 0.5 + 0.5 * v / most, marks: [-most, -most / 2, 0, most / 2, most].map(percent)};
@@ -61,7 +64,7 @@ function paintColours(frame, {exposure, white}, pixels) {
 }
 
 function paintFigures(frame, tone, pixels) {
-  const {halves} = frame, scale = scaleOf(frame.layer, tone.exposure), factor = 1 / frame.scale;
+  const {halves} = frame, scale = scaleOf(frame.layer, tone.exposure, frame.isKnown), factor = 1 / frame.scale;
   for (let from = 0, to = 0; from < halves.length; ++from, to += 4) {
     const at = 3 * Math.min(255, Math.max(0, Math.round(255 * scale.place(factor * valueOfHalf[halves[from]]))));
     for (let c = 0; c < 3; ++c) pixels[to + c] = scale.ramp[at + c];

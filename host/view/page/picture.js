@@ -74,18 +74,39 @@ export class Picture {
     return {x: (event.clientX - box.left) * ratio, y: (event.clientY - box.top) * ratio};
   }
 
+  /** Pixels of the film, each way, for one of what is seen. */
+  get seenStep() {
+    return Math.max(1, Math.floor(1 / this.zoom));
+  }
+
+  isTooLarge(step) {
+    return Math.ceil(this.film.width / step) * Math.ceil(this.film.height / step) > mostPixels;
+  }
+
+  /** A frame of the whole film. */
+  wantedWhole() {
+    let step = this.seenStep;
+    while (this.isTooLarge(step)) ++step;
+    return {x: 0, y: 0, ...this.film, step};
+  }
+
   /** The frame that shows best what is seen. */
   wanted() {
+    if (!this.whole || !this.isTooLarge(this.seenStep)) return this.wantedWhole();
     const {width, height} = this.film;
-    const all = {x: 0, y: 0, width, height, step: Math.max(1, Math.floor(1 / this.zoom))};
-    const pixels = step => Math.ceil(width / step) * Math.ceil(height / step);
-    if (!this.whole || pixels(all.step) <= mostPixels) {
-      while (pixels(all.step) > mostPixels) ++all.step;
-      return all;
-    }
     const from = this.toFilm({x: 0, y: 0}), to = this.toFilm({x: this.canvas.width, y: this.canvas.height});
     const x = Math.max(0, Math.floor(from.x)), y = Math.max(0, Math.floor(from.y));
-    return {x, y, step: all.step, width: Math.max(1, Math.min(width, Math.ceil(to.x)) - x), height: Math.max(1, Math.min(height, Math.ceil(to.y)) - y)};
+    return {x, y, step: this.seenStep, width: Math.max(1, Math.min(width, Math.ceil(to.x)) - x), height: Math.max(1, Math.min(height, Math.ceil(to.y)) - y)};
+  }
+
+  /** Whether there is a frame of all that is as new as any. */
+  get isWholeNew() {
+    return this.whole !== null && this.part === null;
+  }
+
+  /** Or else the figures of the layer that is shown say nothing yet. */
+  get isKnown() {
+    return (this.part ?? this.whole)?.isKnown ?? true;
   }
 
   /** A frame of the same layer as the others takes the place of what it covers. To be drawn when its tone is set. */
@@ -95,9 +116,11 @@ export class Picture {
     frame.bitmap.height = frame.height;
     if (isWhole) {
       this.whole = frame;
-      this.part = null;
+      // A part that is looked at is sharper than the whole picture about it.
+      if (!this.isTooLarge(this.seenStep) || this.part?.render !== frame.render) this.part = null;
     } else {
       this.part = frame;
+      if (this.whole?.render !== frame.render) this.whole = null;
     }
     frame.tone = null;
   }
@@ -107,12 +130,10 @@ export class Picture {
     this.whole = this.part = null;
   }
 
-  /** The whole picture as it is; false where there is none. */
+  /** The whole picture as it is. */
   keep() {
-    if (!this.whole) return false;
     this.keptFrame = {...this.whole, bitmap: document.createElement('canvas'), tone: null};
     Object.assign(this.keptFrame.bitmap, {width: this.whole.width, height: this.whole.height});
-    return true;
   }
 
   setTone(tone) {

@@ -20,10 +20,11 @@ let refusal = ''; // why the last change was not taken
 
 let changes = 0; // of what is to be seen
 
+const refuse = message => { refusal = message; showProblem(); };
 const picture = new Picture(byId('picture'), () => { ++changes; pending?.abort(); });
-const controls = new Controls(message => { refusal = message; showProblem(); });
-const stopRender = () => stop().catch(error => { refusal = error.message; showProblem(); });
-const comparison = new Comparison(picture, stopRender);
+const controls = new Controls(refuse);
+const stopRender = () => stop().catch(error => refuse(error.message));
+const comparison = new Comparison(picture, stopRender, refuse);
 
 function tone() {
   const factor = 2 ** Number(byId('exposure').value);
@@ -37,7 +38,7 @@ function applyTone() {
   byId('exposure-text').textContent = `${Number(byId('exposure').value).toFixed(1)} stops`;
   byId('save-png').href = `image.png?${new URLSearchParams(now)}`;
   byId('legend').hidden = !isFigure(layer);
-  if (isFigure(layer)) showLegend(scaleOf(layer, now.exposure));
+  if (isFigure(layer)) showLegend(scaleOf(layer, now.exposure, picture.isKnown));
   picture.setTone(now);
 }
 
@@ -125,7 +126,8 @@ function showFrame(frame) {
   if (isWhole(frame) && frame.layer === 'image') automatic = {exposure: frame.exposure, white: frame.white};
   picture.show(frame, isWhole(frame));
   applyTone();
-  document.body.dataset.passes = frame.passes;
+  const {passes, render, step} = frame;
+  Object.assign(document.body.dataset, {passes, render, step});
   lookAtPixel();
 }
 
@@ -160,6 +162,7 @@ async function followPicture() {
   }
 }
 
+const cell = (text, attributes = {}) => Object.assign(document.createElement('td'), {textContent: text, ...attributes});
 const figure = x => x === 0 ? '0' : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x.toExponential(2) : x.toPrecision(4);
 
 function showPixel(pixel) {
@@ -170,7 +173,7 @@ function showPixel(pixel) {
     const row = document.createElement('tr'), head = document.createElement('th');
     head.scope = 'row';
     head.textContent = name;
-    row.append(head, ...values.map(value => Object.assign(document.createElement('td'), {textContent: figure(value)})));
+    row.append(head, ...values ? values.map(value => cell(figure(value))) : [cell('unknown', {colSpan: 3})]);
     return row;
   }));
 }
@@ -187,16 +190,13 @@ async function lookAtPixel() {
     const place = placeOfPixel();
     const isThere = () => String(placeOfPixel()) === String(place);
     dimOtherPixel();
-    try {
-      const pixel = await getPixel(...place);
-      if (pixel) {
-        showPixel(pixel);
-        byId('pixel').dataset.place = place;
-      }
-      isShown = pixel && isThere();
-    } catch { // such as a pixel that is not there: the table stays
-      isShown = isThere();
+    let isRefused = false;
+    const pixel = await getPixel(...place).catch(() => { isRefused = true; }); // such as one that is not there: the table stays
+    if (pixel) {
+      showPixel(pixel);
+      byId('pixel').dataset.place = place;
     }
+    isShown = (pixel || isRefused) && isThere();
   }
   dimOtherPixel();
   isLooking = false;
