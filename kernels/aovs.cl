@@ -5,18 +5,47 @@
 #include "camera.clh"
 #include "tinted_lobe.clh"
 
-/* The share of diffuse light that a surface reflects. As in Mitsuba, lobes that are not diffuse count by pi f for light
- * that leaves along the normal, which may be above 1. */
+/* Is the lobe the gloss of a coat, whose base counts alone? Metals have an absorption, or no index at all. */
+inline int isGlossOfCoat(__global const Lobe* lobe) {
+    return (lobe->type == LOBE_GGX || lobe->type == LOBE_BECKMANN) && !any(loadRgb(lobe->k) > 0) &&
+           any(loadRgb(lobe->eta) > 0);
+}
+
+/* Reflectance of a lobe as Mitsuba's bsdfs state it: that of the base under a coat, of `principled` the base colour,
+ * of which metal has a share too. Other lobes count by pi f for light that leaves along the normal, which may be above
+ * 1. */
+inline float3 lobeReflectance(const Surface* s, __global const Lobe* lobes, uint k, float3 wo) {
+    __global const Lobe* lobe = lobes + k;
+    const float3 reflectance = loadRgb(lobe->reflectance);
+    switch (lobe->type) {
+    case LOBE_LAMBERT:
+    case LOBE_PRINCIPLEDDIFFUSE:
+        return tinted(s, k, reflectance);
+    case LOBE_COATEDLAMBERT:
+    case LOBE_ROUGHCOATEDLAMBERT: /* the coat's own factors are taken out again */
+        return tinted(s, k, reflectance * lobe->exponent);
+    case LOBE_GGXSCHLICK:
+        return tinted(s, k, reflectance * loadRgb(lobe->eta));
+#ifdef HAS_TRANSMITTED_TINT
+    case LOBE_DIFFUSETRANSMISSION:
+    case LOBE_THINGGX:
+        return s->transmittedTint[k] * loadRgb(lobe->transmittance);
+#else
+    case LOBE_DIFFUSETRANSMISSION:
+    case LOBE_THINGGX:
+        return tinted(s, k, loadRgb(lobe->transmittance));
+#endif
+    case LOBE_SHEEN:
+    case LOBE_CLEARCOAT:
+        return 0;
+    }
+    if (lobe->scattering == SCATTER_SPECULAR || isGlossOfCoat(lobe)) return 0;
+    return M_PI_F * tintedEval(s, lobes, k, wo, (float3)(0, 0, 1));
+}
+
 inline float3 diffuseReflectance(const Surface* s, __global const Lobe* lobes, float3 wo) {
     float3 sum = 0;
-    for (uint k = 0; k < s->lobeCount; ++k) {
-        if (lobes[k].type == LOBE_LAMBERT)
-            sum += tinted(s, k, loadRgb(lobes[k].reflectance));
-        else if (lobes[k].type == LOBE_COATEDLAMBERT) /* of the base: the coat's own factors are taken out again */
-            sum += tinted(s, k, loadRgb(lobes[k].reflectance) * lobes[k].exponent);
-        else if (lobes[k].scattering != SCATTER_SPECULAR)
-            sum += M_PI_F * tintedEval(s, lobes, k, wo, (float3)(0, 0, 1));
-    }
+    for (uint k = 0; k < s->lobeCount; ++k) sum += lobeReflectance(s, lobes, k, wo);
     return sum;
 }
 

@@ -2,6 +2,7 @@
 #include "support/scene_files.h"
 
 #include <OpenImageIO/imageio.h>
+#include <array>
 
 namespace quasilux {
 namespace {
@@ -65,6 +66,38 @@ INSTANTIATE_TEST_SUITE_P(
                     ImageCase{"FloatsAndAlpha", "a.exr", 4, OIIO::TypeDesc::FLOAT, false, linearFirst, linearSecond},
                     ImageCase{"Halves", "a.exr", 3, OIIO::TypeDesc::HALF, true, linearFirst, linearSecond}),
     [](const auto& row) { return std::string(row.param.name); });
+
+/// The pixels of an OpenEXR file, all alike, with these channels and, if not empty, chromaticities, as linear sRGB.
+Rgb pixelOf(const std::vector<std::string>& channels, const std::vector<float>& chromaticities,
+            const std::array<float, 3>& values) {
+    SceneFiles files;
+    OIIO::ImageSpec spec(2, 2, 3, OIIO::TypeDesc::FLOAT);
+    spec.channelnames = channels;
+    if (!chromaticities.empty())
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities.data());
+    const auto file = OIIO::ImageOutput::create(files.path("a.exr"));
+    EXPECT_TRUE(file && file->open(files.path("a.exr"), spec) &&
+                file->write_image(OIIO::TypeDesc::FLOAT, values.data(), 0, 0, 0) && file->close());
+    const Scene scene = loadScene(files.write("scene.xml", sceneWith(R"(<emitter type="envmap">
+        <string name="filename" value="a.exr"/></emitter>)")));
+    return scene.surroundings->image->pixels[0];
+}
+
+// Primaries of a file are taken to those of sRGB, as Mitsuba does. The values follow from the chromaticities by hand
+// (SMPTE RP 177-1993): AP1, the primaries of ACEScg, without adaptation of its white.
+TEST(Primaries, AreThoseOfTheFile) {
+    const auto expect = [](const Rgb& found, float r, float g, float b) {
+        test::expectNear({found.r, found.g, found.b}, {r, g, b}, 2e-4f);
+    };
+    const std::vector<std::string> rgb{"R", "G", "B"}, xyz{"X", "Y", "Z"};
+    const std::vector<float> ap1{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f};
+    const std::vector<float> srgb{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
+    expect(pixelOf(rgb, {}, {0.5f, 0.25f, 0.125f}), 0.5f, 0.25f, 0.125f);
+    expect(pixelOf(rgb, srgb, {0.5f, 0.25f, 0.125f}), 0.5f, 0.25f, 0.125f);
+    expect(pixelOf(rgb, ap1, {0.5f, 0.4f, 0.3f}), 0.59998f, 0.38552f, 0.25711f);
+    expect(pixelOf(xyz, {}, {0.950456f, 1, 1.089058f}), 1, 1, 1);
+    expect(pixelOf(rgb, {1, 0, 0, 1, 0, 0, 1 / 3.f, 1 / 3.f}, {0.950456f, 1, 1.089058f}), 1, 1, 1);
+}
 
 } // namespace
 } // namespace quasilux

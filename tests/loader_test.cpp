@@ -75,6 +75,7 @@ TEST(Transform, FormsOfValues) {
                {3, 3, 0});
     expectNear(loadShape(placed("rectangle", R"(<scale y="3"/>)")).mesh.positions[2], {1, 3, 0});
     expectNear(loadShape(placed("rectangle", R"(<rotate value="0,0,2" angle="+90"/>)")).mesh.positions[2], {-1, 1, 0});
+    expectNear(loadShape(placed("rectangle", R"(<rotate value="2" angle="120"/>)")).mesh.positions[2], {0, 1, 1});
 }
 
 TEST(Transform, MatrixIsWrittenByRows) {
@@ -92,6 +93,19 @@ TEST(Transform, LookAtSendsZToTheTargetAndXToTheLeft) {
     expectNear(glm::vec3(sensor.toWorld[1]), {0, 1, 0});
     expectNear(glm::vec3(sensor.toWorld[2]), {0, 0, -1});
     expectNear(glm::vec3(sensor.toWorld[3]), {1, 2, 3});
+}
+
+// The values are those of mi.ScalarTransform4f of Mitsuba 3.9.1, from a scene's <lookat>.
+TEST(Transform, WithoutUpALookAtTakesMitsubasAxis) {
+    const auto left = [](const std::string& target) {
+        return glm::vec3(
+            loadSensor("<transform name=\"to_world\"><lookat origin=\"0,0,0\" target=\"" + target + "\"/></transform>")
+                .toWorld[0]);
+    };
+    expectNear(left("0,0,-1"), {0, 1, 0});
+    expectNear(left("0,0,1"), {0, -1, 0});
+    expectNear(left("0,-3,0"), {0, 0, -1});
+    expectNear(left("1,2,-3"), {-0.07928651f, 0.84142697f, 0.5345225f});
 }
 
 // ---- emitters
@@ -116,7 +130,7 @@ TEST(DirectionalEmitter, DirectionOrTransform) {
     expectNear(scene.directionalEmitters[0].direction, {0, 0.6, -0.8});
     expectRgb(scene.directionalEmitters[0].irradiance, 5, 6, 7);
     expectNear(scene.directionalEmitters[1].direction, {1, 0, 0});
-    expectRgb(scene.directionalEmitters[1].irradiance, 1, 1, 1);
+    expectRgb(scene.directionalEmitters[1].irradiance, 9, 9, 9); // as Mitsuba multiplies by the scale
 }
 
 // ---- files, parameters, references, settings
@@ -218,13 +232,14 @@ TEST(Documents, NamesOfMitsuba0AreUpgraded) {
     const Scene scene = loadScene(files.write("scene.xml", R"(<scene version="0.6.0"><default name="aSize" value="2"/>
         <sensor type="perspective"><float name="nearClip" value="0.5"/><transform name="toWorld"><lookAt origin="0,0,5" target="0,0,0"/></transform></sensor>
         <emitter type="point"/><shape type="rectangle"><boolean name="flipNormals" value="true"/><transform name="toWorld"><scale value="$aSize"/></transform>
-        <bsdf type="diffuse"><texture type="checkerboard" name="reflectance"><float name="uscale" value="4"/><float name="voffset" value="0.25"/></texture></bsdf></shape>
+        <bsdf type="diffuse"><texture type="checkerboard" name="reflectance"><float name="uscale" value="4"/><float name="uoffset" value="0.125"/><float name="voffset" value="0.25"/></texture></bsdf></shape>
         <include filename="part.xml"/></scene>)"));
     EXPECT_EQ(scene.sensor.nearClip, 0.5);
     EXPECT_TRUE(scene.shapes.at(0).flipNormals);
     EXPECT_TRUE(scene.shapes.at(1).flipNormals) << "a file of today within one of then";
     const auto& texture = scene.textures.at(0).device;
     EXPECT_EQ(texture.toU[0], 4);
+    EXPECT_EQ(texture.toU[2], 0.5f) << "the offset is scaled, as by Mitsuba 3";
     EXPECT_EQ(texture.toV[2], 0.25f);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_THAT(scene.warnings[0], testing::HasSubstr("names of parameters are upgraded"));

@@ -158,6 +158,30 @@ TEST(ObjMesh, FansQuadsAndCountsNegativeIndicesFromTheEnd) {
     expectNear(faceNormal(mesh, 0), {0, 0, 1});
 }
 
+// As CAD programs and scanners write them: nothing after a slash, edges among the faces, coordinates behind them.
+TEST(ObjMesh, CornersMayBeCutShortAndComeFirst) {
+    SceneFiles files;
+    const auto meshOf = [&](const std::string& content, LoadChoice choice = {}) {
+        files.write("a.obj", content);
+        return loadScene(files.write("scene.xml", sceneWith(meshShape("obj", "a.obj"))), {}, choice).shapes.at(0).mesh;
+    };
+    const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", texture = "vt 0.25 0.75\n";
+    for (const char* face : {"f 1// 2// 3//\n", "f 1/ 2/ 3/\n", "f 1 2\nf 3\nf 1 2 3\n"}) {
+        const Mesh mesh = meshOf(points + face);
+        EXPECT_EQ(mesh.triangles.size(), 1u) << face;
+        EXPECT_TRUE(mesh.cornerUvs.empty()) << face;
+    }
+    for (const std::string& content : {points + texture + "f 1/1/ 2/1/ 3/1/\n", "f 1/1 2/1 3/1\n" + texture + points}) {
+        const Mesh mesh = meshOf(content);
+        ASSERT_EQ(mesh.cornerUvs.size(), 3u) << content;
+        EXPECT_EQ(mesh.cornerUvs[2], glm::vec2(0.25f, 0.25f)) << content;
+    }
+    LoadChoice lenient;
+    lenient.unknown = Unknown::forgiven;
+    EXPECT_THROW(meshOf(points + "hello world\nf 1 2 3\n"), InputError);
+    EXPECT_EQ(meshOf(points + "hello world\nf 1 2 3\n", lenient).triangles.size(), 1u);
+}
+
 TEST(ObjMesh, NormalsThatAreMissingAreMeansWeightedByAngle) {
     // At the fold two triangles of either quad share vertex 1 (angles 45° + 45° left, 90° in two parts right): equal
     // weights.
@@ -202,6 +226,24 @@ TEST(ObjMesh, FlatFacesFollowTheWindingAfterMirroring) {
             loadShape(placed("obj", R"(<scale x="1"/>)", file + R"(<boolean name="flip_normals" value="true"/>)")).mesh,
             0),
         {0, 0, -1});
+}
+
+TEST(PlyMesh, TextureCoordinatesHaveThreeNames) {
+    SceneFiles files;
+    const auto uvsOf = [&](const std::string& u, const std::string& v) {
+        files.write("a.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                    "property float " +
+                        u + "\nproperty float " + v +
+                        "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                        "0 0 0 0.1 0.2\n1 0 0 0.3 0.4\n0 1 0 0.5 0.6\n3 0 1 2\n");
+        return loadScene(files.write("scene.xml", sceneWith(meshShape("ply", "a.ply")))).shapes.at(0).mesh.cornerUvs;
+    };
+    const std::vector<glm::vec2> expected{{0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}};
+    EXPECT_EQ(uvsOf("u", "v"), expected);
+    EXPECT_EQ(uvsOf("s", "t"), expected);
+    EXPECT_EQ(uvsOf("texture_u", "texture_v"), expected);
+    EXPECT_TRUE(uvsOf("u", "t").empty()) << "of a pair, as in Mitsuba";
 }
 
 /// A tetrahedron's quad-and-triangle cousin: one quad, in any byte order, with a property to pass over and normals.

@@ -155,7 +155,7 @@ glm::dvec3 Properties::vector(const std::string& name, const glm::dvec3& missing
     if (!parameter) return missing;
     if (!parameter->find("value") && !(parameter->find("x") && parameter->find("y") && parameter->find("z")))
         throw InputError(parameter->where, fmt::format("parameter '{}': give x, y and z, or value=\"a,b,c\".", name));
-    return parseVector(*parameter, 0, false);
+    return parseVector(*parameter, 0);
 }
 
 glm::dvec3 Properties::direction(const std::string& name, const glm::dvec3& missing) {

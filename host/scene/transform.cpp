@@ -25,7 +25,7 @@ glm::dvec3 parseTriple(const Element& element, const std::string& attribute) {
 }
 
 glm::dmat4 parseRotation(const Element& element) {
-    const glm::dvec3 axis = parseVector(element, 0, false);
+    const glm::dvec3 axis = parseVector(element, 0);
     const double length = glm::length(axis);
     if (!(length > 0)) throw InputError(element.where, "<rotate>: the axis is zero; give x, y or z.");
     const double degrees = parseNumber(element.get("angle"), element.where, "<rotate> angle");
@@ -40,7 +40,7 @@ glm::dmat4 parseLookAt(const Element& element) {
     if (!(glm::length(toTarget) > 0))
         throw InputError(element.where, "<lookat>: origin and target are the same point; the view has no direction.");
     const glm::dvec3 forward = glm::normalize(toTarget);
-    if (up == glm::dvec3(0)) up = std::abs(forward.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    if (up == glm::dvec3(0)) up = axesAcross(forward).first; // as Mitsuba
     const glm::dvec3 left = glm::cross(glm::normalize(up), forward);
     if (glm::length(left) < 1e-9)
         throw InputError(element.where, "<lookat>: up is parallel to the view direction; choose another up.");
@@ -65,8 +65,8 @@ glm::dmat4 parseMatrix(const Element& element) {
 }
 
 glm::dmat4 parseOperation(const Element& element) {
-    if (element.tag == "translate") return glm::translate(glm::dmat4(1.0), parseVector(element, 0, true));
-    if (element.tag == "scale") return glm::scale(glm::dmat4(1.0), parseVector(element, 1, true));
+    if (element.tag == "translate") return glm::translate(glm::dmat4(1.0), parseVector(element, 0));
+    if (element.tag == "scale") return glm::scale(glm::dmat4(1.0), parseVector(element, 1));
     if (element.tag == "rotate") return parseRotation(element);
     if (element.tag == "lookat") return parseLookAt(element);
     return parseMatrix(element);
@@ -88,16 +88,21 @@ void checkRegular(const glm::dmat4& matrix, const Element& element) {
 
 } // namespace
 
-glm::dvec3 parseVector(const Element& element, double missing, bool oneIsAll) {
+std::pair<glm::dvec3, glm::dvec3> axesAcross(const glm::dvec3& n) {
+    const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+}
+
+glm::dvec3 parseVector(const Element& element, double missing) {
     const std::string what = describe(element);
     const bool components = element.find("x") || element.find("y") || element.find("z");
     if (const std::string* value = element.find("value")) {
         if (components) throw InputError(element.where, what + " has both value and x, y, z; keep one form.");
         const std::vector<double> numbers = parseNumbers(*value, element.where, what);
-        if (oneIsAll && numbers.size() == 1) return glm::dvec3(numbers[0]);
+        if (numbers.size() == 1) return glm::dvec3(numbers[0]);
         if (numbers.size() != 3)
-            throw InputError(element.where, fmt::format("{}: {} numbers; expected three{}.", what, numbers.size(),
-                                                        oneIsAll ? " or one" : ""));
+            throw InputError(element.where,
+                             fmt::format("{}: {} numbers; expected three, or one for all.", what, numbers.size()));
         return {numbers[0], numbers[1], numbers[2]};
     }
     if (!components) throw InputError(element.where, what + " has no numbers; give x, y, z or value=\"a,b,c\".");

@@ -6,14 +6,19 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 
 namespace quasilux {
 
 /// Product of the operations, each multiplied from the left. Finite, affine and not singular, or InputError.
 glm::dmat4 parseTransform(const Element& element);
 
-/// Three numbers from x, y, z (missing ones are `missing`) or from value="a,b,c"; one number where `oneIsAll`.
-glm::dvec3 parseVector(const Element& element, double missing, bool oneIsAll);
+/// Three numbers from x, y, z (missing ones are `missing`) or from value="a,b,c"; a single one stands for all.
+glm::dvec3 parseVector(const Element& element, double missing);
+
+/// Axes across the unit `n` (Duff et al. 2017, "Building an orthonormal basis, revisited"), which Mitsuba counts angles
+/// from, and which are `up` where a view has none.
+std::pair<glm::dvec3, glm::dvec3> axesAcross(const glm::dvec3& n);
 
 /// `point` in single precision. Throws InputError at `where` if it does not fit.
 glm::vec3 toSingle(const glm::dvec3& point, const SourceLocation& where);

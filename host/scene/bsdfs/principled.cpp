@@ -85,7 +85,8 @@ BsdfLobes readPrincipled(Properties& properties) {
     BsdfLobes lobes;
     addDiffuse(p, dielectric * rest(p.specTrans), dielectric, lobes.front);
     addDielectric(p, lobes);
-    addSchlick(p, share(p.metallic), dielectric * share(p.specTint), lobes.front);
+    // Without a reflectance at normal incidence Mitsuba leaves out metal and tint, too.
+    if (p.eta.value != 1) addSchlick(p, share(p.metallic), dielectric * share(p.specTint), lobes.front);
     addClearcoat(p, lobes);
     return lobes;
 }

@@ -1,18 +1,24 @@
 // <bsdf type="twosided">: a one-sided bsdf on both sides, or one for each.
 #include "scene/bsdfs/bsdf_plugin.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace quasilux {
 
 namespace {
 
+bool letsLightThrough(const LobeDescription& lobe) {
+    const unsigned type = lobe.device.type;
+    return type == LOBE_DIELECTRIC || type == LOBE_THINDIELECTRIC || LOBE_TRANSMITS(type) || LOBE_PASSES(type);
+}
+
+/// Of one that has two sides already the front counts, as in Mitsuba.
 BsdfLobes readSide(const Element& nested, LoadContext& context) {
     BsdfLobes lobes = readBsdfLobes(nested, context);
-    if (lobes.isNull || !lobes.back.empty())
+    if (lobes.isNull || std::any_of(lobes.front.begin(), lobes.front.end(), letsLightThrough))
         throw InputError(nested.where,
-                         fmt::format("twosided: the nested bsdf '{}' lets light through or has two sides already; "
-                                     "use it without twosided.",
+                         fmt::format("twosided: the nested bsdf '{}' lets light through; use it without twosided.",
                                      nested.get("type")));
     return lobes;
 }

@@ -11,8 +11,10 @@ SceneEmitter readDirectional(Properties& properties) {
     DirectionalEmitter emitter;
     emitter.id = idOf(properties.element());
     emitter.where = properties.element().where;
-    emitter.direction = glm::vec3(glm::normalize(toWorld * properties.direction("direction", {0, 0, 1})));
-    emitter.irradiance = properties.emission("irradiance", {1, 1, 1});
+    const glm::dvec3 direction = toWorld * properties.direction("direction", {0, 0, 1});
+    emitter.direction = glm::vec3(glm::normalize(direction));
+    // A scale makes it brighter, as in Mitsuba.
+    emitter.irradiance = properties.emission("irradiance", {1, 1, 1}) * static_cast<float>(glm::length(direction));
     return emitter;
 }
 

@@ -124,11 +124,6 @@ double roundRadius(unsigned sectors) {
     return std::sqrt(angle / std::sin(angle));
 }
 
-std::pair<glm::dvec3, glm::dvec3> axesAcross(const glm::dvec3& n) {
-    const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
-}
-
 Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::uvec3>& triangles,
               const std::vector<glm::vec2>& uvs, const glm::dmat4& toWorld, bool flipNormals,
               const SourceLocation& where) {

@@ -13,10 +13,6 @@ namespace quasilux {
 inline constexpr unsigned roundSectors = 256;
 double roundRadius(unsigned sectors);
 
-/// Axes across the unit `n` (Duff et al. 2017, "Building an orthonormal basis, revisited"), which Mitsuba counts the
-/// angle from.
-std::pair<glm::dvec3, glm::dvec3> axesAcross(const glm::dvec3& n);
-
 /// A mesh in its own space.
 struct MeshSource {
     struct Corner {

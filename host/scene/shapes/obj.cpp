@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
+#include <utility>
 
 namespace quasilux {
 
@@ -18,8 +20,11 @@ const Names ignoredKeywords = {
 
 class ObjReader {
 public:
-    ObjReader(std::string path, std::string text, bool flipTexCoords)
-        : text_(std::move(text)), flipTexCoords_(flipTexCoords) {
+    /// `refuse` is called for the first line of an unknown keyword; where it returns, all such lines are passed over.
+    using Refuse = std::function<void(const SourceLocation& where, const std::string& message)>;
+
+    ObjReader(std::string path, std::string text, bool flipTexCoords, Refuse refuse)
+        : text_(std::move(text)), refuse_(std::move(refuse)), flipTexCoords_(flipTexCoords) {
         where_.file = std::move(path);
     }
 
@@ -31,12 +36,28 @@ public:
             readLine(std::string_view(text_).substr(begin, end - begin));
             begin = end + 1;
         }
+        positions_.check(mesh_.positions.size());
+        normals_.check(mesh_.normals.size());
+        uvs_.check(mesh_.uvs.size());
         if (mesh_.triangles.empty())
             throw InputError(SourceLocation{where_.file}, "the mesh has no faces; expected lines 'f …'.");
         return std::move(mesh_);
     }
 
 private:
+    /// The largest index to elements of a kind, which may follow the face.
+    struct LargestIndex {
+        std::string_view what;
+        int64_t index = 0;
+        SourceLocation where = {};
+
+        void check(size_t count) const {
+            if (index > static_cast<int64_t>(count))
+                throw InputError(where,
+                                 fmt::format("face: {} index {} does not exist; the file has {}.", what, index, count));
+        }
+    };
+
     void readLine(std::string_view line) {
         line = line.substr(0, line.find('#'));
         const std::vector<std::string_view> words = splitWords(line);
@@ -50,8 +71,12 @@ private:
         else if (words[0] == "f")
             readFace(words);
         else if (std::find(ignoredKeywords.begin(), ignoredKeywords.end(), words[0]) == ignoredKeywords.end())
-            throw InputError(where_, fmt::format("unknown line '{}'; expected v, vn, vt, f or another keyword of OBJ.",
-                                                 line.substr(0, 40)));
+            refuseOnce(
+                fmt::format("unknown line '{}'; expected v, vn, vt, f or another keyword of OBJ.", line.substr(0, 40)));
+    }
+
+    void refuseOnce(const std::string& message) {
+        if (!std::exchange(hasRefused_, true)) refuse_(where_, message);
     }
 
     static std::vector<std::string_view> splitWords(std::string_view line) {
@@ -81,35 +106,40 @@ private:
     }
 
     /// An index counted from 1, or from the last one back where negative.
-    unsigned readIndex(std::string_view text, size_t count, std::string_view what) const {
-        const int64_t index = parseInteger(text, where_, fmt::format("face: {} index", what));
+    unsigned readIndex(std::string_view text, size_t count, LargestIndex& largest) {
+        const int64_t index = parseInteger(text, where_, fmt::format("face: {} index", largest.what));
         const int64_t resolved = index < 0 ? static_cast<int64_t>(count) + index : index - 1;
-        if (index == 0 || resolved < 0 || resolved >= static_cast<int64_t>(count))
+        if (index == 0 || resolved < 0 || resolved >= QL_NONE)
             throw InputError(where_, fmt::format("face: {} index {} does not exist; {} are given before this line.",
-                                                 what, index, count));
+                                                 largest.what, index, count));
+        if (index > largest.index) {
+            largest.index = index;
+            largest.where = where_;
+        }
         return static_cast<unsigned>(resolved);
     }
 
-    /// "v", "v/t", "v//n" or "v/t/n"
-    MeshSource::Corner readCorner(std::string_view word) const {
+    /// "v", "v/t", "v//n" or "v/t/n"; what is empty after a slash is not given.
+    MeshSource::Corner readCorner(std::string_view word) {
         const size_t slash = std::min(word.find('/'), word.size());
         MeshSource::Corner corner;
-        corner.position = readIndex(word.substr(0, slash), mesh_.positions.size(), "vertex");
+        corner.position = readIndex(word.substr(0, slash), mesh_.positions.size(), positions_);
         corner.vertex = corner.position;
         if (slash == word.size()) return corner;
         word.remove_prefix(slash + 1);
         const size_t second = std::min(word.find('/'), word.size());
         if (second > 0) { // a seam of texture coordinates splits the vertex, and so its computed normal, as in Mitsuba
-            corner.uv = readIndex(word.substr(0, second), mesh_.uvs.size(), "texture");
+            corner.uv = readIndex(word.substr(0, second), mesh_.uvs.size(), uvs_);
             corner.vertex |= uint64_t(corner.uv + 1) << 32;
         }
-        if (second < word.size()) corner.normal = readIndex(word.substr(second + 1), mesh_.normals.size(), "normal");
+        if (second + 1 < word.size())
+            corner.normal = readIndex(word.substr(second + 1), mesh_.normals.size(), normals_);
         return corner;
     }
 
+    /// Of points and lines nothing is left.
     void readFace(const std::vector<std::string_view>& words) {
-        if (words.size() < 4)
-            throw InputError(where_, fmt::format("a face with {} corners; expected at least three.", words.size() - 1));
+        if (words.size() < 4) return;
         const MeshSource::Corner first = readCorner(words[1]);
         MeshSource::Corner previous = readCorner(words[2]);
         for (size_t i = 3; i < words.size(); ++i) {
@@ -120,9 +150,11 @@ private:
     }
 
     std::string text_;
+    Refuse refuse_;
     SourceLocation where_;
     MeshSource mesh_;
-    bool flipTexCoords_;
+    LargestIndex positions_{"vertex"}, normals_{"normal"}, uvs_{"texture"};
+    bool flipTexCoords_, hasRefused_ = false;
 };
 
 } // namespace
@@ -130,8 +162,11 @@ private:
 void readObj(Properties& properties, ShapeDescription& shape) {
     MeshFile file = readMeshFile(properties);
     file.flipTexCoords = properties.boolean("flip_tex_coords", true);
+    const auto refuse = [&](const SourceLocation& where, const std::string& message) {
+        properties.context().refuseUnknown(where, message, "lines of unknown keywords are passed over");
+    };
     const auto read = [&] {
-        return ObjReader(file.path, readFile(file.path, file.where, "mesh"), file.flipTexCoords).read();
+        return ObjReader(file.path, readFile(file.path, file.where, "mesh"), file.flipTexCoords, refuse).read();
     };
     shape.mesh = placeMeshFile(file, read, properties, shape);
 }

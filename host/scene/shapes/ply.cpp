@@ -21,6 +21,15 @@ int findProperty(const PlyElement& element, const Names& names) {
     return -1;
 }
 
+/// Of u and v by whichever names both have; -1 where they have none.
+std::pair<int, int> findTextureCoordinates(const PlyElement& element) {
+    for (const auto& [u, v] : {std::pair("u", "v"), std::pair("texture_u", "texture_v"), std::pair("s", "t")})
+        if (const std::pair found(findProperty(element, {u}), findProperty(element, {v}));
+            found.first >= 0 && found.second >= 0)
+            return found;
+    return {-1, -1};
+}
+
 class PlyMeshReader {
 public:
     PlyMeshReader(PlyReader& reader, bool flipTexCoords) : reader_(reader), flipTexCoords_(flipTexCoords) {}
@@ -45,7 +54,7 @@ private:
         const int x = findProperty(element, {"x"}), y = findProperty(element, {"y"}), z = findProperty(element, {"z"});
         const int nx = findProperty(element, {"nx"}), ny = findProperty(element, {"ny"}),
                   nz = findProperty(element, {"nz"});
-        const int u = findProperty(element, {"u", "s"}), v = findProperty(element, {"v", "t"});
+        const auto [u, v] = findTextureCoordinates(element);
         if (x < 0 || y < 0 || z < 0) reader_.failFile("the vertices have no x, y, z.");
         const bool hasNormals = nx >= 0 && ny >= 0 && nz >= 0;
         PlyAttributes attributes(element, "vertex_");

@@ -1,5 +1,6 @@
 // Image files for textures, by OpenImageIO.
 #include "scene/color.h"
+#include "scene/textures/image_primaries.h"
 #include "scene/textures/texture_plugin.h"
 #include "scene/xml/names.h"
 #include "scene/xml/xml_document.h"
@@ -136,6 +137,7 @@ private:
 Image readWithin(const Range& range, const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard) {
     const auto [spec, channels, values] = readStored(path, where, guard);
     const bool encoded = !raw && !spec.format.is_floating_point();
+    const std::optional<glm::dmat3> toSrgb = toLinearSrgb(spec);
     Decoder decode(spec.format == OIIO::TypeDesc::UINT8);
     const auto step = static_cast<size_t>(channels);
     const size_t green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2; // one channel, or grey and alpha
@@ -143,20 +145,19 @@ Image readWithin(const Range& range, const std::string& path, bool raw, const So
     std::vector<Rgb> pixels;
     pixels.reserve(values.size() / step);
     for (size_t i = 0; i < values.size(); i += step) {
-        float pixel[3] = {values[i], values[i + green], values[i + blue]};
-        bool beyond = false;
-        for (float& value : pixel) {
-            if (!std::isfinite(value) || (value < 0 && !range.mayBeNegative))
+        glm::vec3 pixel(values[i], values[i + green], values[i + blue]);
+        for (int c = 0; c < 3; ++c) {
+            if (!std::isfinite(pixel[c]) || (pixel[c] < 0 && !range.mayBeNegative))
                 failImage(path,
                           fmt::format("pixel {}, {} has the value {}; {}.", i / step % image.width,
-                                      i / step / image.width, value, range.rule),
+                                      i / step / image.width, pixel[c], range.rule),
                           where);
-            if (encoded) value = decode(value);
-            beyond |= value < range.least || value > range.most;
-            value = std::min(std::max(value, range.least), range.most);
+            if (encoded) pixel[c] = decode(pixel[c]);
         }
-        image.clamped += beyond;
-        pixels.push_back({pixel[0], pixel[1], pixel[2]});
+        if (toSrgb) pixel = glm::vec3(*toSrgb * glm::dvec3(pixel));
+        const glm::vec3 within = glm::clamp(pixel, range.least, range.most);
+        image.clamped += within != pixel;
+        pixels.push_back({within.x, within.y, within.z});
     }
     image.pixels = std::move(pixels);
     return image;

@@ -22,7 +22,8 @@ void readGridVolume(Properties& properties, VolumeDescription& volume) {
     volume.device.filter = indexOf(filters, properties.choice("filter_type", "trilinear", filters));
     volume.device.wrap = indexOf(wraps, properties.choice("wrap_mode", "clamp", wraps));
     const bool useFileBox = properties.boolean("use_grid_bbox", false);
-    properties.accept({"raw", "accel"}); // values are taken as they are, as in Mitsuba's RGB mode
+    // Values are taken as they are, as in Mitsuba's RGB mode, and the largest one is known.
+    properties.accept({"raw", "accel", "max_value"});
     glm::dmat4 toWorld = properties.transform("to_world");
 
     VolFile file = readVolFile(properties.context().files.resolve(name, where), where);

@@ -9,7 +9,7 @@ namespace quasilux {
 namespace {
 
 const std::vector<Tag> tags = {
-    {"scene", TagKind::scene, {"version"}, {}},
+    {"scene", TagKind::scene, {"version"}, {"type", "id", "name"}},
     {"default", TagKind::directive, {"name", "value"}, {}},
     {"include", TagKind::directive, {"filename"}, {}},
     {"path", TagKind::directive, {"value"}, {}},

@@ -128,8 +128,9 @@ void upgradeTextureCoordinates(Element& element) {
     const std::string offsetU = take(element, "uoffset", "0"), offsetV = take(element, "voffset", "0");
     if (element.children.size() == before) return;
     Element transform{"transform", {{"name", "to_uv"}}, {}, {}, element.where};
-    transform.children.push_back({"scale", {{"x", scaleU}, {"y", scaleV}}, {}, {}, element.where});
+    // In this order, as Mitsuba 3 upgrades them: offsets are scaled, too.
     transform.children.push_back({"translate", {{"x", offsetU}, {"y", offsetV}}, {}, {}, element.where});
+    transform.children.push_back({"scale", {{"x", scaleU}, {"y", scaleV}}, {}, {}, element.where});
     element.children.push_back(std::move(transform));
 }
 

@@ -214,6 +214,10 @@ private:
     std::string substitute(std::string text, const SourceLocation& where) {
         size_t position = 0;
         while ((position = text.find('$', position)) != std::string::npos) {
+            if (position > 0 && text[position - 1] == '\\') { // stands for itself
+                text.erase(position - 1, 1);
+                continue;
+            }
             Parameter* longest = nullptr;
             for (Parameter& parameter : parameters_)
                 if (text.compare(position + 1, parameter.name.size(), parameter.name) == 0 && !parameter.name.empty() &&
