@@ -104,6 +104,17 @@ TEST(DaylightGlare, WithoutSourcesIsOfTheIlluminanceAlone) {
     EXPECT_EQ(daylightGlare(imageOf(view, 20, {}), view, 2000, 1e6).probability, 1) << "at most 1";
 }
 
+// A night: the formula would divide by nothing.
+TEST(DaylightGlare, OfABlackImageIsItsLeast) {
+    const View view{Projection::equidistant, pi};
+    LuminanceImage image = imageOf(view, 20, {});
+    std::fill(image.values.begin(), image.values.end(), 0.f);
+    image.standardError.assign(image.values.size(), 0.f);
+    const DaylightGlare glare = daylightGlare(image, view, 2000, std::nullopt);
+    EXPECT_EQ(glare.probability, 0.16);
+    EXPECT_EQ(glare.standardError, 0);
+}
+
 TEST(DaylightGlare, OfAPerspectiveImageTakesTheIlluminanceGiven) {
     const View view{Projection::perspective, pi / 2};
     const DaylightGlare glare = daylightGlare(imageOf(view, 300, twoLamps), view, 2000, 1500);

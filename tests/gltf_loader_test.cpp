@@ -162,7 +162,13 @@ TEST_F(Gltf, MetallicRoughnessIsPrincipled) {
                               "<float name=\"clearcoat_gloss\" value=\"1\"/>"));
     const Bsdf dull = bsdfOfMaterial(
         {{"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}, {"pbrMetallicRoughness", pbr}});
-    expectSameBsdf(dull, principled("<float name=\"eta\" value=\"1\"/>"));
+    expectSameBsdf(dull, principled("<float name=\"eta\" value=\"1.0001\"/>"));
+    EXPECT_EQ(principled("<float name=\"eta\" value=\"1\"/>").front.size(), 1u) << "no metal either, as in Mitsuba";
+    json matt = pbr;
+    matt["metallicFactor"] = 0;
+    expectSameBsdf(bsdfOfMaterial({{"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}},
+                                   {"pbrMetallicRoughness", matt}}),
+                   bsdfOfXml("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.8,0.4,0.2\"/></bsdf>"));
 }
 
 TEST_F(Gltf, TransmissionIsGlass) {

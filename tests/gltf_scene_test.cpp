@@ -111,7 +111,7 @@ TEST_F(GltfScene, LuminairesAndSettingsByExtras) {
     GltfFile file = square();
     file.addNode({{"translation", {0, 3, 0}},
                   {"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
-                  {"extras", {{"ies", ies}, {"lumens", 1000}}}});
+                  {"extras", {{"ies", ies}, {"lumens", 1000}, {"maintenance", 0.8}}}});
     file.json["scenes"][0]["extras"]["quasilux"] = {
         {"bdd", 1},
         {"illuminance-grid",
@@ -121,11 +121,44 @@ TEST_F(GltfScene, LuminairesAndSettingsByExtras) {
     ASSERT_TRUE(scene.pointEmitters[0].luminaire);
     EXPECT_LT(glm::length(scene.pointEmitters[0].luminaire->axes[2] - glm::dvec3(0, -1, 0)), 1e-9);
     const double lumens = scene.luminaireTypes.at(0).goniogram.lumens() * scene.pointEmitters[0].intensity.g;
-    EXPECT_NEAR(lumens, 1000, 0.01); // candela, as the units are photometric
+    EXPECT_NEAR(lumens, 800, 0.01); // candela, as the units are photometric
     EXPECT_EQ(scene.settings.bdd, 1u);
     ASSERT_EQ(scene.grids.size(), 1u);
     EXPECT_EQ(scene.grids.front().ny, 3u);
     EXPECT_EQ(scene.sensor.meter, MeterKind::grid); // without a camera
+}
+
+// As in a scene file whose axes are turned, so that the file's +y is the zenith and -z the north.
+TEST_F(GltfScene, ASkyByExtras) {
+    GltfFile file = square();
+    file.json["scenes"][0]["extras"]["quasilux"] = {{"bdd", 1},
+                                                    {"sky",
+                                                     {{"type", "quasilux_cie_sky"},
+                                                      {"sky_type", 12},
+                                                      {"illuminance", 20000.5},
+                                                      {"sun_illuminance", 50000},
+                                                      {"sun_direction", {0.5, 1, 2}},
+                                                      {"tint", {1, 0.9, 0.8}}}}};
+    const Scene scene = load(file);
+    EXPECT_EQ(scene.settings.bdd, 1u);
+    const Scene written = loadScene(files.write(
+        "sky.xml", R"(<scene version="3.0.0"><?quasilux units="photometric"?><emitter type="quasilux_cie_sky">
+        <integer name="sky_type" value="12"/><float name="illuminance" value="20000.5"/>
+        <float name="sun_illuminance" value="50000"/><vector name="sun_direction" value="0.5,1,2"/>
+        <rgb name="tint" value="1,0.9,0.8"/><transform name="to_world"><rotate x="1" angle="-90"/></transform></emitter>
+        <sensor type="perspective"/><shape type="sphere"/></scene>)"));
+    ASSERT_TRUE(scene.surroundings && scene.surroundings->image && written.surroundings);
+    for (int axis = 0; axis < 3; ++axis)
+        test::expectNear(glm::vec3(scene.surroundings->image->axes[axis]),
+                         glm::vec3(written.surroundings->image->axes[axis]));
+    const auto &found = scene.surroundings->image->pixels, &expected = written.surroundings->image->pixels;
+    ASSERT_EQ(found.size(), expected.size());
+    for (size_t k = 0; k < found.size(); k += 97) EXPECT_EQ(found[k].g, expected[k].g);
+    ASSERT_EQ(scene.directionalEmitters.size(), 1u);
+    test::expectNear(scene.directionalEmitters[0].direction, written.directionalEmitters[0].direction);
+    EXPECT_LT(scene.directionalEmitters[0].direction.y, -0.8);
+    file.json["scenes"][0]["extras"]["quasilux"]["sky"].erase("type");
+    EXPECT_THROW(load(file), InputError);
 }
 
 // EXT_lights_ies: in a file, a buffer and a data URI. Its zero points along -z and C0 along +x of the node.

@@ -16,6 +16,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr LineOfSight ahead{{0, 0, 1}, {0, 1, 0}};
+constexpr double peakLuminance = 50000; // cd/m², as in evalglare
 
 /// Direction and solid angle of a pixel; none where the image shows nothing there.
 struct SeenPixel {
@@ -81,12 +82,14 @@ public:
         return sum;
     }
 
-    /// Pixels side by side, also at corners.
+    /// Pixels side by side, also at corners. Peaks are sources of their own: the square of a mean with what is about
+    /// them would be far too small.
     std::vector<DaylightGlare::Source> sources(double threshold) {
         std::vector<DaylightGlare::Source> found;
         std::vector<bool> taken(pixels_.size(), false);
-        for (size_t k = 0; k < pixels_.size(); ++k)
-            if (isBright(k, threshold) && !taken[k]) found.push_back(collect(k, threshold, taken));
+        for (const double least : {std::max(threshold, peakLuminance), threshold})
+            for (size_t k = 0; k < pixels_.size(); ++k)
+                if (isBright(k, least) && !taken[k]) found.push_back(collect(k, least, taken));
         std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return strength(a) > strength(b); });
         return found;
     }
@@ -166,12 +169,14 @@ DaylightGlare daylightGlare(const LuminanceImage& image, const View& view, doubl
     found.sources = evaluation.sources(threshold);
     double strength = 0;
     for (const auto& source : found.sources) strength += Evaluation::strength(source);
-    const double saturation = std::pow(found.illuminance, 1.87), contrast = strength / saturation;
+    const double saturation = std::pow(found.illuminance, 1.87);
+    const double contrast = strength > 0 ? strength / saturation : 0; // a black image has neither
     found.probability = std::min(1.0, 5.87e-5 * found.illuminance + 9.18e-2 * std::log10(1 + contrast) + 0.16);
     if (image.standardError.empty()) return found;
     const double error = illuminance ? 0 : evaluation.illuminanceError();
     const double ofContrast =
-        evaluation.errorOfStrength(threshold) / saturation + 1.87 * contrast * error / found.illuminance;
+        strength > 0 ? evaluation.errorOfStrength(threshold) / saturation + 1.87 * contrast * error / found.illuminance
+                     : 0;
     found.illuminanceError = error;
     found.standardError = 5.87e-5 * error + 9.18e-2 / std::numbers::ln10 * ofContrast / (1 + contrast);
     return found;

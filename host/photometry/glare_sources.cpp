@@ -149,8 +149,8 @@ public:
         const double candela = luminanceOfRgb(emitter.intensity, photometric_) * type.goniogram.intensity(local) *
                                type.metresPerUnit * type.metresPerUnit;
         const double area = shape.projectedArea(local);
-        if (shape.kind == LuminousShape::Kind::point)
-            return leaveOut(emitter.id, "has no luminous shape in its file, so that its luminance is not known");
+        if (!shape.hasArea())
+            return leaveOut(emitter.id, "has no luminous area in its file, so that its luminance is not known");
         if (!(area > 0 && candela > 0)) return;
         Sums sums;
         for (const glm::dvec3& place : placesOn(shape))

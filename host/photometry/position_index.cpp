@@ -10,6 +10,8 @@ namespace quasilux {
 namespace {
 
 constexpr double degreesPerRadian = 180 / std::numbers::pi;
+// Bounds of evalglare, by which published values of the daylight glare probability were found.
+constexpr double largestOfDaylight = 16, largestRatio = 3;
 
 } // namespace
 
@@ -30,8 +32,9 @@ double positionIndex(const LineOfSight& sight, const glm::dvec3& towards) {
 double positionIndexOfDaylight(const LineOfSight& sight, const glm::dvec3& towards) {
     const double cosine = glm::dot(towards, sight.direction);
     const glm::dvec3 across = towards - cosine * sight.direction;
-    if (cosine <= 0 || glm::dot(across, sight.up) >= 0) return positionIndex(sight, towards);
-    const double ratio = glm::length(across) / cosine;
+    if (cosine <= 0) return positionIndex(sight, towards);
+    if (glm::dot(across, sight.up) >= 0) return std::min(positionIndex(sight, towards), largestOfDaylight);
+    const double ratio = std::min(glm::length(across) / cosine, largestRatio);
     return 1 + (ratio < 0.6 ? 0.8 : 1.2) * ratio;
 }
 

@@ -31,7 +31,7 @@ bool Figure::isKnown() const { return std::isfinite(value) && std::isfinite(stan
 
 double Figure::halfWidth() const {
     if (!isKnown() || batches < 2) return std::numeric_limits<double>::infinity();
-    const double freedom = batches - 1.0; // Cornish & Fisher's series, within 0.2 % from 7 on
+    const double freedom = batches - 1.0; // Cornish & Fisher's series, within 0.4 % from 7 on
     const double z = 1.959964, t = z + (z * z * z + z) / (4 * freedom) +
                                    (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * freedom * freedom);
     return t * standardError;

@@ -41,11 +41,16 @@ nlohmann::json figureJson(const Figure& figure) {
             {"atMostToAdd", orNull(figure.bias)}};
 }
 
+nlohmann::json pointsJson(const PointModelling& points) {
+    return {{"least", points.least}, {"largest", points.largest}, {"within", points.within}, {"points", points.points}};
+}
+
 nlohmann::json gridJson(const GridPart& part) {
     return {{"name", part.name},
             {"kind", part.isCylindrical ? "cylindrical" : "planar"},
             {"points", part.values.values.size()},
             {"modelling", part.modelling ? figureJson(*part.modelling) : nlohmann::json()},
+            {"modellingAtPoints", part.modelling ? pointsJson(part.modellingAtPoints) : nlohmann::json()},
             {"mean", figureJson(part.figures.mean)},
             {"minimum", figureJson(part.figures.minimum)},
             {"maximum", figureJson(part.figures.maximum)},

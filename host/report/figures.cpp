@@ -118,6 +118,21 @@ Figure ratioOfMeans(const BatchedReadings& readings, PixelRange over, PixelRange
         [&](const Points& points) { return meanOf(partOf(points, over)) / meanOf(partOf(points, under)); });
 }
 
+PointModelling modellingAtPoints(const BatchedReadings& readings, PixelRange over, PixelRange under) {
+    constexpr double leastOfNorm = 0.3, mostOfNorm = 0.6;
+    const Points means = readings.means();
+    PointModelling found;
+    for (size_t k = 0; k < over.count; ++k) {
+        if (!(means[under.first + k] > 0)) continue;
+        const double ratio = means[over.first + k] / means[under.first + k];
+        found.least = found.points == 0 ? ratio : std::min(found.least, ratio);
+        found.largest = std::max(found.largest, ratio);
+        found.within += ratio >= leastOfNorm && ratio <= mostOfNorm;
+        ++found.points;
+    }
+    return found;
+}
+
 ObserverFigures observerFigures(const Observer& observer, const GlareSources& sources, const BatchedReadings& direct,
                                 const BatchedReadings& all) {
     ObserverFigures found{observer, sources, direct.figure(first), {}, {}};

@@ -28,6 +28,13 @@ NormFigures normFigures(const BatchedReadings& readings, PixelRange range, const
 /// Ratio of the means of two grids.
 Figure ratioOfMeans(const BatchedReadings& readings, PixelRange over, PixelRange under);
 
+/// Modelling at single points, which EN 12464-1 wants between 0.30 and 0.60.
+struct PointModelling {
+    double least = 0, largest = 0;
+    size_t within = 0, points = 0; ///< those between, all with light
+};
+PointModelling modellingAtPoints(const BatchedReadings& readings, PixelRange over, PixelRange under);
+
 /// Of one observer.
 struct ObserverFigures {
     Observer observer;

@@ -25,6 +25,7 @@ struct GridPart : RenderedPart {
     RenderedPart again; ///< of the points that may be the darkest or brightest
     size_t pointsAgain = 0;
     std::optional<Figure> modelling; ///< cylindrical over horizontal illuminance of the same points, ratio of the means
+    PointModelling modellingAtPoints; ///< where there is `modelling`
 };
 
 struct ObserverPart : RenderedPart {

@@ -86,12 +86,22 @@ std::string pointsAgain(const GridPart& part) {
         part.pointsAgain, part.again.passes, part.again.seconds);
 }
 
+std::string modellingOfPoints(const GridPart& part) {
+    if (!part.modelling) return "";
+    const PointModelling& points = part.modellingAtPoints;
+    return paragraph(
+        fmt::format("Modelling at single points: {:.2f} to {:.2f}; {} of {} points have 0.30 to 0.60, which "
+                    "EN 12464-1 asks for.",
+                    points.least, points.largest, points.within, points.points));
+}
+
 std::string grid(const GridPart& part, bool isAlone) {
     const ValueScale scale = scaleOfGrid(part.values, false);
     return fmt::format("<section><h2>{}{}</h2>\n", part.isCylindrical ? "Cylindrical illuminance" : "Illuminance",
                        isAlone ? "" : ": " + htmlEscaped(part.name)) +
            figure(isoluxDrawing(part.values, {ColourMap::viridis, scale}, {}, "isolux lines"),
                   "isolux lines; numbers: illuminance of the points in lx") +
+           modellingOfPoints(part) +
            paragraph(fmt::format("{} passes, {:.1f} s.", part.passes, part.seconds) + pointsAgain(part)) +
            "</section>\n";
 }

@@ -242,6 +242,18 @@ void checkUnitsOfSky(LoadContext& context) {
                         scene.surroundings->plugin));
 }
 
+/// Light without a surface that a picture would show: glare rated from such an image lacks it.
+void checkFisheye(LoadContext& context) {
+    const Scene& scene = context.scene;
+    if (scene.sensor.fisheye == FISHEYE_NONE || (scene.directionalEmitters.empty() && scene.pointEmitters.empty()))
+        return;
+    context.warn(
+        scene.sensor.where,
+        "parallel light, such as the sun of a sky by its type, and emitters of points, luminaires among them, have "
+        "no picture: `quasilux dgp` of this image lacks them as sources and in its illuminance. The sun of a "
+        "sunsky is seen; of lamps see UGR in `quasilux report`.");
+}
+
 /// What is read more than once, such as a group by its instances, says what it has to say each time.
 void keepEachOnce(std::vector<std::string>& messages) {
     std::set<std::string> seen;
@@ -325,6 +337,7 @@ ReadScene readScene(const SceneDocument& document, const std::string& path, cons
     }
     checkEmitters(context);
     checkUnitsOfSky(context);
+    checkFisheye(context);
     for (auto* messages : {&scene.warnings, &scene.withoutEffect, &context.forgiven}) keepEachOnce(*messages);
     listForgiven(context);
     read.withoutArea = std::move(context.withoutArea);

@@ -36,12 +36,23 @@ double indexOf(const GltfMaterial& material, double share) {
     return (1 + root) / (1 - root);
 }
 
+/// Of a dielectric that reflects nothing at its surface the specification leaves Lambert's law: what has a stated
+/// reflectance is made so.
+bool isMatt(const GltfMaterial& material, double metallic, double specular) {
+    return metallic == 0 && indexOf(material, specular) == 1 && material.clearcoat == 0;
+}
+
 Element principled(const GltfMaterial& material, const GltfSurface& surface, double metallic, double specular) {
+    if (isMatt(material, metallic, specular)) {
+        Element matt = newObject("bsdf", "diffuse", "", material.where);
+        addColorOrTexture(matt, "reflectance", surface.base);
+        return matt;
+    }
     Element bsdf = newObject("bsdf", "principled", "", material.where);
     addColorOrTexture(bsdf, "base_color", surface.base);
     addShare(bsdf, "roughness", surface.roughness);
     addNumber(bsdf, "metallic", metallic);
-    addNumber(bsdf, "eta", indexOf(material, specular));
+    addNumber(bsdf, "eta", std::max(indexOf(material, specular), leastIndex)); // at 1 there would be no metal either
     if (material.clearcoat > 0) {
         addShare(bsdf, "clearcoat", surface.coat);
         addShare(bsdf, "clearcoat_gloss", surface.coatGloss);

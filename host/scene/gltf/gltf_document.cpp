@@ -37,7 +37,7 @@ public:
             hasCamera |= addCamera(context_, node, root_);
         }
         if (!hasCamera && !hasGrid_) addView(shapes);
-        if (!hasLight && !shapes.emits()) addSurroundings();
+        if (!hasLight && !hasSky_ && !shapes.emits()) addSurroundings();
         listWithoutEffect();
         return std::move(root_);
     }
@@ -51,6 +51,10 @@ private:
             hasGrid_ |= instruction.kind == "illuminance-grid";
             root_.instructions.push_back(std::move(instruction));
         }
+        auto sky = skyOf(scene->extras, context_.newId("sky", ""), context_.at("scenes.extras"));
+        if (!sky) return;
+        hasSky_ = true;
+        root_.children.push_back(std::move(*sky));
     }
 
     void addView(const GltfShapes& shapes) {
@@ -82,7 +86,7 @@ private:
     GltfContext context_;
     Element root_;
     std::vector<std::string> warnings_;
-    bool hasGrid_ = false;
+    bool hasGrid_ = false, hasSky_ = false;
 };
 
 } // namespace

@@ -73,7 +73,8 @@ Element luminaireOf(GltfContext& context, const std::string& filename, const std
 Element luminaire(GltfContext& context, const GltfValues& extras, const tinygltf::Light* light, const std::string& name,
                   const glm::dmat4& toWorld, const SourceLocation& where) {
     Element emitter = luminaireOf(context, extras.text("ies"), name, toWorld, where);
-    if (extras.find("lumens")) addNumber(emitter, "lumens", extras.number("lumens", 0));
+    for (const char* factor : {"lumens", "maintenance"})
+        if (extras.find(factor)) addNumber(emitter, factor, extras.number(factor, 0));
     if (light) addColor(emitter, "tint", colorOf(*light, where));
     return emitter;
 }

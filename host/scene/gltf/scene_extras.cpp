@@ -1,10 +1,14 @@
 #include "scene/gltf/scene_extras.h"
 
+#include "scene/gltf/elements.h"
+
 #include <cmath>
 
 namespace quasilux {
 
 namespace {
+
+constexpr const char* skyKey = "sky";
 
 std::string numberText(const tinygltf::Value& value, const std::string& name, const SourceLocation& where) {
     const double number = value.IsNumber() ? value.GetNumberAsDouble() : NAN;
@@ -39,6 +43,7 @@ std::vector<Instruction> instructionsOf(const tinygltf::Value& extras, const Sou
     std::vector<Instruction> instructions;
     Instruction settings{{}, where};
     for (const std::string& name : all.Keys()) {
+        if (name == skyKey) continue;
         const tinygltf::Value& value = all.Get(name);
         if (value.IsObject())
             instructions.push_back(instructionOf(name, value, where));
@@ -50,6 +55,28 @@ std::vector<Instruction> instructionsOf(const tinygltf::Value& extras, const Sou
     }
     if (!settings.entries.empty()) instructions.push_back(settings);
     return instructions;
+}
+
+std::optional<Element> skyOf(const tinygltf::Value& extras, const std::string& id, const SourceLocation& where) {
+    if (!extras.Has("quasilux") || !extras.Get("quasilux").Has(skyKey)) return std::nullopt;
+    const tinygltf::Value& sky = extras.Get("quasilux").Get(skyKey);
+    if (!sky.IsObject() || !sky.Has("type") || !sky.Get("type").IsString())
+        throw InputError(where, "'sky' is no object with a 'type', such as \"quasilux_cie_sky\".");
+    Element emitter = newObject("emitter", sky.Get("type").Get<std::string>(), id, where);
+    for (const std::string& name : sky.Keys()) {
+        if (name == "type") continue;
+        const tinygltf::Value& value = sky.Get(name);
+        const char* tag = value.IsString()   ? "string"
+                          : value.IsBool()   ? "boolean"
+                          : value.IsInt()    ? "integer"
+                          : !value.IsArray() ? "float"
+                          : name == "tint"   ? "rgb"
+                                             : "vector";
+        const std::string text = value.IsBool() ? (value.Get<bool>() ? "true" : "false") : textOf(value, name, where);
+        emitter.children.push_back({tag, {{"name", name}, {"value", text}}, {}, {}, where});
+    }
+    addMatrix(emitter, "to_world", glm::dmat4(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1));
+    return emitter;
 }
 
 } // namespace quasilux

@@ -82,6 +82,9 @@ GltfShapes::Made GltfShapes::makeMaterial(const GltfMaterial& material, const Pr
         scene_.children.push_back(std::move(*medium));
     }
     made.emission = emissionOf(material, primitive.hasUvs);
+    if (made.emission && material.doubleSided)
+        context_.withoutEffect.insert(
+            "the backs of doubleSided materials that emit, which shine from their front alone");
     return made;
 }
 

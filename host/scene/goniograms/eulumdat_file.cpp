@@ -265,7 +265,11 @@ Goniogram readEulumdat(const std::string& path, const std::string& content, cons
                                      ": the conversion factor for luminous intensities is blank and taken for 1.");
     }
     if (factor == 0) lines.fail("conversion factor for luminous intensities: 0; expected a number above 0.");
-    lines.skipNumber("tilt of the luminaire during measurement");
+    if (const double tilt = lines.numberOr(0, "tilt of the luminaire during measurement"); tilt != 0)
+        goniogram.warnings.push_back(fmt::format(
+            "{}: the luminaire was tilted by {} degrees while it was measured, which is left out; turn it by "
+            "to_world where its C planes are meant without that tilt.",
+            lines.where().text(), tilt));
     readLampSets(lines, goniogram);
     if (lampSet < 1 || lampSet > goniogram.lampSets.size())
         throw InputError(where, fmt::format("there is no set of lamps number {} in '{}'; expected 1 to {}.", lampSet,

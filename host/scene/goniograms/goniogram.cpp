@@ -64,6 +64,8 @@ double LuminousShape::projectedArea(const glm::dvec3& d) const {
     return area > edgeOn * std::max({a * b, b * h, a * h}) ? area : 0;
 }
 
+bool LuminousShape::hasArea() const { return areaAlong(*this, {1, 1, 1}) > 0; }
+
 std::string LuminousShape::text() const {
     const auto sizes = [](double a, double b) { return fmt::format("{:.4g} m × {:.4g} m", a, b); };
     switch (kind) {

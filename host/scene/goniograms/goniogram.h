@@ -28,6 +28,8 @@ struct LuminousShape {
     /// Square metres that it covers seen along the unit vector `direction`; 0 where it is flat and seen edge-on, to a
     /// millionth of its sides.
     double projectedArea(const glm::dvec3& direction) const;
+    /// Or else it is a point or a line, whose luminance has no bounds.
+    bool hasArea() const;
     /// "rectangle 1.2 m × 0.6 m".
     std::string text() const;
 };

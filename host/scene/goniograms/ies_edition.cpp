@@ -75,8 +75,10 @@ std::optional<IesFirstLine> readIesFirstLine(std::string_view line) {
     text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\t'; }), text.end());
     for (const auto& [name, edition] : editionHeaders)
         if (isWord(text, name)) return IesFirstLine{edition, true};
-    if (!isWord(std::string_view(text).substr(0, 4), "IES:") && !isWord(std::string_view(text).substr(0, 5), "IESNA"))
-        return IesFirstLine{};
+    const auto begins = [&](std::string_view word) {
+        return isWord(std::string_view(text).substr(0, word.size()), word);
+    };
+    if (!begins("IES:") && !begins("IESNA") && !begins("IESLM-63")) return IesFirstLine{}; // the last without its colon
     const std::optional<int> year = yearOf(text);
     const std::optional<IesEdition> edition = year ? editionOfYear(*year) : std::nullopt;
     if (!edition) return {};
