@@ -165,6 +165,38 @@ TEST_F(CheckpointCommand, OtherRendersAreRefused) {
     expectRefused(render({"--resume", "a.ckpt"}), "its checksum is wrong");
 }
 
+// Names of files are bytes; those of a checkpoint's description are text.
+TEST_F(CheckpointCommand, ASceneMayHaveAnyName) {
+    const std::string name = "caf\xe9.xml";
+    fs::rename(folder / "scene.xml", folder / name);
+    const Arguments begin{"render", name, "--photons", "256", "--fixed", "--json"};
+    const auto with = [&](const Arguments& more) {
+        Arguments all = begin;
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = run(all);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    };
+    with({"-o", "a.exr", "--passes", "4", "--checkpoint", "a.ckpt"});
+    with({"-o", "b.exr", "--passes", "8", "--resume", "a.ckpt"});
+    with({"-o", "whole.exr", "--passes", "8"});
+    expectSameImage("b.exr", "whole.exr");
+}
+
+// From pass 16 on four passes are one batch, whose scatter is that of nothing.
+TEST_F(CheckpointCommand, AnErrorFromOneBatchIsNotKnown) {
+    const auto errorAfter = [&](const std::string& passes) {
+        const Outcome outcome = run(render({"-o", "a.exr", "--passes", passes}));
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+        return nlohmann::json::parse(outcome.output).at("relativeError");
+    };
+    for (const char* passes : {"1", "100:104"}) {
+        EXPECT_TRUE(errorAfter(passes).is_null()) << passes;
+        EXPECT_TRUE(errorOf("a.exr").empty()) << passes;
+    }
+    EXPECT_GT(errorAfter("100:108").get<double>(), 0);
+    EXPECT_FALSE(errorOf("a.exr").empty());
+}
+
 // A limit on files stands for the disk: the checkpoint does not fit, the image does.
 TEST_F(CheckpointCommand, FullDiskLosesNoImage) {
     writeScene(test::litPlate(128));

@@ -296,7 +296,7 @@ TEST(CheckpointKeeper, SaysQuietlyTooThatNoneIsWritten) {
     soFar.search.interrupted = true;
     const auto said = [&](bool isLast) {
         testing::internal::CaptureStderr();
-        CheckpointKeeper(options, device(), {}).afterPasses(soFar, passes, 0, isLast);
+        CheckpointKeeper(options, device(), {}, {}).afterPasses(soFar, passes, 0, isLast);
         return testing::internal::GetCapturedStderr();
     };
     EXPECT_THAT(said(true), HasSubstr("warning: no checkpoint is written: the render was interrupted"));

@@ -7,6 +7,7 @@
 #include "support/program_runner.h"
 #include "support/scene_files.h"
 #include "util/error.h"
+#include "util/stopwatch.h"
 
 #include <OpenImageIO/imageio.h>
 #include <chrono>
@@ -165,6 +166,26 @@ TEST_F(HabitsTest, OneSceneThatFailsStopsNoOther) {
         for (const char* name : {"a.exr", "b.exr"}) fs::remove(folder / name);
     }
     EXPECT_EQ(render({"a.xml", "b.xml", "--device", "999"}).exitCode, 2);
+}
+
+// A signal while the next one loads ends the program at once.
+TEST_F(HabitsTest, ASummaryIsThereWhenTheNextSceneBegins) {
+    const auto isSaid = [&] { return readText(root / "stdout").find("wrote a.exr") != std::string::npos; };
+    const Stopwatch watch;
+    const Outcome outcome = runUntil(
+        {"render", "a.xml", "b.xml", "--fixed", "--time", "0.1", "--passes", "1000000"},
+        [&] { return isSaid() || watch.seconds() > 60; }, SIGKILL);
+    EXPECT_EQ(outcome.exitCode, -1) << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("wrote a.exr"));
+    EXPECT_THAT(outcome.output, Not(HasSubstr("wrote b.exr")));
+}
+
+TEST_F(HabitsTest, SeveralAtOnceNeedAFolderForWhatTheyPrint) {
+    setenv("TMPDIR", (folder / "gone").c_str(), 1);
+    const Outcome outcome = render({"a.xml", "b.xml", "-j", "2"});
+    unsetenv("TMPDIR");
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_THAT(outcome.errors, HasSubstr("no temporary file can be made: TMPDIR names no folder"));
 }
 
 TEST_F(HabitsTest, SeveralAtOnceAreTheSameImages) {

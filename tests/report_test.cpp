@@ -130,6 +130,22 @@ TEST_F(ReportTest, SaysHowLongWhereItKnows) {
     EXPECT_THAT(shown("picture.xml"), HasSubstr(" left"));
 }
 
+// What was measured before the device failed is on the page. The grid takes some hundreds of launches, as it is soon known
+// well enough, the picture has what is left of the time.
+TEST_F(ReportTest, ADeviceThatFailsLosesNoPartBefore) {
+    write("parts.xml", camera + lamp + grid);
+    const Outcome outcome = runWith(
+        QUASILUX_BAD_DEVICE, {"report", "parts.xml", "-o", "room.html", "--json", "--time", "60", "--precision", "0.9"},
+        {{"QUASILUX_BAD_QUEUE", "1"}, {"QUASILUX_BAD_HOW", "lost"}, {"QUASILUX_BAD_AT", "3000"}});
+    EXPECT_EQ(outcome.exitCode, 1) << outcome.errors;
+    EXPECT_THAT(outcome.errors, HasSubstr("OpenCL error -5"));
+    const auto figures = nlohmann::json::parse(outcome.output);
+    ASSERT_EQ(figures["grids"].size(), 1u);
+    EXPECT_GT(figures["grids"][0]["mean"]["value"].get<double>(), 0);
+    EXPECT_THAT(figures["warnings"].dump(), HasSubstr("as a device failed"));
+    EXPECT_TRUE(holds(readText(folder / "room.html"), "as a device failed"));
+}
+
 TEST_F(ReportTest, NeedsNeitherCameraNorGrid) {
     write("room.xml", lamp + grid);
     const auto figures = figuresOf({"--time", "0.5"});

@@ -161,12 +161,30 @@ INSTANTIATE_TEST_SUITE_P(
 
 // With --strict that is an error, but only once the image is there.
 TEST_F(SharedRenderTest, StrictOnesAreWrittenFirst) {
-    const Outcome outcome =
-        runBad(shared({"-o", "a.exr", "--passes", "50", "--strict"}),
-               {{"QUASILUX_BAD_QUEUE", "1"}, {"QUASILUX_BAD_HOW", "build"}, {"QUASILUX_BAD_AT", "1"}});
-    EXPECT_EQ(outcome.exitCode, 1) << outcome.errors;
-    EXPECT_THAT(outcome.errors, HasSubstr("--strict: the warning above is an error; the files have been written"));
-    expectPassesOf("a.exr", "50");
+    const auto expectError = [&](const std::string& passes, const Variables& bad) {
+        const Outcome outcome = runBad(shared({"-o", "a.exr", "--passes", passes, "--strict", "--quiet"}), bad);
+        EXPECT_EQ(outcome.exitCode, 1) << outcome.errors;
+        EXPECT_THAT(outcome.errors, HasSubstr(" is dropped"));
+        EXPECT_THAT(outcome.errors, HasSubstr("--strict: the warning above is an error; the files have been written"));
+        expectPassesOf("a.exr", passes);
+    };
+    expectError("50", {{"QUASILUX_BAD_QUEUE", "1"}, {"QUASILUX_BAD_HOW", "build"}, {"QUASILUX_BAD_AT", "1"}});
+    expectError("2400", {{"QUASILUX_BAD_QUEUE", "2"}, {"QUASILUX_BAD_HOW", "lost"}, {"QUASILUX_BAD_AT", "60"}});
+}
+
+// A warning before the first pass is no failure of the device that was being prepared.
+TEST_F(SharedRenderTest, StrictEndsBeforePassesAreOfNoDevice) {
+    // Two sheets in one place.
+    const std::string plate = test::litPlate(8);
+    const size_t end = plate.find("</shape>") + 8;
+    std::ofstream(folder / "scene.xml")
+        << plate.substr(0, end)
+        << R"(<shape type="rectangle"><transform name="to_world"><rotate y="1" angle="180"/><rotate z="1" angle="20"/>
+            <translate z="4"/></transform></shape>)"
+        << plate.substr(end);
+    const std::string said = expectRefused(shared({"--passes", "4", "--strict"}), "nothing is rendered");
+    EXPECT_THAT(said, HasSubstr("warning: "));
+    EXPECT_THAT(said, Not(HasSubstr(" is dropped")));
 }
 
 // The image is that of the passes that are there.

@@ -92,10 +92,7 @@ void CheckpointKeeper::afterPasses(const AutoRender& soFar, const PassesSoFar& p
     const auto start = Clock::now();
     const auto why =
         failureOf([&] { writeCheckpoint(options_.checkpoint, describe(soFar, passes, seconds), passes.save); });
-    if (why && failure_.empty() && !options_.quiet) {
-        printTo(stderr, "\n"); // below the progress line
-        printWarning("no checkpoint could be written, the render goes on: " + *why);
-    }
+    if (why && failure_.empty()) warn_("no checkpoint could be written, the render goes on: " + *why);
     failure_ = why.value_or("");
     wasTried_ = true;
     writtenPass_ = passes.nextPass;

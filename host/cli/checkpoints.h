@@ -12,6 +12,8 @@ namespace quasilux {
 /// What a render of these options is, before anything is known of its passes.
 Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const StopRule& stop);
 
+using WarnAmidPasses = std::function<void(const std::string& message)>;
+
 /// How far a render has come, wherever its passes are.
 struct PassesSoFar {
     const SceneReport& report;
@@ -26,9 +28,10 @@ struct PassesSoFar {
 /// so, and writing is tried again when the next one is due.
 class CheckpointKeeper {
 public:
-    /// `base`: checkpointOf(). Nothing is written where options name no file.
-    CheckpointKeeper(const RenderOptions& options, Device& device, Checkpoint base)
-        : options_(options), device_(device), base_(std::move(base)) {}
+    /// `base`: checkpointOf(). Nothing is written where options name no file. `warn` prints what is wrong while the
+    /// render goes on.
+    CheckpointKeeper(const RenderOptions& options, Device& device, Checkpoint base, WarnAmidPasses warn)
+        : options_(options), device_(device), base_(std::move(base)), warn_(std::move(warn)) {}
 
     void afterPass(const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast);
     /// The same of passes that no single renderer has.
@@ -47,6 +50,7 @@ private:
     const RenderOptions& options_;
     Device& device_;
     Checkpoint base_;
+    WarnAmidPasses warn_;
     std::string failure_;
     unsigned writtenPass_ = 0;
     bool wasTried_ = false;

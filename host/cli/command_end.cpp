@@ -2,7 +2,10 @@
 
 #include "util/error.h"
 
+#include <cerrno>
+#include <cstdio>
 #include <new>
+#include <system_error>
 
 namespace quasilux {
 
@@ -16,6 +19,12 @@ CommandEnd endOf(const std::function<int()>& command) {
     } catch (const std::exception& error) {
         return {exitFailed, error.what()};
     }
+}
+
+void flushResults() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    const int why = errno;
+    throw std::system_error(why, std::generic_category(), "cannot write to the standard output");
 }
 
 } // namespace quasilux

@@ -108,13 +108,6 @@ int runCommand(CLI::App& app, const Options& options) {
     return 0;
 }
 
-/// Results that nobody gets are a failure; one that is named here is not lost at the end without a word.
-void flushResults() {
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-    const int why = errno;
-    throw std::system_error(why, std::generic_category(), "cannot write to the standard output");
-}
-
 // Without standard streams (`2>&-`) the next files that are opened would get their numbers, and messages would be
 // written into them. One that can be read alone is no place to write to, so that results which nobody gets still are a
 // failure.

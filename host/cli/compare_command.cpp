@@ -35,9 +35,7 @@ void addReferenceNoise(const std::string& text, const std::vector<Region>& regio
     double value = -1;
     if (!CLI::detail::lexical_cast(number, value) || !(value >= 0) || !std::isfinite(value))
         throw InputError(fmt::format("--reference-noise: '{}' given, expected a number from 0, or NAME=NUMBER", text));
-    bool known = name.empty();
-    for (const auto& region : regions) known |= region.name == name;
-    if (!known) throw InputError(fmt::format("--reference-noise {}: no region is called '{}'", text, name));
+    checkReferenceNoise("--reference-noise " + text, name, value, regions);
     noise[name] = value;
 }
 

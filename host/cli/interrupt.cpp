@@ -56,6 +56,9 @@ int exitCodeWhenWritten() {
     return signal == 0 || signal == SIGINT ? 0 : signalBase + signal;
 }
 
-int exitCodeWithoutResult() { return signalBase + firstSignal; }
+int exitCodeWithoutResult() {
+    const int signal = firstSignal;
+    return signalBase + (signal == 0 ? SIGINT : signal);
+}
 
 } // namespace quasilux

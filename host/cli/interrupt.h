@@ -24,7 +24,7 @@ int signalThatCame();
 /// Exit code once all has been written: 0, also after Ctrl-C, which people use to end a render in time; 128 + the
 /// number of another signal, so that a scheduler knows that the render is not done.
 int exitCodeWhenWritten();
-/// Where nothing could be written: 128 + the number, of Ctrl-C too.
+/// Where nothing could be written: 128 + the number, of Ctrl-C too; as of Ctrl-C where no signal has come.
 int exitCodeWithoutResult();
 
 } // namespace quasilux

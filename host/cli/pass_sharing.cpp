@@ -6,7 +6,6 @@
 #include "ranks/job.h"
 #include "share/device_workers.h"
 #include "util/error.h"
-#include "util/messages.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -89,9 +88,7 @@ SharedHooks PassSharing::hooks(const ChosenRender& chosen) {
         keeper_.missed(fmt::format("passes {} are there, others before them are missing", text(there)));
     };
     hooks.onDropped = [this](const std::string& name, const std::string& why) {
-        if (options_.quiet) return;
-        printTo(stderr, "\n"); // below the progress line
-        printWarning(fmt::format("{} is dropped, others render its passes: {}", name, why));
+        warn_(fmt::format("{} is dropped, others render its passes: {}", name, why));
     };
     hooks.secondsToNextSums = [this] { return keeper_.secondsToNext(); };
     return hooks;

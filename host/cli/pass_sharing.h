@@ -20,8 +20,9 @@ std::shared_ptr<Device> openDevice(const RenderOptions& options, const DeviceCho
 
 class PassSharing {
 public:
-    PassSharing(const RenderOptions& options, const SharedDevices& devices, CheckpointKeeper& keeper)
-        : options_(options), devices_(devices), keeper_(keeper) {}
+    PassSharing(const RenderOptions& options, const SharedDevices& devices, CheckpointKeeper& keeper,
+                WarnAmidPasses warn)
+        : options_(options), devices_(devices), keeper_(keeper), warn_(std::move(warn)) {}
 
     RenderOutcome run(const ChosenRender& chosen);
     /// After run(): who has rendered what.
@@ -35,6 +36,7 @@ private:
     const RenderOptions& options_;
     const SharedDevices& devices_;
     CheckpointKeeper& keeper_;
+    WarnAmidPasses warn_;
     std::vector<WorkerRecord> records_;
     std::map<std::string, KernelTiming> timings_;
 };

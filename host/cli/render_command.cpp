@@ -1,6 +1,7 @@
 // The stages of a render: check the outputs, load, prepare, render, write, summarise.
 #include "cli/render_command.h"
 
+#include "cli/command_end.h"
 #include "cli/interrupt.h"
 #include "cli/render_report.h"
 #include "cli/render_scene.h"
@@ -39,10 +40,15 @@ void say(const RenderOptions& options, const std::vector<std::string>& warnings)
         for (const auto& warning : warnings) printWarning(warning);
 }
 
+/// The end of a strict render before its first pass, for which no device is to blame.
+struct StrictEnd : std::runtime_error {
+    using runtime_error::runtime_error;
+};
+
 void endIfStrict(const RenderOptions& options, const std::vector<std::string>& messages, Moment moment) {
     if (!options.strict || messages.empty()) return;
     const char* which = messages.size() == 1 ? "the warning above is an error" : "the warnings above are errors";
-    if (moment == Moment::beforePasses) throw InputError(fmt::format("--strict: {}, nothing is rendered", which));
+    if (moment == Moment::beforePasses) throw StrictEnd(fmt::format("--strict: {}, nothing is rendered", which));
     throw std::runtime_error(fmt::format("--strict: {}; the files have been written", which));
 }
 
@@ -92,7 +98,7 @@ void printJsonSummary(const RenderRecord& record, const FilmImage& image, const 
 
 // After the passes: the estimated error, then a table by component. Docs: docs/method/accuracy.md.
 void printErrorTable(const ErrorEstimate& error) {
-    if (!std::isfinite(error.sum())) { // after one pass nothing is known
+    if (!error.isKnown()) { // after one pass nothing is known
         fmt::print("\n");
         return;
     }
@@ -273,11 +279,17 @@ void SensorRender::summarise(const RenderRecord& record, WrittenFiles& written,
 int SensorRender::run() {
     exitOnInterrupt();
     checkOutputs(options_);
-    load();
-    renderOnFirstThatCan();
+    try {
+        load();
+        renderOnFirstThatCan();
+    } catch (const StrictEnd& end) {
+        throw InputError(end.what());
+    }
     if (done_.isOutdated && !interruptFlag()) return exitCodeOutdated;
     if (done_.render.image.passes > 0) return finish();
-    if (interruptFlag()) return exitCodeWithoutResult();
+    if (done_.isStopped && !options_.quiet)
+        printWarning("stopped by the page of the live view before the first pass was over: there is no image");
+    if (interruptFlag() || done_.isStopped) return exitCodeWithoutResult();
     throw std::runtime_error("no pass was rendered before the stop rule was reached");
 }
 
@@ -309,6 +321,8 @@ int SensorRender::finish() {
         written.addFailure(
             std::make_exception_ptr(std::runtime_error("no checkpoint of the last passes could be written: " + why)));
     written.rethrow();
+    const auto& amidPasses = done_.started->warningsAmidPasses(); // have been said
+    warnings.insert(warnings.end(), amidPasses.begin(), amidPasses.end());
     endIfStrict(options_, warnings, Moment::whenWritten);
     return exitCodeWhenWritten();
 }
@@ -323,9 +337,11 @@ int renderSensors(const RenderOptions& options, const RenderSurroundings& around
             fmt::format("--resume {}: a checkpoint is of one sensor; give --sensor with its number.", options.resume));
     const size_t count =
         loadScene(options.scene, options.parameters(), {"0", options.unknown(), options.loadLimits()}).sensorCount;
-    for (size_t index = 0; index < count; ++index)
-        if (const int code = SensorRender(options.forSensor(index), around).run(); code != 0 || interruptFlag())
-            return code;
+    for (size_t index = 0; index < count; ++index) {
+        const int code = SensorRender(options.forSensor(index), around).run();
+        flushResults();
+        if (code != 0 || interruptFlag()) return code;
+    }
     return 0;
 }
 

@@ -1,5 +1,6 @@
 #include "cli/render_processes.h"
 
+#include "cli/command_end.h"
 #include "cli/interrupt.h"
 #include "cli/render_command.h"
 #include "output/progress_line.h"
@@ -8,6 +9,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
 #include <list>
 #include <memory>
@@ -28,10 +31,22 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
+/// In the folder that TMPDIR names, without a name of its own; tmpfile() knows no other folder than /tmp.
 File temporaryFile() {
-    File file(std::tmpfile());
-    if (!file) throw std::system_error(errno, std::generic_category(), "no temporary file can be made, set TMPDIR");
-    return file;
+    std::error_code status;
+    const std::string folder = std::filesystem::temp_directory_path(status).string();
+    if (status) throw std::system_error(status, "no temporary file can be made: TMPDIR names no folder");
+    std::string path = folder + "/quasilux-XXXXXX";
+    const int descriptor = mkstemp(path.data());
+    if (descriptor < 0)
+        throw std::system_error(errno, std::generic_category(),
+                                fmt::format("no temporary file can be made in {}, name a folder by TMPDIR", folder));
+    unlink(path.c_str());
+    File file(fdopen(descriptor, "w+"));
+    if (file) return file;
+    const int why = errno;
+    close(descriptor);
+    throw std::system_error(why, std::generic_category(), "no temporary file can be opened");
 }
 
 std::string contentOf(std::FILE* file) {
@@ -51,7 +66,10 @@ public:
     }
 
     size_t index() const { return index_; }
-    void hand(int signal) const { kill(process_, signal); }
+    void hand(int signal) {
+        handed_ = signal;
+        kill(process_, signal);
+    }
 
     /// Its end, once it has come; its texts are printed then.
     std::optional<CommandEnd> end() {
@@ -64,6 +82,7 @@ public:
         if (WIFSIGNALED(status)) {
             end.error = fmt::format("its process was ended by signal {}", WTERMSIG(status));
             printError(end.error);
+            if (WTERMSIG(status) == handed_) end.exitCode = exitCodeWithoutResult(); // while it knew no handler
         }
         return end;
     }
@@ -77,7 +96,11 @@ private:
         dup2(fileno(errors_.get()), STDERR_FILENO);
         RenderSurroundings around;
         around.drawsProgress = false;
-        const CommandEnd end = endOf([&] { return renderCommand(options, around); });
+        const CommandEnd end = endOf([&] {
+            const int code = renderCommand(options, around);
+            flushResults();
+            return code;
+        });
         if (!end.error.empty()) printError(end.error);
         std::fputs(end.error.c_str(), failure_.get());
         std::fflush(nullptr);
@@ -85,6 +108,7 @@ private:
     }
 
     size_t index_;
+    int handed_ = 0; ///< the signal that it was handed; 0: none
     File output_ = temporaryFile(), errors_ = temporaryFile(), failure_ = temporaryFile();
     pid_t process_ = -1;
 };
@@ -104,7 +128,7 @@ std::vector<CommandEnd> renderAtOnce(const std::vector<RenderOptions>& all, unsi
             ends.emplace_back();
         }
         if (interruptFlag() && !std::exchange(wasHanded, true))
-            for (const RenderProcess& process : running) process.hand(signalThatCame());
+            for (RenderProcess& process : running) process.hand(signalThatCame());
         running.remove_if([&](RenderProcess& process) {
             const auto end = process.end();
             if (!end) return false;

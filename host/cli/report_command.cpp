@@ -9,6 +9,7 @@
 #include "report/decisive_points.h"
 #include "report/figure_text.h"
 #include "report/report_page.h"
+#include "util/error.h"
 #include "util/messages.h"
 #include "util/stopwatch.h"
 
@@ -54,9 +55,10 @@ public:
         sharesLeft_ = (directShare + observerShare) * static_cast<double>(observers().size()) +
                       (scene_.grids.empty() ? 0 : gridShare) + (hasPicture ? pictureShare : 0);
         // Observers are soon known, and leave their time to the grids; what those leave a picture can always use.
-        for (const Observer& observer : observers()) measureObserver(observer);
-        if (!scene_.grids.empty()) measureOwnGrids();
-        if (hasPicture) takePicture();
+        for (const Observer& observer : observers()) attempt([&] { measureObserver(observer); });
+        if (!scene_.grids.empty()) attempt([&] { measureOwnGrids(); });
+        if (hasPicture) attempt([&] { takePicture(); });
+        if (failure_ && isEmpty()) std::rethrow_exception(failure_);
         if (isInterrupted())
             warn("the report was interrupted: parts of it are missing, or rendered for a shorter time");
         content_.seconds = seconds();
@@ -64,8 +66,34 @@ public:
         return std::move(content_);
     }
 
+    /// What ended the report before all of its parts were there; null: nothing.
+    std::exception_ptr failure() const { return failure_; }
+
 private:
     using Enough = std::function<bool(const Renderer&)>;
+
+    bool isOver() const { return isInterrupted() || failure_; }
+
+    /// One of the parts. A device that fails loses none of what is there.
+    template <typename Part>
+    void attempt(const Part& part) {
+        if (isOver()) return;
+        try {
+            part();
+        } catch (const InputError&) {
+            throw;
+        } catch (...) {
+            endBy(std::current_exception());
+        }
+    }
+
+    void endBy(const std::exception_ptr& failure) {
+        failure_ = failure;
+        const auto why = failureOf([&] { std::rethrow_exception(failure); });
+        warn("parts of the report are missing, or rendered for a shorter time, as a device failed: " + *why);
+    }
+
+    bool isEmpty() const { return content_.observers.empty() && content_.grids.empty() && !content_.picture; }
 
     static LoadChoice choiceOf(const ReportOptions& options) {
         LoadChoice choice = options.choice();
@@ -127,6 +155,7 @@ private:
         std::atomic<bool> ends = false;
         const auto onProgress = [&](Progress now) {
             catchInterrupt();
+            if (isInterrupted()) ends = true;
             if (!endsByTime) now.secondsLeft = -1; // that until manyPasses
             progress_.update(now);
         };
@@ -139,9 +168,9 @@ private:
             if (isEnough(renderer) || isLate || isInterrupted()) ends = true;
         };
         AutoRender result = started.render(onProgress, {}, ends, afterPass);
-        if (result.failure) std::rethrow_exception(result.failure);
         part.passes = result.image.passes;
         part.seconds = seconds() - begun;
+        if (result.failure) endBy(result.failure);
         for (const auto& warning :
              renderWarnings(result.counters, result.report, uint64_t(result.image.width) * result.image.height))
             warn(warning);
@@ -183,13 +212,14 @@ private:
             decisive = decisivePoints(measured.readings, measured.ranges, options_.precision);
             return decisive.has_value();
         });
-        if (decisive && !isInterrupted() && seconds() < end) {
+        if (decisive && !isOver() && seconds() < end) {
             Scene points = scene_;
             points.grids = gridsOf(scene.grids, *decisive);
             useGridsAsSensor(points);
             measured.extremeRanges = extremeRanges(*decisive);
             measure(points, end, measured.again, measured.extremes, areAllKnown, ~seed()); // independent of the others
         }
+        if (measured.rendered.passes == 0) return; // interrupted
         for (size_t k = 0; k < measured.ranges.size(); ++k)
             content_.grids.push_back(gridPart(scene.grids, k, measured));
     }
@@ -231,13 +261,14 @@ private:
                        {first, first + static_cast<std::ptrdiff_t>(ranges[k].count)},
                        {},
                        "lx"};
-        if (const auto twin = horizontalTwin(grids, k))
+        if (const auto twin = horizontalTwin(grids, k)) {
             part.modelling = ratioOfMeans(readings, ranges[k], ranges[*twin]);
+            part.modellingAtPoints = modellingAtPoints(readings, ranges[k], ranges[*twin]);
+        }
         return part;
     }
 
     void measureObserver(const Observer& observer) {
-        if (isInterrupted()) return;
         if (!occlusion_) occlusion_ = std::make_unique<Occlusion>(scene_);
         const GlareSources sources = glareSources(scene_, observer, *occlusion_, photometric_);
         BatchedReadings direct(photometric_), all(photometric_);
@@ -251,11 +282,13 @@ private:
                        directNoise * options_.precision;
             });
         }
+        if (isOver()) return;
         const RenderedPart ofDirect = part;
         Scene scene = scene_;
         measureAtEye(scene, observer, EyeLight::all);
         measure(scene, endOf(observerShare), part, all,
                 [&] { return isKnown(observerFigures(observer, sources, direct, all), options_.precision); });
+        if (part.passes == 0) return; // interrupted
         part.seconds += ofDirect.seconds;
         part.figures = observerFigures(observer, sources, direct, all);
         part.figures.observer.position += scene.origin; // where the file has it
@@ -263,11 +296,13 @@ private:
     }
 
     void takePicture() {
-        if (isInterrupted()) return;
         PicturePart part;
         const AutoRender result = render(scene_, endOf(pictureShare), part, [](const Renderer&) { return false; });
         const FilmImage& image = result.image;
-        part.luminance = luminanceImage(image.width, image.height, image.radiance, image.standardError, photometric_);
+        if (image.passes == 0) return; // interrupted
+        part.luminance =
+            luminanceImage(image.width, image.height, image.radiance,
+                           image.isErrorKnown() ? image.standardError : std::vector<float>(), photometric_);
         part.toneMapped = toneMap(image, chooseToneCurve(image, {}));
         part.error = estimateError(image);
         content_.picture = std::move(part);
@@ -298,6 +333,7 @@ private:
     std::unique_ptr<Occlusion> occlusion_;
     double sharesLeft_ = 1;
     ReportContent content_;
+    std::exception_ptr failure_;
 };
 
 } // namespace
@@ -305,7 +341,8 @@ private:
 int reportCommand(const ReportOptions& options) {
     exitOnInterrupt();
     checkOutputPath(options.output, "--output", ".html");
-    const ReportContent content = ReportMaker(options).make();
+    ReportMaker maker(options);
+    const ReportContent content = maker.make();
     writeText(options.output, reportPage(content));
     if (options.json) {
         fmt::print("{}\n", reportJson(content).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -315,6 +352,7 @@ int reportCommand(const ReportOptions& options) {
             fmt::print("not every figure is known to {:g} % (95 %): give more --time\n", 100 * content.precision);
         fmt::print("{:.1f} s\nwrote {}\n", content.seconds, options.output);
     }
+    if (maker.failure()) std::rethrow_exception(maker.failure());
     return exitCodeWhenWritten();
 }
 

@@ -91,12 +91,13 @@ void declareSampling(MethodOptions method, SceneOptions& options) {
 }
 
 void declareSearch(MethodOptions method, SceneOptions& options) {
-    auto* all = method.command
-                    .add_flag("--auto", options.autoAll,
-                              "Search BDD, variant, split, photons per pass and radius by pilot passes, but for those "
-                              "given here; the search starts at the scene's settings (default: search what "
-                              "neither these options nor the scene fix)")
-                    ->group(MethodOptions::group);
+    auto* all =
+        method.command
+            .add_flag("--auto", options.autoAll,
+                      "Search BDD, variant, split, caustics, photons, camera paths and radius by pilot passes, "
+                      "but for those given here; the search starts at the scene's settings (default: search what "
+                      "neither these options nor the scene fix)")
+            ->group(MethodOptions::group);
     method.command
         .add_flag("--fixed", options.fixed, "Search nothing: what is given, else the defaults (default: off)")
         ->group(MethodOptions::group)

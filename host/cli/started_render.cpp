@@ -1,6 +1,7 @@
 #include "cli/started_render.h"
 
 #include "auto/candidates.h"
+#include "util/messages.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,8 @@ StartedRender::StartedRender(const RenderOptions& options, Device& device, const
 AutoRender StartedRender::render(const std::function<void(const Progress&)>& onProgress,
                                  const std::function<void(const SearchReport&)>& onChosen,
                                  const std::atomic<bool>& interrupted, const AfterChosenPass& afterPass) {
-    keeper_.emplace(options_, device_, wanted_);
+    const auto warn = [this](const std::string& message) { warnAmidPasses(message); };
+    keeper_.emplace(options_, device_, wanted_, warn);
     const auto afterEach = [&](const AutoRender& soFar, const Renderer& now, double seconds, bool isLast) {
         keeper_->afterPass(soFar, now, seconds, isLast);
         if (afterPass) afterPass(soFar, now, seconds, isLast);
@@ -34,7 +36,7 @@ AutoRender StartedRender::render(const std::function<void(const Progress&)>& onP
     PassRunner run;
     if (sharing_) {
         settings_.countGathered = false; // by one device of its own passes
-        sharing.emplace(options_, *sharing_, *keeper_);
+        sharing.emplace(options_, *sharing_, *keeper_, warn);
         run = [&](const ChosenRender& chosen) { return sharing->run(chosen); };
     }
     AutoRender render =
@@ -44,6 +46,14 @@ AutoRender StartedRender::render(const std::function<void(const Progress&)>& onP
                               interrupted, afterEach, run);
     if (sharing) sharing->describe(render);
     return render;
+}
+
+void StartedRender::warnAmidPasses(const std::string& message) {
+    if (!options_.quiet || options_.strict) {
+        printTo(stderr, "\n"); // below the progress line
+        printWarning(message);
+    }
+    warningsAmidPasses_.push_back(message);
 }
 
 void StartedRender::warnOfDevice(const DeviceInfo& before) {

@@ -19,11 +19,14 @@ public:
                       const AfterChosenPass& afterPass = {});
     /// To be called before render(): its passes are shared.
     void share(SharedDevices devices) { sharing_ = std::move(devices); }
+    /// Those that were printed while passes were rendered.
+    const std::vector<std::string>& warningsAmidPasses() const { return warningsAmidPasses_; }
     /// Why the last checkpoint could not be written; empty if it was.
     std::string checkpointFailure() const { return keeper_ ? keeper_->failure() : ""; }
 
 private:
     void warnOfDevice(const DeviceInfo& before);
+    void warnAmidPasses(const std::string& message);
 
     const RenderOptions& options_;
     Device& device_;
@@ -35,7 +38,7 @@ private:
     std::unique_ptr<Renderer> renderer_;
     std::optional<CheckpointKeeper> keeper_;
     std::optional<SharedDevices> sharing_;
-    std::vector<std::string> warnings_;
+    std::vector<std::string> warnings_, warningsAmidPasses_;
 };
 
 } // namespace quasilux

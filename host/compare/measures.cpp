@@ -1,8 +1,11 @@
 // Sums over regions in double precision.
 #include "compare/measures.h"
 
+#include "util/error.h"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 namespace quasilux {
@@ -188,18 +191,30 @@ std::vector<WorstPixel> findWorst(const Pair& pair, const std::vector<double>& r
 
 std::optional<double> shareBeyondThree(const Pair& pair) {
     if (pair.image.standardError.empty() && pair.reference.standardError.empty()) return std::nullopt;
-    size_t beyond = 0;
+    size_t beyond = 0, all = 0;
     for (size_t i = 0; i < pair.image.radiance.size(); ++i) {
+        if (!pair.counts(i / 3)) continue;
+        ++all;
         const auto error = errorInStandardErrors(pair.image, pair.reference, i);
         if (!(std::abs(error.value_or(0)) <= 3)) ++beyond; // what is not finite is beyond
     }
-    return static_cast<double>(beyond) / static_cast<double>(pair.image.radiance.size());
+    if (all == 0) return std::nullopt;
+    return static_cast<double>(beyond) / static_cast<double>(all);
 }
 
 } // namespace
 
 double luminance(const float* rgb) {
     return luminanceWeights[0] * rgb[0] + luminanceWeights[1] * rgb[1] + luminanceWeights[2] * rgb[2];
+}
+
+void checkReferenceNoise(const std::string& what, const std::string& region, double noise,
+                         const std::vector<Region>& regions) {
+    if (!(noise >= 0) || !std::isfinite(noise))
+        throw InputError(fmt::format("{}: {} given, expected a number from 0", what, noise));
+    const bool isKnown = region.empty() || std::any_of(regions.begin(), regions.end(),
+                                                       [&](const Region& one) { return one.name == region; });
+    if (!isKnown) throw InputError(fmt::format("{}: no region is called '{}'", what, region));
 }
 
 std::optional<double> RegionMeasures::standardError() const {

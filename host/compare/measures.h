@@ -20,6 +20,10 @@ struct CompareSettings {
     size_t worstPixels = 5;
 };
 
+/// Throws InputError, which begins with `what`, unless `noise` may be that of the region's reference ("": of all).
+void checkReferenceNoise(const std::string& what, const std::string& region, double noise,
+                         const std::vector<Region>& regions);
+
 /// Of one region. Radiance in the images' unit; luminance by ITU-R BT.709. What pixels that are not finite spoil is not
 /// finite.
 struct RegionMeasures {
