@@ -91,7 +91,7 @@ def calibrate(program, name, scene, passes, folder):
     estimated = [r[2]["error"]["total"] for r in renders]
     weight = relmse_weight(scene.reference, mean_about(scene.reference))  # as the program weighs squared errors
     true_bias = unbiased_square(images, weight, scene.reference) - scene.noise
-    estimated = unbiased_square(biases, weight, 0)
+    estimated_bias = unbiased_square(biases, weight, 0)
     difference = images.mean(axis=0) - scene.reference
     # Image and bias of one seed share their noise: take its covariance out.
     covariance = ((images - images.mean(axis=0)) * (biases - biases.mean(axis=0))).sum(axis=0) / (seeds - 1) / seeds
@@ -102,7 +102,7 @@ def calibrate(program, name, scene, passes, folder):
         root(np.mean([t["noiseRms"] ** 2 for t in estimated])),
         root(true_bias),
         root(np.mean([t["biasRms"] ** 2 for t in estimated])),
-        both / estimated if estimated > 0 else float("nan"),
+        both / estimated_bias if estimated_bias > 0 else float("nan"),
     )
 
 

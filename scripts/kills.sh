@@ -50,7 +50,10 @@ secondsToCheckpoint() {
     optionsOf first "$1"
     start=$(date +%s%N)
     "$program" render "${words[@]}" "${more[@]}" --checkpoint first.ckpt --every 0 >/dev/null 2>&1 &
-    while [[ ! -e first.ckpt ]]; do sleep 0.05; done
+    while [[ ! -e first.ckpt ]]; do
+        kill -0 $! || { echo "kills.sh: the program ended before its first checkpoint" >&2; exit 1; }
+        sleep 0.05
+    done
     kill -9 $!
     wait $! 2>/dev/null || true
     awk -v ns=$(($(date +%s%N) - start)) 'BEGIN { print 2e-9 * ns + 2 }'

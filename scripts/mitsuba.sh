@@ -3,7 +3,7 @@
 # has both.
 # Dr.Jit's kernels need LLVM 17 or later: older ones end with "Cannot select: fminimum".
 bash scripts/setup.sh libllvm19
-DRJIT_LIBLLVM_PATH=$(ldconfig -p | sed -nE 's/.*libLLVM\.so\.19.* => (.*)/\1/p' | head -n 1)
+DRJIT_LIBLLVM_PATH=$(PATH=$PATH:/sbin:/usr/sbin ldconfig -p | sed -nE 's/.*libLLVM\.so\.19.* => (.*)/\1/p' | head -n 1)
 export DRJIT_LIBLLVM_PATH
 cmake --preset release
 cmake --build --preset release --target quasilux

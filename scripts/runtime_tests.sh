@@ -6,8 +6,8 @@ cd "$(dirname "$0")/.."
 
 runtime=${1:?intel or rusticl}
 case $runtime in
-    intel) eval "$(bash scripts/intel_runtime.sh)"; find build/intel-opencl/vendors -name '*.icd' ! -name intel.icd -delete ;;
-    rusticl) eval "$(bash scripts/rusticl_runtime.sh)" ;;
+    intel) environment=$(bash scripts/intel_runtime.sh); eval "$environment"; find build/intel-opencl/vendors -name '*.icd' ! -name intel.icd -delete ;;
+    rusticl) environment=$(bash scripts/rusticl_runtime.sh); eval "$environment" ;;
     *) echo "runtime_tests: '$runtime' is no runtime, expected intel or rusticl" >&2; exit 2 ;;
 esac
 build/release/quasilux devices

@@ -31,7 +31,7 @@ def arguments():
     parser.add_argument("--learning", type=float, default=2.0, help="seconds")
     parser.add_argument("--opening", type=float, default=3.0, help="seconds: reading the scene, compiling")
     parser.add_argument("--pixels", type=int, default=1920 * 1080)
-    parser.add_argument("--film-bytes", type=int, default=468, help="of a pixel")
+    parser.add_argument("--film-bytes", type=int, default=504, help="of a pixel")
     parser.add_argument("--bandwidth", type=float, default=1.25e9, help="of a link, bytes/s")
     parser.add_argument("--adding", type=float, default=1.0e9, help="films added on a host, bytes/s")
     parser.add_argument("--every", type=float, default=60.0, help="seconds between checkpoints")

@@ -24,7 +24,7 @@ compiler=(g++ cmake ninja-build pkg-config)
 opencl=(pocl-opencl-icd ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers)
 libraries=(libembree-dev libopenimageio-dev libglm-dev libcli11-dev libpugixml-dev libtinygltf-dev nlohmann-json3-dev libfmt-dev
     libxxhash-dev zlib1g-dev libcpp-httplib-dev fonts-dejavu-core)
-tests=(libgtest-dev libgmock-dev clang-format clang-tidy openimageio-tools oclgrind chromium python3-websocket
+tests=(libgtest-dev libgmock-dev clang clang-format clang-tidy openimageio-tools oclgrind chromium python3-websocket
     python3-dev python3-venv pybind11-dev mypy assimp-testmodels libopenmpi-dev openmpi-bin)
 reports=(python3 python3-numpy python3-openimageio python3-matplotlib)
 packages=("${compiler[@]}" "${opencl[@]}" "${libraries[@]}")
