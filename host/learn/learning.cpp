@@ -13,7 +13,7 @@ namespace quasilux {
 namespace {
 
 constexpr uint64_t shareOfMemory = 4; // one part in so many
-constexpr unsigned pathsPerPixel = 16, fewestPaths = 8192, mostPaths = 262144;
+constexpr unsigned pathsPerPixel = 16, fewestPaths = 2048, mostPaths = 262144;
 constexpr unsigned shareOfTrial = 4; // of these, one in so many
 constexpr unsigned photonRounds = 3;
 // Where more of the photons lie about what is gathered, all are stored: the noise of those few that stand for others
@@ -28,7 +28,7 @@ unsigned importancePathCount(const shared::Camera& camera, const DeviceInfo& dev
     const uint64_t wanted = uint64_t(pathsPerPixel) * camera.width * camera.height;
     const uint64_t room =
         std::min(device.maximumAllocation, device.globalMemory / 4) / shareOfMemory / sizeof(shared::ImportancePath);
-    return static_cast<unsigned>(std::clamp<uint64_t>(std::min(wanted, room), fewestPaths / shareOfMemory, mostPaths));
+    return static_cast<unsigned>(std::clamp<uint64_t>(std::min(wanted, room), fewestPaths, mostPaths));
 }
 
 // 1 / brightness of each path's pixel, as relMSE has it, over the number of paths.
