@@ -212,6 +212,11 @@ TEST(Compare, FewPixelsThatAreNotFiniteAreLeftOutOnDemandAndCounted) {
     EXPECT_EQ(result.regions[0].pixels, 16u);
     EXPECT_NEAR(result.regions[0].relMse, 0.25 / 4.04, 1e-12);
     EXPECT_NEAR(result.regions[0].bias, 0.5, 1e-12);
+    image.standardError.assign(image.radiance.size(), 1.f);
+    reference.standardError = image.standardError;
+    EXPECT_EQ(compareImages(image, reference, {wholePicture(4, 4)}, {.maximumNonFinite = 1}).beyondThreeStandardErrors,
+              0)
+        << "left out there, too";
 }
 
 TEST(Compare, WorstPixelsHavePlaceValuesAndStandardErrors) {

@@ -104,6 +104,28 @@ TEST(DaylightGlare, WithoutSourcesIsOfTheIlluminanceAlone) {
     EXPECT_EQ(daylightGlare(imageOf(view, 20, {}), view, 2000, 1e6).probability, 1) << "at most 1";
 }
 
+// A blind at 2500 cd/m² with the sun in it: their mean would not glare.
+TEST(DaylightGlare, APeakIsASourceOfItsOwn) {
+    const View view{Projection::equidistant, pi};
+    LuminanceImage image = imageOf(view, 400, {{0.5, 0.4, 1}});
+    for (float& value : image.values)
+        if (value > 1000) value = 2500;
+    const size_t peak =
+        static_cast<size_t>(std::max_element(image.values.begin(), image.values.end()) - image.values.begin());
+    const size_t within = peak + 6 * image.width; // not at the blind's rim
+    ASSERT_EQ(image.values[within], 2500);
+    image.values[within] = 1e7f;
+    const DaylightGlare glare = daylightGlare(image, view, 2000, 2500);
+    ASSERT_THAT(glare.sources, SizeIs(2));
+    EXPECT_EQ(glare.sources[0].pixels, 1u);
+    EXPECT_FLOAT_EQ(float(glare.sources[0].luminance), 1e7f);
+    EXPECT_NEAR(glare.sources[1].luminance, 2500, 1e-6);
+    double sum = 0;
+    for (const auto& s : glare.sources)
+        sum += s.luminance * s.luminance * s.solidAngle / (std::pow(2500, 1.87) * s.positionIndex * s.positionIndex);
+    EXPECT_NEAR(glare.probability, 5.87e-5 * 2500 + 9.18e-2 * std::log10(1 + sum) + 0.16, 1e-12);
+}
+
 // A night: the formula would divide by nothing.
 TEST(DaylightGlare, OfABlackImageIsItsLeast) {
     const View view{Projection::equidistant, pi};

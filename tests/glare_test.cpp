@@ -38,6 +38,10 @@ TEST(PositionIndex, IsThatOfGuthsTable) {
     EXPECT_NEAR(positionIndexOfDaylight(ahead, glm::normalize(glm::dvec3(0.3, 1, -0.4))), 1.4, 1e-12);
     EXPECT_NEAR(positionIndexOfDaylight(ahead, glm::normalize(glm::dvec3(0.6, 1, -0.8))), 2.2, 1e-12);
     EXPECT_EQ(positionIndexOfDaylight(ahead, glm::normalize(glm::dvec3(0.3, 1, 0.4))), indexAt(0.3, 0.4));
+    // Bounds of evalglare.
+    EXPECT_GT(indexAt(0, 3), 16);
+    EXPECT_EQ(positionIndexOfDaylight(ahead, glm::normalize(glm::dvec3(0, 1, 3))), 16);
+    EXPECT_NEAR(positionIndexOfDaylight(ahead, glm::normalize(glm::dvec3(0, 1, -7))), 1 + 1.2 * 3, 1e-12);
 }
 
 TEST(Glare, RatingIsTheFormulaOfTheCie) {
@@ -62,11 +66,11 @@ std::string ball(const test::SceneFiles& files, const std::string& place) {
 }
 
 /// A panel of 0.6 m at z = 1 above y = `y` that faces down with 2000 cd/m², as a luminaire of a file.
-std::string panel(const test::SceneFiles& files, double y) {
+std::string panel(const test::SceneFiles& files, double y, const std::string& size = "0.6 0.6 0") {
     test::IesText ies;
     for (double angle = 0; angle <= 90; ++angle) ies.vertical.push_back(angle);
     ies.vertical.erase(ies.vertical.begin(), ies.vertical.begin() + 3);
-    ies.size = "0.6 0.6 0";
+    ies.size = size;
     ies.candela = [](double v, double) { return 720 * std::cos(v * pi / 180); };
     files.write("panel.ies", ies.text());
     return fmt::format("<emitter type=\"quasilux_ies\"><string name=\"filename\" value=\"panel.ies\"/>"
@@ -175,6 +179,10 @@ TEST(Glare, WhatHasNoLuminanceIsSaid) {
     EXPECT_THAT(sources.seen, SizeIs(1));
     ASSERT_THAT(sources.leftOut, SizeIs(1));
     EXPECT_THAT(sources.leftOut[0], HasSubstr("is a point"));
+    const GlareSources line = sourcesOf(sceneOf(files, panel(files, 2, "0 1.2 0") + eyeAtOrigin));
+    EXPECT_THAT(line.seen, SizeIs(0));
+    ASSERT_THAT(line.leftOut, SizeIs(1));
+    EXPECT_THAT(line.leftOut[0], HasSubstr("no luminous area"));
 }
 
 TEST(Observer, IsReadOrRefused) {

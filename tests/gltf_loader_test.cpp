@@ -171,6 +171,14 @@ TEST_F(Gltf, MetallicRoughnessIsPrincipled) {
                    bsdfOfXml("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.8,0.4,0.2\"/></bsdf>"));
 }
 
+TEST_F(Gltf, WhatEmitsShinesFromItsFrontAlone) {
+    const auto warnings = [&](bool doubleSided) {
+        return load(squareOf({{"emissiveFactor", {1, 1, 1}}, {"doubleSided", doubleSided}})).warnings;
+    };
+    EXPECT_THAT(warnings(true), testing::Contains(HasSubstr("the backs of doubleSided materials that emit")));
+    EXPECT_THAT(warnings(false), testing::Not(testing::Contains(HasSubstr("doubleSided"))));
+}
+
 TEST_F(Gltf, TransmissionIsGlass) {
     const auto glass = [&](const json& more, double roughness) {
         json extensions = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}};

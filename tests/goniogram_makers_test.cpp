@@ -32,7 +32,8 @@ TEST(GoniogramOfMakers, FirstLinesOfOtherSpellingsNameTheirEdition) {
                                                                   {"IESNA:LM-63-2002 (a)", "IES LM-63-2002", 100},
                                                                   {"IESNA:LM-63-02", "IES LM-63-2002", 100},
                                                                   {"IESNA:LM-63-2019", "IES LM-63-2019", 100},
-                                                                  {"IES:LM-63-2002", "IES LM-63-2002", 100}};
+                                                                  {"IES:LM-63-2002", "IES LM-63-2002", 100},
+                                                                  {"IES LM-63-2019", "IES LM-63-2019", 100}};
     for (const auto& [header, format, largest] : cases) {
         IesText ies;
         ies.header = header;
@@ -55,6 +56,13 @@ TEST(GoniogramOfMakers, BlanksMakeNoOtherFirstLine) {
         EXPECT_NEAR(read.largest(), 100, 1e-9);
         EXPECT_THAT(read.warnings, IsEmpty());
     }
+}
+
+TEST(GoniogramOfMakers, ATiltDuringMeasurementIsWarnedOf) {
+    test::LdtText ldt;
+    EXPECT_THAT(luminaireOf(ldt).warnings, IsEmpty());
+    ldt.tilt = "15";
+    EXPECT_THAT(luminaireOf(ldt).warnings, ElementsAre(HasSubstr("was tilted by 15 degrees while it was measured")));
 }
 
 // As ERCO's files end with END.

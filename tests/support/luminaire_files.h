@@ -42,7 +42,7 @@ struct LdtText {
     unsigned symmetry = 1, planes = 4;
     std::vector<double> gamma{0, 45, 90};
     std::string area = "0\n0\n0\n0\n0\n0\n"; ///< length, width, four heights, mm
-    std::string factor = "1";
+    std::string factor = "1", tilt = "0";
     std::string lampSets = "1\n1\nlamp\n1000\nwhite\n1A\n20\n";
     std::vector<double> listed{0}; ///< azimuths of the half planes with intensities
     std::function<double(double c, double gamma)> intensity = [](double, double) { return 100; }; ///< cd/klm
@@ -50,8 +50,8 @@ struct LdtText {
     std::string text() const {
         std::string out =
             fmt::format("company\n1\n{}\n{}\n{}\n{}\n45\nreport\nluminaire\nnumber\nfile\ndate\n1200\n600\n50\n{}"
-                        "100\n80\n{}\n0\n{}0.1\n0.2\n0.3\n0.4\n0.5\n0.6\n0.7\n0.8\n0.9\n1\n",
-                        symmetry, planes, 360.0 / planes, gamma.size(), area, factor, lampSets);
+                        "100\n80\n{}\n{}\n{}0.1\n0.2\n0.3\n0.4\n0.5\n0.6\n0.7\n0.8\n0.9\n1\n",
+                        symmetry, planes, 360.0 / planes, gamma.size(), area, factor, tilt, lampSets);
         for (unsigned k = 0; k < planes; ++k) out += fmt::format("{}\n", 360.0 * k / planes);
         for (const double angle : gamma) out += fmt::format("{}\n", angle);
         for (const double c : listed)
