@@ -167,5 +167,25 @@ TEST(MediumRender, AbsorbsByBeersLaw) {
     }
 }
 
+// Also where the medium's boundary is known to be further away: what survives up to the plane sees the sky.
+TEST(MediumRender, FlightsEndAtTheFarClippingPlane) {
+    test::SceneFiles files;
+    const Scene scene = loadScene(files.write("clip.xml", R"(<scene version="3.0.0">
+    <sensor type="orthographic"><float name="near_clip" value="0.001"/><float name="far_clip" value="1"/>
+        <transform name="to_world"><scale x="0.1" y="0.1"/><lookat origin="0,0,1" target="0,0,0" up="0,1,0"/></transform>
+        <film type="hdrfilm"><integer name="width" value="32"/><integer name="height" value="32"/><rfilter type="box"/></film>
+    </sensor>
+    <shape type="cube"><transform name="to_world"><scale value="3"/></transform><bsdf type="null"/>
+        <medium name="interior" type="homogeneous"><float name="sigma_t" value="1"/><float name="albedo" value="0"/></medium>
+    </shape>
+    <emitter type="constant"/></scene>)"));
+    RenderSettings settings;
+    settings.photonsPerPass = 64;
+    const std::vector<int> group(size_t{32} * 32, 0);
+    const auto result = renderGroups(scene, settings, group, batches, 4).front();
+    EXPECT_NEAR(result.mean, std::exp(-1.0), 3 * result.standardError + 0.002);
+    EXPECT_LT(result.standardError, 0.01);
+}
+
 } // namespace
 } // namespace quasilux
