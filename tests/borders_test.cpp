@@ -139,6 +139,30 @@ TEST(Borders, ThreeSheetsAtOneEdgeAreAllNamed) {
     EXPECT_EQ(named, (std::set<unsigned>{0, 1, 2, QL_NONE}));
 }
 
+// What lies on one half of a disc says nothing of the other where other photons are stored, or none.
+TEST(Borders, MaterialsThatStoreOtherPhotonsDoNotJoin) {
+    const auto patches = [](double width, double widthOfOther, bool isBent) {
+        Scene scene;
+        addPlane(scene, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+        addPlane(scene, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0});
+        for (const double halfWidth : {width, widthOfOther}) {
+            Bsdf& bsdf = scene.bsdfs.emplace_back();
+            if (halfWidth >= 0) bsdf.front.emplace_back().halfWidth = halfWidth;
+            scene.shapes[scene.bsdfs.size() - 1].bsdf = int(scene.bsdfs.size()) - 1;
+        }
+        if (isBent) scene.bsdfs[1].frontRelief.emplace();
+        const SurfaceBorders borders = findBorders(scene);
+        EXPECT_EQ(borders.segments.size(), borders.patchCount == 1 ? 6u : 7u);
+        return borders.patchCount;
+    };
+    constexpr double lambert = pi / 4, wide = 0.4, narrow = 0.1, specular = 0, none = -1;
+    EXPECT_EQ(patches(lambert, lambert, false), 1u);
+    EXPECT_EQ(patches(lambert, wide, false), 1u);
+    for (const double other : {narrow, specular, none}) EXPECT_EQ(patches(lambert, other, false), 2u) << other;
+    EXPECT_EQ(patches(specular, none, false), 1u) << "neither stores any";
+    EXPECT_EQ(patches(lambert, lambert, true), 2u);
+}
+
 /// Every triangle with vertices of its own, each moved by `shift` along x.
 Scene looseTriangles(const Scene& scene, const std::function<float(float)>& shift) {
     Scene loose;

@@ -10,9 +10,11 @@
 #include "support/scene_files.h"
 #include "support/shared_features.h"
 #include "support/test_kernels.h"
+#include "util/temporary_folder.h"
 
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <map>
 #include <numbers>
@@ -343,6 +345,37 @@ TEST(HardCases, NoPhotonsOfAClass) {
         auto settings = countingSettings(3000);
         settings.map = map;
         for (const double value : blocks(placedScene(text, ordinary), settings, 2)) EXPECT_GT(value, 0);
+    }
+}
+
+// A floor that goes on in another material: its photons lie on one half of the disc alone, or, where a texture bends the
+// normals, carry other flux. Both halves have an edge in common and no corner between them.
+TEST(HardCases, DiffuseFlushWithOtherMaterials) {
+    const TemporaryFolder folder;
+    const std::string flat = (folder.path() / "flat.ppm").string();
+    std::ofstream(flat, std::ios::binary) << "P6 1 1 255\n"
+                                          << "\x80\x80\xff";
+    const std::string bent = R"(<bsdf type="normalmap"><texture name="normalmap" type="bitmap">
+        <boolean name="raw" value="true"/><string name="filename" value=")" +
+                             flat + R"("/></texture><bsdf type="diffuse"/></bsdf>)";
+    const char* const black = R"(<bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>)";
+    const std::vector<std::string> others{R"(<bsdf type="diffuse"/>)", R"(<bsdf type="conductor"/>)", black,
+                                          R"(<bsdf type="thindielectric"/>)", bent};
+    for (const std::string& other : others) {
+        const std::string text =
+            orthographicSensor("-0.1,0,1", "-0.1,0,0", 0.1, 16) +
+            R"(<emitter type="constant"/><shape type="rectangle"><transform name="to_world"><translate x="-1"/></transform>
+            <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
+            <shape type="rectangle"><transform name="to_world"><translate x="1"/></transform>)" +
+            other + "</shape>";
+        RenderSettings settings = countingSettings(20000);
+        settings.direct = DirectLight::photons;
+        std::vector<int> beside(
+            256, -1); // two columns nearer to the seam than the radius; the filter of the last ones looks beyond
+        for (size_t row = 0; row < 16; ++row) beside[16 * row + 12] = beside[16 * row + 13] = 0;
+        const auto found = renderGroups(placedScene(text, ordinary), settings, beside, 10, 40).front();
+        EXPECT_NEAR(found.mean, 0.5, 3 * found.standardError + 0.0025) << other;
+        EXPECT_LT(found.standardError, 0.015) << "too noisy to decide anything";
     }
 }
 

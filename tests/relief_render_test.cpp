@@ -5,9 +5,11 @@
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
+#include "util/temporary_folder.h"
 
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -124,6 +126,25 @@ TEST(Relief, AnInvalidNormalIsBlackWhereNothingTurnsIt) {
         MAP("normalmap") + DIFFUSE "</bsdf>";
     const Case c{"Black", bsdf.c_str(), steep, {-0.8, 0, 0.6}, {-1, 0, 2}, above};
     for (const auto direct : {DirectLight::emitters, DirectLight::photons}) EXPECT_EQ(render(c, direct).mean, 0);
+}
+
+// Seen at 60 degrees through a mask whose normals lean by 30: its shadowing, 0.97, is of what it scatters.
+TEST(Relief, AMaskLetsLightPassAsIfItWereNotThere) {
+    const TemporaryFolder folder;
+    const std::string map = (folder.path() / "map.ppm").string();
+    std::ofstream(map) << leaning;
+    const std::string bsdf = R"(<bsdf type="mask"><float name="opacity" value="0.25"/><bsdf type="normalmap">)" +
+                             fmt::format(fmt::runtime(MAP("normalmap")), map) +
+                             R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.001"/></bsdf></bsdf></bsdf>)";
+    const Scene scene = placedScene(orthographicSensor("0,0.866025,0.5", "0,0,0", 0.05, 4) +
+                                        "<shape type=\"rectangle\"><transform name=\"to_world\"></transform>" + bsdf +
+                                        "</shape><emitter type=\"constant\"/>",
+                                    Placement{});
+    RenderSettings settings;
+    settings.photonsPerPass = 1000;
+    const auto result = renderGroups(scene, settings, std::vector<int>(16, 0), 10, 40).front();
+    EXPECT_NEAR(result.mean, 0.75, 3 * result.standardError + 0.002);
+    EXPECT_LT(result.standardError, 0.005);
 }
 
 TEST(Relief, TheCameraMapRefusesIt) {

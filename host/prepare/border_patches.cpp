@@ -48,8 +48,9 @@ std::vector<EdgeGroup> groupByEdge(const std::vector<EdgeUse>& uses) {
 }
 
 bool isSmooth(EdgeGroup edge, const Surface& surface, double creaseAngle) {
-    return edge.size() == 2 && edge[0].forward != edge[1].forward &&
-           dihedralAngle(surface.triangles[edge[0].triangle], surface.triangles[edge[1].triangle]) < creaseAngle;
+    if (edge.size() != 2 || edge[0].forward == edge[1].forward) return false;
+    const SurfaceTriangle &a = surface.triangles[edge[0].triangle], &b = surface.triangles[edge[1].triangle];
+    return a.storing == b.storing && dihedralAngle(a, b) < creaseAngle;
 }
 
 /// Gives each degenerate triangle the set of one neighbour, which joins no sets.

@@ -2,6 +2,7 @@
 #include "prepare/border_surface.h"
 
 #include "prepare/border_weld.h"
+#include "prepare/split.h"
 
 #include <algorithm>
 #include <array>
@@ -75,6 +76,18 @@ bool isInvisible(const Scene& scene, const ShapeDescription& shape) {
     return bsdf.isNull && bsdf.front.empty() && bsdf.back.empty();
 }
 
+uint8_t storingOf(const Scene& scene, const ShapeDescription& shape) {
+    if (shape.bsdf < 0) return 0;
+    const auto side = [](const std::vector<LobeDescription>& lobes, bool isBent) {
+        double widest = 0; // of what is not specular
+        for (const LobeDescription& lobe : lobes) widest = std::max(widest, lobe.halfWidth);
+        return (widest >= quasiSpecularHalfWidth ? 2 : widest > 0 ? 1 : 0) | (isBent ? 4 : 0);
+    };
+    const Bsdf& bsdf = scene.bsdfs[size_t(shape.bsdf)];
+    return static_cast<uint8_t>(side(bsdf.front, bsdf.frontRelief.has_value()) |
+                                side(bsdf.back, bsdf.backRelief.has_value()) << 3);
+}
+
 unsigned primitiveCount(const ShapeDescription& shape) {
     return shape.sphere ? 1u : unsigned(shape.mesh.triangles.size());
 }
@@ -91,9 +104,11 @@ Surface collectSurface(const Scene& scene, std::span<const ShapeDescription> sha
             surface.spheres.push_back(makeSurfaceSphere(*shape.sphere, first));
             continue;
         }
+        const uint8_t storing = storingOf(scene, shape);
         for (unsigned i = 0; i < shape.mesh.triangles.size(); ++i) {
             corners.push_back(shape.mesh.triangles[i] + unsigned(positions.size()));
             surface.triangles.emplace_back().primitive = first + i;
+            surface.triangles.back().storing = storing;
         }
         positions.insert(positions.end(), shape.mesh.positions.begin(), shape.mesh.positions.end());
     }

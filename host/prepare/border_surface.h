@@ -25,6 +25,7 @@ struct SurfaceTriangle {
     unsigned original = 0;   ///< duplicate: index of the triangle that it repeats
     uint8_t borderEdges = 0; ///< bit i: the edge from corner i to corner i + 1 is a border
     uint8_t ownedEdges = 0;  ///< bit i: of the triangles that share this edge, this one speaks for it
+    uint8_t storing = 0;     ///< storingOf() its shape
     glm::dvec3 normal{};     ///< unit; zero where degenerate
     double area = 0;
     double rounding = 0; ///< borderRounding times the largest coordinate of its corners
@@ -46,6 +47,11 @@ struct Surface {
 
 /// Whether light passes this shape untouched: it holds no photons and borders nothing.
 bool isInvisible(const Scene& scene, const ShapeDescription& shape);
+
+/// What decides which photons lie on a shape, and how much of their flux: where it differs, what one half of a disc
+/// holds says nothing of the other. By side, whether a lobe is genuinely diffuse by its width, narrow, or none takes
+/// photons at all, and whether a texture bends the normals.
+uint8_t storingOf(const Scene& scene, const ShapeDescription& shape);
 
 unsigned primitiveCount(const ShapeDescription& shape);
 

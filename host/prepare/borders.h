@@ -38,7 +38,8 @@ struct SurfaceBorders {
 std::vector<unsigned> firstPatches(const Scene& scene, const SurfaceBorders& borders);
 
 /// Finds them. Triangles, also of different shapes, join a patch across an edge that exactly two of them share, with
-/// the same orientation and normals less than `creaseAngle` (radians) apart; vertices that coincide within float
+/// the same orientation, normals less than `creaseAngle` (radians) apart and materials that store the same photons
+/// (storingOf); vertices that coincide within float
 /// rounding are one, and so are triangles with the same three vertices. Every other edge is a segment, once (several
 /// times only where more than two patches meet: each is named). Where a surface passes through another, or through
 /// itself, the curve of intersection is a segment of both; circles on spheres become chords, 32 to the full turn.
