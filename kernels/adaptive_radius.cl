@@ -62,7 +62,8 @@ inline float bestRadius(float curvature, float variance, const RadiusParams* par
 }
 
 /* Of a squared mean over the square of its standard error, less 1: what one in fifty exceeds by chance (Student's t,
- * its one-sided 99 %), with the noise from so many passes in some four parts of the window whose discs do not overlap. */
+ * its one-sided 99 %), with the noise from so many passes in some four parts of the window whose discs do not
+ * overlap. */
 inline float excessByChance(float passes) { return 5 + 8 / ((passes - 1) * (passes - 1)); }
 
 /* The coarse camera goes on with radius `scale`, and forgets the bias that it has measured. */
