@@ -56,6 +56,7 @@ const Reference& reference() {
 FilmImage awayFromEdges(const FilmImage& image) {
     FilmImage part;
     part.passes = image.passes;
+    part.batches = image.batches;
     part.width = unsigned(reference().inside.size());
     part.height = 1;
     const auto pick = [](const std::vector<float>& from, std::vector<float>& to) {
@@ -120,7 +121,7 @@ FilmImage truthFromSeeds(const std::vector<FilmImage>& images) {
     FilmImage truth;
     truth.width = images.front().width;
     truth.height = images.front().height;
-    truth.passes = seeds;
+    truth.passes = truth.batches = seeds;
     meanAndDeviation(
         images, [](const FilmImage& i) -> auto& { return i.radiance; }, truth.radiance, truth.standardError);
     for (unsigned c = 0; c < LIGHT_CLASSES; ++c)

@@ -153,11 +153,15 @@ protected:
         std::ofstream(folder / "grid.csv") << "# a comment\ni,j,x,y,z,illuminance,illuminance_stderr\n"
                                               "0,0,0,0,0,100,1\n1,0,1,0,0,200,2\n0,1,0,1,0,300,3\n1,1,1,1,0,400,4\n";
         // Grey of radiance 1, 2, 3 … W: 683 cd/m² each.
-        OIIO::ImageSpec spec(4, 2, 3, OIIO::TypeDesc::FLOAT);
         std::vector<float> rgb;
         for (int k = 0; k < 8; ++k) rgb.insert(rgb.end(), 3, static_cast<float>(k + 1));
+        writeImage("grey.exr", rgb);
+    }
+    /// Of 4 x 2 pixels.
+    void writeImage(const std::string& name, const std::vector<float>& rgb) const {
+        const OIIO::ImageSpec spec(4, 2, 3, OIIO::TypeDesc::FLOAT);
         const auto file = OIIO::ImageOutput::create("openexr");
-        file->open((folder / "grey.exr").string(), spec);
+        file->open((folder / name).string(), spec);
         file->write_image(OIIO::TypeDesc::FLOAT, rgb.data());
         file->close();
     }
@@ -214,6 +218,11 @@ TEST_F(FalseColourTest, OfARenderedGridKnowsItsUnits) {
     ASSERT_EQ(run({"falsecolour", "g.exr", "-o", "e.svg"}).exitCode, 0);
     EXPECT_THAT(readText(folder / "g.svg"), HasSubstr("maximum 25 lx"));
     EXPECT_THAT(readText(folder / "e.svg"), HasSubstr("maximum 25 lx"));
+}
+
+TEST_F(FalseColourTest, WithoutAFinitePixelThereIsNothingToDraw) {
+    writeImage("nan.exr", std::vector<float>(24, std::numeric_limits<float>::quiet_NaN()));
+    expectRefused({"falsecolour", "nan.exr", "-o", "out.png"}, "nan.exr: no pixel is finite");
 }
 
 TEST_F(FalseColourTest, RefusesBadInput) {

@@ -57,6 +57,10 @@ TEST_F(GltfErrors, NameThePlace) {
         {[](json& j) { j["meshes"][0]["primitives"][0]["material"] = 3; },
          "materials[3] does not exist; the file has 1"},
         {[](json& j) { j["meshes"][0]["primitives"][0]["mode"] = 9; }, "unknown mode 9"},
+        {[](json& j) {
+             j["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5}}}}}};
+         },
+         "`baseColorFactor` parameter in pbrMetallicRoughness must be 4, but got 3"},
         {[](json& j) { j["nodes"][0]["mesh"] = 3; }, "nodes[0]: meshes[3] does not exist"},
         {[](json& j) { j["nodes"][0]["children"] = {0}; }, "nodes[0]: the node has two parents, or is its own child"},
         {[](json& j) { j["nodes"][0]["children"] = {5}; }, "nodes[0]: nodes[5] does not exist"},

@@ -5,6 +5,8 @@
 #include "util/error.h"
 #include "util/messages.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -45,6 +47,8 @@ Drawing drawingOfImage(const FalseColourOptions& options, const std::string& tit
     const LuminanceImage image =
         readLuminance(options.input, options.photometric ? ImageUnits::photometric : ImageUnits::asHeaderSays);
     if (const auto warning = warningOfUnits(image, options.input); warning && !options.quiet) printWarning(*warning);
+    if (std::none_of(image.values.begin(), image.values.end(), [](float value) { return std::isfinite(value); }))
+        throw InputError(options.input + ": no pixel is finite, so there is no luminance to draw; render it anew");
     const ValueScale scale = options.range.empty() ? scaleOfImage(image, options.logarithmic) : givenScale(options);
     return falseColourDrawing(image, {parseColourMap(options.map), scale}, title);
 }

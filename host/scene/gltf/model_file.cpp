@@ -171,7 +171,8 @@ bool keepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, 
 
 /// The first line of what the library says.
 std::string reasonOf(const std::string& errors) {
-    const std::string first = errors.substr(0, errors.find('\n'));
+    constexpr size_t most = 200; // it may quote all data of a buffer
+    const std::string first = errors.substr(0, std::min(errors.find('\n'), most));
     return first.empty() ? "unknown reason" : first;
 }
 
@@ -213,7 +214,9 @@ tinygltf::Model readGltfModel(const std::string& path, const FileResolver& files
         errors = error.what();
     }
     if (access.failure) std::rethrow_exception(access.failure);
-    if (!isRead) throw InputError({path}, fmt::format("not a valid glTF file: {}.", reasonOf(errors)));
+    // The library says of some values that they are wrong, and takes others.
+    if (!isRead || !errors.empty())
+        throw InputError({path}, fmt::format("not a valid glTF file: {}.", reasonOf(errors)));
     return model;
 }
 

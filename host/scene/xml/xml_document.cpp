@@ -297,23 +297,27 @@ Instruction parseInstruction(std::string_view text, const SourceLocation& where)
 
 std::string readFile(const std::string& path, const SourceLocation& where, std::string_view what) {
     noteReadFile(path);
-    const auto fail = [&](const std::string& why) {
-        throw InputError(where, fmt::format("cannot read the {} file '{}': {}. Check the name; it is relative to the "
-                                            "folder of the file that mentions it.",
-                                            what, path, why));
+    const std::string checkName =
+        fmt::format("Check the name; it is relative to the {}.",
+                    where.file.empty() ? "current folder" : "folder of the file that mentions it");
+    const auto fail = [&](const std::string& why, const std::string& advice) {
+        throw InputError(where, fmt::format("cannot read the {} file '{}': {}. {}", what, path, why, advice));
     };
+    using std::filesystem::file_type;
     std::error_code error;
     const auto kind = std::filesystem::status(path, error).type();
+    if (kind == file_type::directory) fail("it is a folder", fmt::format("Name the {} file in it.", what));
+    if (kind == file_type::not_found || error) fail("there is no such file", checkName);
     // A pipe or a device may have no end.
-    if (kind != std::filesystem::file_type::regular)
-        fail(kind == std::filesystem::file_type::not_found || error ? "there is no such file" : "it is no plain file");
+    if (kind != file_type::regular) fail("it is no plain file", checkName);
     std::ifstream file(path, std::ios::binary);
-    if (!file) fail(std::generic_category().message(errno));
+    if (!file) fail(std::generic_category().message(errno), "Give yourself the right to read it.");
     std::string content(std::filesystem::file_size(path, error), 0);
-    if (error) fail(error.message());
+    if (error) fail(error.message(), checkName);
     file.read(content.data(), static_cast<std::streamsize>(content.size()));
     if (file.bad() || static_cast<size_t>(file.gcount()) != content.size())
-        fail(fmt::format("only {} of its {} bytes could be read", file.gcount(), content.size()));
+        fail(fmt::format("only {} of its {} bytes could be read", file.gcount(), content.size()),
+             "Check the disk, or copy it anew.");
     return content;
 }
 
