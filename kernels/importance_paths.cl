@@ -27,6 +27,7 @@ typedef struct {
     int gathers;   /* the vertex where photons are gathered is behind */
     uint events;   /* SCATTER_* since then */
     uint vertices; /* stored */
+    uint depth;    /* segments so far, as CameraPath::depth */
     float lobePdf; /* of the last direction, 0: delta */
     float3 from;   /* where the segment began */
     float passed;  /* of the segment, before null surfaces */
@@ -196,6 +197,7 @@ inline void noteScattering(ImportanceState* state, uint scattering, uint bdd) {
 inline void passImportance(const World* world, ImportanceState* state, const Surface* s, float distance) {
     state->ray = leavingRay(s, state->ray.direction);
     state->passed += max(distance, FLT_MIN);
+    state->depth += PASSAGES_COUNT;
 #ifdef HAS_MEDIA
     state->medium = mediumBeyond(SCENE_TABLE(world->tables, &world->params->scene, Shape, shapes) + s->shape, !s->front,
                                  state->medium);
@@ -258,7 +260,7 @@ inline int meetImportanceSurface(const World* world, ImportancePath* path, Impor
         passImportance(world, state, &s, hit->t);
         return 1;
     }
-    if (s.lobeCount == 0) return 0;
+    if (s.lobeCount == 0 || state->depth >= world->params->maxDepth) return 0;
     __global const Lobe* lobes = SCENE_TABLE(world->tables, scene, Lobe, lobes) + s.firstLobe;
     const Frame frame = shadingFrame(&s);
     const float3 wo = toLocal(&frame, -state->ray.direction);
@@ -298,6 +300,7 @@ inline void sampleEmitterAtCollision(const World* world, ImportancePath* path, I
 /* A collision; 0 where the path ends. */
 inline int collideImportance(const World* world, ImportancePath* path, ImportanceState* state, const FreeFlight* flight,
                              __global const Medium* medium) {
+    if (state->depth >= world->params->maxDepth) return 0;
     const float before = maxComponent(state->throughput);
     const float3 position = state->ray.origin + flight->distance * state->ray.direction;
     state->throughput *= flight->weight * mediumAlbedo(medium, position);
@@ -331,6 +334,8 @@ inline int collideImportance(const World* world, ImportancePath* path, Importanc
 /* One segment and what happens at its end; 0 where the path ends. */
 inline int followImportancePath(const World* world, ImportancePath* path, ImportanceState* state) {
     const SceneTables* scene = &world->params->scene;
+    if (state->passed == 0) ++state->depth;
+    if (state->depth > world->params->maxDepth) return 0;
     Hit hit;
 #ifdef HAS_MEDIA
     if (inMedium(state->medium)) {
@@ -379,7 +384,7 @@ __kernel void traceImportancePaths(__global const BvhNode* nodes, __global const
     ImportanceState state;
     state.rng = rngMake((ulong)params.seedHigh << 32 | params.seedLow, 0, STREAM_IMPORTANCE, index);
     state.throughput = 1;
-    state.d = state.events = state.vertices = 0;
+    state.d = state.events = state.vertices = state.depth = 0;
     state.gathers = 0;
     state.lobePdf = state.passed = 0;
     state.hasScattered = 0;

@@ -174,6 +174,15 @@ TEST_F(ReportTest, RemarksOnGlareAreWarnings) {
     EXPECT_THAT(warnings, HasSubstr("UGR, desk: Not rated: 'bulb' is a point"));
 }
 
+// What comes straight to the eye is measured apart, and photons are to bring none of it.
+TEST_F(ReportTest, DirectLightOfAnEyeLacksNoPhotons) {
+    const std::string wall = "<shape type=\"rectangle\"><transform name=\"to_world\"><rotate x=\"1\" angle=\"90\"/>"
+                             "<scale value=\"4\"/><translate y=\"3\"/></transform>" +
+                             test::diffuse(0.5) + "</shape>";
+    write("room.xml", lamp + wall + observer);
+    EXPECT_THAT(figuresOf({"--time", "1"})["warnings"].dump(), Not(HasSubstr("effectively only 0 photons")));
+}
+
 // An eye in the plane of a panel: the area that it sees there is rounding.
 TEST_F(ReportTest, APanelSeenEdgeOnDoesNotGlare) {
     test::IesText ies;
