@@ -6,11 +6,9 @@
  * the image. */
 #include "camera.clh"
 #include "camera_surface.clh"
-#include "importance.clh"
+#include "importance_light.clh"
 #include "law.clh"
-#include "light_tree.clh"
 #include "medium_flight.clh"
-#include "visibility.clh"
 #ifdef HAS_METER
 #include "meter.clh"
 #endif
@@ -18,69 +16,6 @@
 #define IMPORTANCE_EVENTS_MAX 64u
 /* Importance paths go on at most with this probability once they are past their first vertices. */
 #define IMPORTANCE_SURVIVAL_MAX 0.9f
-
-typedef struct {
-    Ray ray;
-    float3 throughput;
-    Rng rng;
-    uint d;        /* genuine diffuse scatterings */
-    int gathers;   /* the vertex where photons are gathered is behind */
-    uint events;   /* SCATTER_* since then */
-    uint vertices; /* stored */
-    uint depth;    /* segments so far, as CameraPath::depth */
-    float lobePdf; /* of the last direction, 0: delta */
-    float3 from;   /* where the segment began */
-    float passed;  /* of the segment, before null surfaces */
-    uint medium;
-    int hasScattered;
-} ImportanceState;
-
-inline float meanOf(float3 v) { return (v.x + v.y + v.z) / 3; }
-
-/* Keeps one of the records that a path finds, in proportion to their weights, with the sum of all; 0 where it keeps the
- * one before. */
-inline int keepRecord(EmissionRecord* kept, float weight, uint emitter, uint element, float inverseDensity,
-                      float3 position, float3 direction, Rng* rng) {
-    if (!(weight > 0) || !isfinite(weight)) return 0;
-    kept->weight += weight;
-    if (rngNext(rng) * kept->weight >= weight) return 0;
-    kept->inverseDensity = inverseDensity;
-    kept->emitter = emitter;
-    kept->element = element;
-    kept->position.x = position.x;
-    kept->position.y = position.y;
-    kept->position.z = position.z;
-    kept->direction.x = direction.x;
-    kept->direction.y = direction.y;
-    kept->direction.z = direction.z;
-    return 1;
-}
-
-/* Direct light at a meter, which samples emitters: no photon brings it. */
-inline int isSampledAtMeter(const ImportanceState* state) {
-#if defined(HAS_IRRADIANCE_METER) && defined(DIRECT_BY_EMITTERS)
-    return !state->hasScattered;
-#else
-    return 0;
-#endif
-}
-
-/* Light from an emitter, chosen with this probability, at the end of a segment along `direction`, where `weight` of it
- * comes to the image; direct light: of this, photons might bring `gatheredShare`. */
-inline void foundEmission(ImportancePath* path, const ImportanceState* state, int isDirect, float weight,
-                          float gatheredShare, float probability, uint emitter, uint element, float3 position,
-                          float3 direction, Rng* rng) {
-    path->radiance += weight;
-    if (state->vertices > 0) path->vertices[state->vertices - 1].found += weight;
-    if ((!state->gathers && !isDirect) || isSampledAtMeter(state)) return;
-    if (!keepRecord(isDirect ? &path->direct : &path->indirect, weight, emitter, element,
-                    isDirect ? 1 / probability : 0, position, -direction, rng))
-        return;
-    if (isDirect)
-        path->gatheredShare = gatheredShare;
-    else
-        path->laterProbability = probability;
-}
 
 inline void storeVertex(ImportancePath* path, ImportanceState* state, float3 position, uint face) {
     if (state->vertices == IMPORTANCE_VERTICES) return;
@@ -90,100 +25,6 @@ inline void storeVertex(ImportancePath* path, ImportanceState* state, float3 pos
     vertex->position.z = position.z;
     vertex->face = face;
     vertex->weight = meanOf(state->throughput);
-}
-
-/* What a sample of an emitter brings to the image by the lobes of `mask`, and by the others in *rest. */
-inline float3 importanceDirectLight(const Surface* s, const Frame* frame, float3 wo, __global const Lobe* lobes,
-                                    const LobeChoice* choice, const EmitterSample* light, uint mask, float3* rest) {
-    *rest = 0;
-    const float3 wi = toLocal(frame, light->direction);
-    if (!sameSides(s, light->direction, wi.z)) return 0;
-    float3 sum = 0;
-    for (uint k = 0; k < s->lobeCount; ++k) {
-        if (lobes[k].scattering == SCATTER_SPECULAR) continue;
-        float weight = fabs(wi.z);
-        if (light->pdfSolidAngle > 0)
-            weight *= shareOf(light->pdfSolidAngle, choice->probability[k] * lobePdfSolidAngle(lobes + k, wo, wi));
-        const float3 value = weight * tintedEval(s, lobes, k, wo, wi) * light->radianceOverPdf;
-        if (mask >> k & 1)
-            sum += value;
-        else
-            *rest += value;
-    }
-    return sum;
-}
-
-/* A sample of an emitter for a point, chosen as if nothing were known. */
-typedef struct {
-    EmitterSample light;
-    float probability;
-    uint emitter, element;
-} ImportanceLight;
-
-inline ImportanceLight sampleImportanceLight(const World* world, float3 position, Rng* rng) {
-    const SceneTables* scene = &world->params->scene;
-    __global const Emitter* emitters = SCENE_TABLE(world->tables, scene, Emitter, emitters);
-    const EmitterData data = emitterData(world->tables, scene);
-    float uSelect = rngNext(rng);
-    ImportanceLight s;
-    s.element = 0;
-    s.emitter = unlearnedLight(world->tables, scene, position, &uSelect, &s.probability);
-    s.light = emitterSampleDirection(emitters + s.emitter, &data, position, uSelect, rngNext2(rng));
-    if (!s.light.valid) return s;
-#ifdef HAS_EMITTING_TRIANGLES
-    if (EMITS_BY_TRIANGLE(emitters[s.emitter].type))
-        s.element = trianglesSelect(emitters + s.emitter, data.triangles, uSelect) - emitters[s.emitter].firstTriangle;
-#endif
-    s.light.radianceOverPdf /= s.probability;
-    s.light.pdfSolidAngle *= s.probability;
-    return s;
-}
-
-/* Notes what the sample brings to `position` along the ray `shadow`, where photons might bring `wanted` and cannot
- * bring `other`. */
-inline void foundBySample(const World* world, ImportancePath* path, ImportanceState* state, const ImportanceLight* s,
-                          float3 position, float positionError, Ray shadow, float3 wanted, float3 other) {
-    if (!any(wanted + other > 0)) return;
-    shadow.tMax = shadowReach(&s->light, positionError);
-    const float3 visible =
-        visibility(shadow, state->medium, QL_NONE, world->nodes, world->blocks, world->tables, &world->params->scene);
-    if (!any(visible > 0)) return;
-    const float3 end = isinf(s->light.distance) ? position : position + s->light.distance * s->light.direction;
-    const float found = meanOf(state->throughput * (wanted + other) * visible);
-    foundEmission(path, state, !state->gathers, found, meanOf(state->throughput * wanted * visible) / found,
-                  s->probability, s->emitter, s->element, end, s->light.direction, &state->rng);
-}
-
-inline void sampleEmitterFor(const World* world, ImportancePath* path, ImportanceState* state, const Surface* s,
-                             const Frame* frame, float3 wo, __global const Lobe* lobes, const LobeChoice* choice) {
-    const ImportanceLight sample = sampleImportanceLight(world, s->position, &state->rng);
-    if (!sample.light.valid) return;
-    const int gathersHere = !state->gathers && state->d == world->params->bdd;
-    uint mask = 0; /* of lobes whose light photons might bring */
-    for (uint k = 0; k < s->lobeCount; ++k)
-        mask |= (state->gathers || (gathersHere && lobes[k].scattering == SCATTER_GENUINE_DIFFUSE)) << k;
-    float3 other;
-    const float3 wanted = importanceDirectLight(s, frame, wo, lobes, choice, &sample.light, mask, &other);
-    foundBySample(world, path, state, &sample, s->position, s->positionError, leavingRay(s, sample.light.direction),
-                  wanted, other);
-}
-
-/* Emission that the path runs into. */
-inline void meetEmitter(const World* world, ImportancePath* path, ImportanceState* state, uint index, uint element,
-                        float distance, float3 normal, TexturePoint place, float3 end) {
-    const SceneTables* scene = &world->params->scene;
-    __global const Emitter* emitter = SCENE_TABLE(world->tables, scene, Emitter, emitters) + index;
-    const EmitterData data = emitterData(world->tables, scene);
-    const float probability = unlearnedLightProbability(world->tables, scene, state->from, index);
-    float share = 1;
-    if (state->lobePdf > 0)
-        share = shareOf(state->lobePdf,
-                        probability * emitterPdfSolidAngle(emitter, &data, state->from, state->ray.direction,
-                                                           state->passed + distance, normal));
-    const int isDirect = state->gathers && state->events == 0;
-    const float3 radiance = emitterRadiance(emitter, &data, state->ray.direction, &place);
-    foundEmission(path, state, isDirect, share * meanOf(state->throughput * radiance), 1, probability, index, element,
-                  end, state->ray.direction, &state->rng);
 }
 
 inline void noteScattering(ImportanceState* state, uint scattering, uint bdd) {
