@@ -21,8 +21,8 @@ CommandEnd endOf(const std::function<int()>& command) {
     }
 }
 
-void flushResults() {
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+int withResultsOut(int exitCode) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
     const int why = errno;
     throw std::system_error(why, std::generic_category(), "cannot write to the standard output");
 }

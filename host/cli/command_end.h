@@ -16,8 +16,9 @@ struct CommandEnd {
 /// Runs it; exceptions become messages and the exit codes of docs/reference/command-line.md.
 CommandEnd endOf(const std::function<int()>& command);
 
-/// Of a command or a part of it: what is to come may be ended by a signal at once. Results that nobody gets are a
-/// failure; one that is named here is not lost at the end without a word.
-void flushResults();
+/// The exit code of a command or of a part of it, once its standard output is written: what is to come may be ended by
+/// a signal at once. Results that nobody gets are a failure; one that is named here is not lost at the end without a
+/// word.
+int withResultsOut(int exitCode);
 
 } // namespace quasilux

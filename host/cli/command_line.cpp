@@ -130,9 +130,7 @@ int parseAndRun(CLI::App& app, const Options& options, int argc, char** argv) {
         } catch (const CLI::ParseError& error) {
             return failParsing(app, error);
         }
-        const int code = runCommand(app, options);
-        flushResults();
-        return code;
+        return withResultsOut(runCommand(app, options));
     });
     return end.error.empty() ? end.exitCode : fail(end.exitCode, end.error);
 }

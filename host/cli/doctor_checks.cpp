@@ -5,6 +5,7 @@
 #include "device/runtime_check.h"
 #include "prepare/embree_version.h"
 #include "util/error.h"
+#include "util/nameless_file.h"
 #include "util/process_memory.h"
 #include "util/temporary_folder.h"
 
@@ -91,11 +92,9 @@ bool isWritable(fs::path folder) {
     while (!fs::exists(folder, ignored) && folder.has_parent_path() && folder != folder.parent_path())
         folder = folder.parent_path();
     if (!fs::is_directory(folder, ignored)) return false;
-    std::string pattern = (folder / ("quasilux-" + std::string(6, 'X'))).string();
-    const int file = mkstemp(pattern.data());
+    const int file = openNamelessFile(folder);
     if (file < 0) return false;
     close(file);
-    unlink(pattern.c_str());
     return true;
 }
 

@@ -338,8 +338,7 @@ int renderSensors(const RenderOptions& options, const RenderSurroundings& around
     const size_t count =
         loadScene(options.scene, options.parameters(), {"0", options.unknown(), options.loadLimits()}).sensorCount;
     for (size_t index = 0; index < count; ++index) {
-        const int code = SensorRender(options.forSensor(index), around).run();
-        flushResults();
+        const int code = withResultsOut(SensorRender(options.forSensor(index), around).run());
         if (code != 0 || interruptFlag()) return code;
     }
     return 0;

@@ -5,11 +5,11 @@
 #include "cli/render_command.h"
 #include "output/progress_line.h"
 #include "util/messages.h"
+#include "util/nameless_file.h"
 
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <list>
@@ -31,17 +31,15 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// In the folder that TMPDIR names, without a name of its own; tmpfile() knows no other folder than /tmp.
+/// In the folder that TMPDIR names; tmpfile() knows no other folder than /tmp.
 File temporaryFile() {
     std::error_code status;
     const std::string folder = std::filesystem::temp_directory_path(status).string();
     if (status) throw std::system_error(status, "no temporary file can be made: TMPDIR names no folder");
-    std::string path = folder + "/quasilux-XXXXXX";
-    const int descriptor = mkstemp(path.data());
+    const int descriptor = openNamelessFile(folder);
     if (descriptor < 0)
         throw std::system_error(errno, std::generic_category(),
                                 fmt::format("no temporary file can be made in {}, name a folder by TMPDIR", folder));
-    unlink(path.c_str());
     File file(fdopen(descriptor, "w+"));
     if (file) return file;
     const int why = errno;
@@ -96,11 +94,7 @@ private:
         dup2(fileno(errors_.get()), STDERR_FILENO);
         RenderSurroundings around;
         around.drawsProgress = false;
-        const CommandEnd end = endOf([&] {
-            const int code = renderCommand(options, around);
-            flushResults();
-            return code;
-        });
+        const CommandEnd end = endOf([&] { return withResultsOut(renderCommand(options, around)); });
         if (!end.error.empty()) printError(end.error);
         std::fputs(end.error.c_str(), failure_.get());
         std::fflush(nullptr);

@@ -59,11 +59,7 @@ RenderSurroundings surroundingsOf(const std::vector<RenderOptions>& all, size_t 
 std::vector<CommandEnd> renderInTurn(const std::vector<RenderOptions>& all) {
     std::vector<CommandEnd> ends;
     for (size_t k = 0; k < all.size() && !interruptFlag(); ++k) {
-        ends.push_back(endOf([&] {
-            const int code = renderCommand(all[k], surroundingsOf(all, k));
-            flushResults();
-            return code;
-        }));
+        ends.push_back(endOf([&] { return withResultsOut(renderCommand(all[k], surroundingsOf(all, k))); }));
         if (!ends.back().error.empty()) printError(ends.back().error);
     }
     return ends;

@@ -53,9 +53,8 @@ RoundResult tracePhotonRound(Device& device, const Program& program, const Geome
 LearnedScene learnScene(Device& device, const Program& program, const Scene& scene, const RenderSettings& settings,
                         DeviceScene& flat, GeometryBuffers& geometry) {
     if (!learns(flat.features, settings)) return {};
-    const shared::PhotonParams photons = photonParams(scene, flat, settings);
     Learning learning(device, program, flat, SceneBuffers{geometry.nodes, geometry.blocks, geometry.tables},
-                      cameraParams(flat, settings, photons.maxDepth));
+                      cameraParams(flat, settings, maxDepthOf(scene)));
     learning.followImportance(mayTakeDirectFromPhotons(flat.features, settings));
     // Rounds know photons by what camera paths gather, not by what a meter counts itself.
     if (settings.map == MapOrder::photons && !meterCountsPhotons(flat.features, settings))

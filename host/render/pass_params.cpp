@@ -34,13 +34,15 @@ DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings, const
     return flat;
 }
 
+unsigned maxDepthOf(const Scene& scene) { return scene.maxDepth < 0 ? QL_NONE : static_cast<unsigned>(scene.maxDepth); }
+
 shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
     shared::PhotonParams params{};
     params.seedLow = static_cast<unsigned>(settings.seed);
     params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
     params.paths = photonsPerPass(settings, flat.camera);
     params.perFluxUnit = 1 / fluxUnit(flat, params.paths);
-    params.maxDepth = scene.maxDepth < 0 ? QL_NONE : static_cast<unsigned>(scene.maxDepth);
+    params.maxDepth = maxDepthOf(scene);
     params.scene = sceneTables(flat, settings);
     return params;
 }

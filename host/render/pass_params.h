@@ -13,6 +13,8 @@ double firstRadiusByArea(double area, const RenderSettings& settings, unsigned p
 /// The scene as this render needs it.
 DeviceScene flattenFor(const Scene& scene, const RenderSettings& settings, const SceneGeometry* known = nullptr);
 
+/// The most segments of a path, as kernels have it: QL_NONE where there is no limit.
+unsigned maxDepthOf(const Scene& scene);
 shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
 /// Of fewer photons, with all flux between them.
 shared::PhotonParams withPaths(shared::PhotonParams params, unsigned paths);

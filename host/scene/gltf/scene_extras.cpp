@@ -26,6 +26,15 @@ std::string textOf(const tinygltf::Value& value, const std::string& name, const 
     return text;
 }
 
+/// Of the element that a parameter of an emitter is in a scene file.
+const char* tagOf(const tinygltf::Value& value, const std::string& name) {
+    if (value.IsString()) return "string";
+    if (value.IsBool()) return "boolean";
+    if (value.IsInt()) return "integer";
+    if (!value.IsArray()) return "float";
+    return name == "tint" ? "rgb" : "vector";
+}
+
 Instruction instructionOf(const std::string& kind, const tinygltf::Value& object, const SourceLocation& where) {
     Instruction instruction{{}, where, kind};
     if (!object.IsObject()) throw InputError(where, fmt::format("'{}' is no object.", kind));
@@ -66,14 +75,8 @@ std::optional<Element> skyOf(const tinygltf::Value& extras, const std::string& i
     for (const std::string& name : sky.Keys()) {
         if (name == "type") continue;
         const tinygltf::Value& value = sky.Get(name);
-        const char* tag = value.IsString()   ? "string"
-                          : value.IsBool()   ? "boolean"
-                          : value.IsInt()    ? "integer"
-                          : !value.IsArray() ? "float"
-                          : name == "tint"   ? "rgb"
-                                             : "vector";
         const std::string text = value.IsBool() ? (value.Get<bool>() ? "true" : "false") : textOf(value, name, where);
-        emitter.children.push_back({tag, {{"name", name}, {"value", text}}, {}, {}, where});
+        emitter.children.push_back({tagOf(value, name), {{"name", name}, {"value", text}}, {}, {}, where});
     }
     addMatrix(emitter, "to_world", glm::dmat4(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1));
     return emitter;
