@@ -100,7 +100,8 @@ TEST_F(Untrusted, PipesAndDevicesAreRefusedInAnyScene) {
     ASSERT_EQ(mkfifo((inside / "pipe.obj").c_str(), 0600), 0);
     const auto leave = limitedTo([](LoadLimits& limits) { limits.staysInside = false; });
     for (const std::string file : {"pipe.obj", "/dev/zero", "/dev/stdin", "."}) {
-        const auto refused = AllOf(HasSubstr("scene.xml:4:19: cannot read the mesh file"), HasSubstr(file == "." ? "it is a folder" : "no plain file"));
+        const auto refused = AllOf(HasSubstr("scene.xml:4:19: cannot read the mesh file"),
+                                   HasSubstr(file == "." ? "it is a folder" : "no plain file"));
         EXPECT_THAT(load(obj(file), leave), refused);
         EXPECT_THAT(test::errorOf((inside / "scene.xml").string()), refused);
     }
