@@ -62,15 +62,17 @@ protected:
         return {report.at("deviceBytes"), report.at("hostPeakBytes")};
     }
 
-    /// Has the kernels of a render and its statistics compiled.
-    void compile(Arguments arguments) const {
-        arguments.insert(arguments.end(), {"--json", "--quiet", "--passes", "1", "--stats", "stats.json"});
+    void render(Arguments arguments) const {
+        arguments.insert(arguments.end(), {"--json", "--quiet", "--passes", "3", "--stats", "stats.json"});
         runJson(arguments, "render");
     }
 
-    Bytes taken(Arguments arguments) const {
-        arguments.insert(arguments.end(), {"--json", "--quiet", "--passes", "3", "--stats", "stats.json"});
-        runJson(arguments, "render");
+    /// Has the kernels of a render and its statistics compiled: those of all its passes, for some are first launched
+    /// after the first.
+    void compile(const Arguments& arguments) const { render(arguments); }
+
+    Bytes taken(const Arguments& arguments) const {
+        render(arguments);
         const auto statistics = nlohmann::json::parse(readText(folder / "stats.json"), nullptr, false);
         double buffers = 0;
         for (const auto& [label, bytes] : statistics.at("sceneReport").at("bufferBytes").items())
