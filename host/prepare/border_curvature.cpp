@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace quasilux {
 namespace {
@@ -26,12 +27,6 @@ struct ShapeOperator {
         return std::abs(mean) + spread;
     }
 };
-
-glm::dvec3 centroid(const SurfaceTriangle& triangle, const Surface& surface) {
-    return (surface.vertices[triangle.corner[0]] + surface.vertices[triangle.corner[1]] +
-            surface.vertices[triangle.corner[2]]) /
-           3.0;
-}
 
 /// Angle between the faces at an edge, positive where convex; 0 if rounding of the vertices may have made it.
 double signedAngle(const InteriorEdge& edge, double length, const Surface& surface) {
@@ -66,43 +61,50 @@ std::vector<ShapeOperator> shapeOperators(const Surface& surface, const std::vec
 }
 
 struct CurvedArea {
-    unsigned patch;
+    unsigned part;
     double curvature, area;
 };
 
-/// Entries of one patch, by rising curvature: the value that `share` of the area does not exceed.
-double areaQuantile(const CurvedArea* first, const CurvedArea* last, double share) {
+/// Entries of one part, by rising curvature: the value that `share` of the area does not exceed.
+double areaQuantile(std::span<const CurvedArea> entries, double share) {
     double total = 0, sum = 0;
-    for (const CurvedArea* entry = first; entry != last; ++entry) total += entry->area;
-    for (const CurvedArea* entry = first; entry != last; ++entry)
-        if ((sum += entry->area) >= share * total) return entry->curvature;
-    return (last - 1)->curvature;
+    for (const CurvedArea& entry : entries) total += entry.area;
+    for (const CurvedArea& entry : entries)
+        if ((sum += entry.area) >= share * total) return entry.curvature;
+    return entries.back().curvature;
 }
 
 } // namespace
 
-std::vector<float> patchCurvatures(const Surface& surface, const std::vector<InteriorEdge>& interior,
-                                   const SurfaceBorders& borders) {
-    std::vector<float> curvature(borders.patchCount, 0.0f);
-    for (const SurfaceSphere& sphere : surface.spheres)
-        curvature[borders.patchOfPrimitive[sphere.primitive]] = sphere.radius > 0 ? float(1 / sphere.radius) : 0.0f;
+glm::dvec3 centroid(const SurfaceTriangle& triangle, const Surface& surface) {
+    return (surface.vertices[triangle.corner[0]] + surface.vertices[triangle.corner[1]] +
+            surface.vertices[triangle.corner[2]]) /
+           3.0;
+}
 
-    const std::vector<ShapeOperator> operators = shapeOperators(surface, interior);
+std::vector<double> triangleCurvatures(const Surface& surface, const std::vector<InteriorEdge>& interior) {
+    std::vector<double> curvatures;
+    curvatures.reserve(surface.triangles.size());
+    for (const ShapeOperator& shape : shapeOperators(surface, interior))
+        curvatures.push_back(shape.largestPrincipalCurvature());
+    return curvatures;
+}
+
+std::vector<double> curvatureOfParts(const Surface& surface, const std::vector<double>& curvature,
+                                     const std::vector<unsigned>& partOf, size_t count) {
     std::vector<CurvedArea> areas;
-    for (size_t i = 0; i < surface.triangles.size(); ++i) {
-        const SurfaceTriangle& triangle = surface.triangles[i];
-        if (triangle.kind == SurfaceTriangle::Kind::regular)
-            areas.push_back({borders.patchOfPrimitive[triangle.primitive], operators[i].largestPrincipalCurvature(),
-                             triangle.area});
-    }
+    for (size_t i = 0; i < surface.triangles.size(); ++i)
+        if (surface.triangles[i].kind == SurfaceTriangle::Kind::regular)
+            areas.push_back({partOf[i], curvature[i], surface.triangles[i].area});
     std::stable_sort(areas.begin(), areas.end(), [](const CurvedArea& a, const CurvedArea& b) {
-        return a.patch != b.patch ? a.patch < b.patch : a.curvature < b.curvature;
+        return a.part != b.part ? a.part < b.part : a.curvature < b.curvature;
     });
+    std::vector<double> result(count, 0.0);
     for (size_t first = 0, last = 0; first < areas.size(); first = last) {
-        while (last < areas.size() && areas[last].patch == areas[first].patch) ++last;
-        curvature[areas[first].patch] = float(areaQuantile(areas.data() + first, areas.data() + last, 0.9));
+        while (last < areas.size() && areas[last].part == areas[first].part) ++last;
+        result[areas[first].part] = areaQuantile({areas.data() + first, last - first}, 0.9);
     }
-    return curvature;
+    return result;
 }
 
 } // namespace quasilux

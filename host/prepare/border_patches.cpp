@@ -87,6 +87,23 @@ void numberPatches(UnionFind& sets, SurfaceBorders& borders) {
     }
 }
 
+InteriorEdge interiorEdge(EdgeGroup edge) {
+    const bool forward = edge[0].forward;
+    return {edge[0].low, edge[0].high, edge[forward ? 0 : 1].triangle, edge[forward ? 1 : 0].triangle};
+}
+
+void measureCurvature(const Surface& surface, const std::vector<double>& curvature, SurfaceBorders& borders) {
+    std::vector<unsigned> patchOf;
+    patchOf.reserve(surface.triangles.size());
+    for (const SurfaceTriangle& triangle : surface.triangles)
+        patchOf.push_back(borders.patchOfPrimitive[triangle.primitive]);
+    const std::vector<double> ofPatches = curvatureOfParts(surface, curvature, patchOf, borders.patchCount);
+    borders.patchCurvature.assign(ofPatches.begin(), ofPatches.end());
+    for (const SurfaceSphere& sphere : surface.spheres)
+        borders.patchCurvature[borders.patchOfPrimitive[sphere.primitive]] =
+            sphere.radius > 0 ? float(1 / sphere.radius) : 0.0f;
+}
+
 /// The segment of an edge; one for every two patches that meet there, so that each is named.
 void appendSegments(EdgeGroup edge, const Surface& surface, SurfaceBorders& borders) {
     std::vector<unsigned> patches;
@@ -107,25 +124,33 @@ double dihedralAngle(const SurfaceTriangle& a, const SurfaceTriangle& b) {
     return std::atan2(glm::length(glm::cross(a.normal, b.normal)), glm::dot(a.normal, b.normal));
 }
 
-std::vector<InteriorEdge> joinPatches(const Scene& scene, std::span<const ShapeDescription> shapes, double creaseAngle,
-                                      Surface& surface, SurfaceBorders& borders) {
+void joinPatches(const Scene& scene, std::span<const ShapeDescription> shapes, double creaseAngle, Surface& surface,
+                 SurfaceBorders& borders) {
     const std::vector<EdgeUse> uses = sortedEdges(surface, SurfaceTriangle::Kind::regular);
     const std::vector<EdgeGroup> edges = groupByEdge(uses);
-    UnionFind sets(surface.primitiveCount);
+    std::vector<EdgeGroup> smooth, bordering;
     std::vector<InteriorEdge> interior;
-    std::vector<EdgeGroup> bordering;
     for (const EdgeGroup& edge : edges) {
         surface.triangles[edge[0].triangle].ownedEdges |= uint8_t(1u << edge[0].side);
         if (isSmooth(edge, surface, creaseAngle)) {
-            const bool forward = edge[0].forward;
-            sets.unite(surface.triangles[edge[0].triangle].primitive, surface.triangles[edge[1].triangle].primitive);
-            interior.push_back(
-                {edge[0].low, edge[0].high, edge[forward ? 0 : 1].triangle, edge[forward ? 1 : 0].triangle});
+            smooth.push_back(edge);
+            interior.push_back(interiorEdge(edge));
         } else {
-            for (const EdgeUse& use : edge) surface.triangles[use.triangle].borderEdges |= uint8_t(1u << use.side);
             bordering.push_back(edge);
         }
     }
+    const std::vector<double> curvature = triangleCurvatures(surface, interior);
+    const std::vector<bool> isCut = edgesOfBends(surface, interior, curvature);
+    UnionFind sets(surface.primitiveCount);
+    for (size_t i = 0; i < smooth.size(); ++i) {
+        if (isCut[i])
+            bordering.push_back(smooth[i]);
+        else
+            sets.unite(surface.triangles[interior[i].triangleA].primitive,
+                       surface.triangles[interior[i].triangleB].primitive);
+    }
+    for (const EdgeGroup& edge : bordering)
+        for (const EdgeUse& use : edge) surface.triangles[use.triangle].borderEdges |= uint8_t(1u << use.side);
     attachDegenerate(surface, edges, sets);
     for (const SurfaceTriangle& triangle : surface.triangles)
         if (triangle.kind == SurfaceTriangle::Kind::duplicate)
@@ -135,7 +160,7 @@ std::vector<InteriorEdge> joinPatches(const Scene& scene, std::span<const ShapeD
     borders.patchOfPrimitive.resize(surface.primitiveCount);
     numberPatches(sets, borders);
     for (const EdgeGroup& edge : bordering) appendSegments(edge, surface, borders);
-    return interior;
+    measureCurvature(surface, curvature, borders);
 }
 
 } // namespace quasilux

@@ -12,17 +12,28 @@ struct InteriorEdge {
     unsigned triangleA = 0, triangleB = 0;
 };
 
-/// Numbers the patches (`patchOfPrimitive`, `patchCount`) and appends the edges that bound them to `segments`. Marks
-/// border and owned edges in `surface`. Returns the edges inside patches.
-std::vector<InteriorEdge> joinPatches(const Scene& scene, std::span<const ShapeDescription> shapes, double creaseAngle,
-                                      Surface& surface, SurfaceBorders& borders);
+/// Numbers the patches (`patchOfPrimitive`, `patchCount`), measures their curvature and appends the edges that bound them
+/// to `segments`. Marks border and owned edges in `surface`.
+void joinPatches(const Scene& scene, std::span<const ShapeDescription> shapes, double creaseAngle, Surface& surface,
+                 SurfaceBorders& borders);
 
 /// Angle between the oriented normals of two triangles, 0 to pi.
 double dihedralAngle(const SurfaceTriangle& a, const SurfaceTriangle& b);
 
-/// Curvature by patch, 1/scene unit: 1/radius of a sphere; of a mesh the larger principal curvature that 90 % of its
-/// area does not exceed; 0 where flat within rounding.
-std::vector<float> patchCurvatures(const Surface& surface, const std::vector<InteriorEdge>& interior,
-                                   const SurfaceBorders& borders);
+/// Mean of the corners.
+glm::dvec3 centroid(const SurfaceTriangle& triangle, const Surface& surface);
+
+/// Larger principal curvature by triangle, 1/scene unit; 0 where flat within rounding.
+std::vector<double> triangleCurvatures(const Surface& surface, const std::vector<InteriorEdge>& interior);
+
+/// The curvature that 90 % of a part's area does not exceed, of each of `count` parts; partOf: by triangle.
+std::vector<double> curvatureOfParts(const Surface& surface, const std::vector<double>& curvature,
+                                     const std::vector<unsigned>& partOf, size_t count);
+
+/// By edge inside smooth parts of the surface, whether it is to be a border all the same, as it parts a flat region from
+/// a narrow bend: a rounded edge of a board, the rim of a cup, a handle. A disc as wide as serves the flat regions would
+/// reach round the bend to the other face; in a patch of its own a bend has a radius of its own.
+std::vector<bool> edgesOfBends(const Surface& surface, const std::vector<InteriorEdge>& interior,
+                               const std::vector<double>& curvature);
 
 } // namespace quasilux

@@ -14,8 +14,7 @@ namespace {
 Surface findBordersOf(const Scene& scene, std::span<const ShapeDescription> shapes, double creaseAngle,
                       SurfaceBorders& borders) {
     Surface surface = collectSurface(scene, shapes);
-    const std::vector<InteriorEdge> interior = joinPatches(scene, shapes, creaseAngle, surface, borders);
-    borders.patchCurvature = patchCurvatures(surface, interior, borders);
+    joinPatches(scene, shapes, creaseAngle, surface, borders);
     intersectSurfaces(surface, borders);
     return surface;
 }
