@@ -60,7 +60,7 @@ TEST(BorderCuts, SheetThatPassesThroughItself) {
 }
 
 TEST(BorderCuts, SpheresCutPlanesAndSpheres) {
-    const double chord = std::sin(pi / 32) / (pi / 32); // chords to arc
+    const double chord = std::sin(pi / 128) / (pi / 128); // chords to arc
     for (const unsigned cells : {1u, 13u}) {
         Scene scene;
         addPlane(scene, {-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, cells);
@@ -79,7 +79,7 @@ TEST(BorderCuts, SpheresCutPlanesAndSpheres) {
     Scene pair;
     addSphere(pair, {0, 0, 0}, 5);
     addSphere(pair, {6, 0, 0}, 5);
-    EXPECT_EQ(findBorders(pair).segments.size(), 32u);
+    EXPECT_EQ(findBorders(pair).segments.size(), 128u);
     EXPECT_NEAR(totalLength(findBorders(pair)), 2 * pi * 4 * chord, 1e-4);
 
     Scene apart; // inside each other, touching, standing on a plane: no circle

@@ -20,11 +20,11 @@ struct CutSegment {
 /// triangle that owns the edge yields the segment, so that a surface cut along a row of its edges is cut once.
 std::optional<CutSegment> cutTriangles(const Surface& surface, const SurfaceTriangle& a, const SurfaceTriangle& b);
 
-/// Appends the arcs of the circle in which the sphere cuts the triangle, as chords, 32 to the full turn.
+/// Appends the arcs of the circle in which the sphere cuts the triangle, as chords, 128 to the full turn.
 void cutTriangleSphere(const Surface& surface, const SurfaceTriangle& triangle, const SurfaceSphere& sphere,
                        std::vector<CutSegment>& cuts);
 
-/// Appends the circle in which two spheres cut each other, as 32 chords.
+/// Appends the circle in which two spheres cut each other, as 128 chords.
 void cutSpheres(const SurfaceSphere& a, const SurfaceSphere& b, std::vector<CutSegment>& cuts);
 
 /// The primitives of a surface that may cut others: regular triangles, then spheres; by index as in `boxes`.

@@ -42,7 +42,7 @@ std::vector<unsigned> firstPatches(const Scene& scene, const SurfaceBorders& bor
 /// (storingOf); vertices that coincide within float rounding are one, and so are triangles with the same three
 /// vertices. Every other edge is a segment, once (several times only where more than two patches meet: each is named).
 /// Where a surface passes through another, or through itself, the curve of intersection is a segment of both; circles
-/// on spheres become chords, 32 to the full turn. Surfaces that only touch add none, as the edges of one of them are
+/// on spheres become chords, 128 to the full turn. Surfaces that only touch add none, as the edges of one of them are
 /// segments already. Edges that overlap without matching vertex by vertex (T-junctions) stay segments, also inside a
 /// plane: the estimate there is right, only noisier; so do edges that instances have in common with other shapes. A
 /// shape of a `null` bsdf is one patch without segments, and cuts nothing. Positions must be finite.
