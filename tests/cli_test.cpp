@@ -106,6 +106,7 @@ TEST_F(CommandLineTest, UnknownCommandsAndArgumentsAreRefused) {
     expectRefused({"rendr"}, "unknown argument 'rendr', did you mean 'render'?");
     expectRefused({"render"}, "SCENE is required");
     expectRefused({"render", "scene.xml", "--sed", "4"}, "did you mean '--seed'?");
+    expectRefused({"render", "scene.xml", "--seed", "4", "--seed", "5"}, "--seed is given 2 times; give it once");
     expectRefused({"render", "scene.xml", "--passes"}, "--passes");
 }
 

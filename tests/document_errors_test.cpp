@@ -26,6 +26,13 @@ TEST_P(BadSceneFile, IsRefused) {
 
 const BadFile badFiles[] = {
     {"Empty", "", "malformed XML"},
+    {"NoEndTag", "<scene version=\"3.0.0\">\n<!-- </x> --><shape name='>'/>\n<a><b>\n</a></scene>",
+     "scene.xml:4:1: malformed XML: </a> where <b> of line 3 is open; expected </b> first."},
+    {"NoLastEndTag", "<scene version=\"3.0.0\">\n<a></a>\n",
+     "scene.xml:3:1: malformed XML: the file ends, but <scene> of line 1 has no end; expected </scene>."},
+    {"EndTagTooMany", "<scene version=\"3.0.0\"></scene\n>\n</scene>",
+     "scene.xml:3:1: malformed XML: </scene> ends nothing; remove it."},
+    {"QuoteNotClosed", "<scene version=\"3.0.0\">\n<a b=\"1></a></scene>", "malformed XML: Error parsing"},
     {"NoSensor", "<scene version=\"3.0.0\"><emitter type=\"point\"/></scene>", "scene.xml: the scene has no <sensor>"},
     {"NoVersion", "<scene/>", "scene.xml:1:1: <scene> needs the attribute 'version'"},
     {"BadVersion", "<scene version=\"three\"/>", "scene.xml:1:1: version 'three' is not a version"},

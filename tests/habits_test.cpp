@@ -150,6 +150,7 @@ TEST_F(HabitsTest, NoFileIsWrittenTwice) {
     expectRefused({"render", "a.xml", "b.xml", "--resume", "c.ckpt"}, "a checkpoint is of one scene");
     expectRefused({"render", "a.xml", "b.xml", "-o", "gone/{scene}.exr"}, "folder gone does not exist");
     expectRefused({"render", "a.xml", "-o", "{sceen}.exr"}, "unknown {sceen}");
+    expectRefused({"render", "a.xml", "gone.xml"}, "cannot read the scene file 'gone.xml': there is no such file");
     expectRefused({"render", "a.xml", "b.xml", "-j", "2", "--watch"}, "excludes");
     expectRefused({"render", "a.xml", "--watch", "--checkpoint", "a.ckpt"}, "--watch excludes --checkpoint");
 }
@@ -205,7 +206,8 @@ TEST_F(HabitsTest, FilesHaveADefaultFolder) {
     EXPECT_EQ(render({"a.xml", "--folder", "other"}).exitCode, 0);
     EXPECT_TRUE(fs::exists(folder / "other/a.exr")) << "the option is stronger";
     setenv("QUASILUX_OUTPUT", "gone", 1);
-    expectRefused({"render", "a.xml"}, "folder gone does not exist");
+    expectRefused({"render", "a.xml"}, "--folder gone (or QUASILUX_OUTPUT): folder gone does not exist");
+    EXPECT_EQ(render({"a.xml", "-o", "./a.exr"}).exitCode, 0) << "nothing is to go there";
 }
 
 TEST_F(HabitsTest, WarningsCanBeErrors) {

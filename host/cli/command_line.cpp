@@ -73,6 +73,15 @@ std::string unknownArgument(CLI::App& app) {
     return fmt::format("unknown argument '{}'{}", unknown, near.empty() ? "" : ", did you mean '" + near + "'?");
 }
 
+/// CLI11's own words, but for options that are given too often.
+std::string wordsOf(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    const std::string often = ": At Most 1 required but received ";
+    const size_t at = text.find(often);
+    if (at == std::string::npos) return text;
+    return fmt::format("{} is given {} times; give it once", text.substr(0, at), text.substr(at + often.size()));
+}
+
 int failParsing(CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error); // --help and --version
     CLI::App& command = chosenCommand(app);
@@ -83,7 +92,7 @@ int failParsing(CLI::App& app, const CLI::ParseError& error) {
     fail(exitBadInput, unknown     ? unknownArgument(app)
                        : noCommand ? "no command given, expected render, view, merge, compare, photometry, "
                                      "falsecolour, report, dgp, bench, devices, doctor, manual or info"
-                                   : error.what());
+                                   : wordsOf(error));
     printTo(stderr, fmt::format("`quasilux {}--help` lists the options\n", noCommand ? "" : command.get_name() + " "));
     return exitBadInput;
 }

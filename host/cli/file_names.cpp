@@ -75,7 +75,12 @@ NameParts namePartsOf(unsigned long long seed, unsigned long long passes) {
 
 std::string inFolder(const std::string& folder, const std::string& name) {
     const bool stays = folder.empty() || name.empty() || fs::path(name).has_parent_path();
-    return stays ? name : (fs::path(folder) / name).string();
+    if (stays) return name;
+    std::error_code unknown;
+    if (!fs::is_directory(folder, unknown))
+        throw InputError(
+            fmt::format("--folder {0} (or QUASILUX_OUTPUT): folder {0} does not exist, create it first", folder));
+    return (fs::path(folder) / name).string();
 }
 
 } // namespace quasilux

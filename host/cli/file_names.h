@@ -26,6 +26,7 @@ NameParts namePartsOf(const std::string& scene);
 NameParts namePartsOf(unsigned long long seed, unsigned long long passes);
 
 /// A name without a folder lies in `folder`; others stay, and all where that is empty.
+/// Throws InputError where it is needed and does not exist.
 std::string inFolder(const std::string& folder, const std::string& name);
 
 } // namespace quasilux

@@ -44,7 +44,12 @@ std::vector<RenderOptions> optionsByScene(const RenderOptions& options) {
         }
     }
     if (all.size() > 1)
-        for (const RenderOptions& one : all) checkOutputs(one);
+        for (const RenderOptions& one : all) {
+            checkOutputs(one);
+            std::error_code unknown;
+            if (!options.watch && !std::filesystem::exists(one.scene, unknown))
+                throw InputError(fmt::format("cannot read the scene file '{}': there is no such file.", one.scene));
+        }
     return all;
 }
 

@@ -80,8 +80,13 @@ void checkNesting(std::string_view json, const std::string& path) {
 nlohmann::json parsed(std::string_view json, const std::string& path) {
     try {
         return nlohmann::json::parse(json);
-    } catch (const nlohmann::json::exception& error) {
-        throw InputError({path}, fmt::format("malformed JSON: {}.", error.what()));
+    } catch (const nlohmann::json::parse_error& error) {
+        const std::string_view before = json.substr(0, std::min(json.size(), std::max<size_t>(error.byte, 1) - 1));
+        const auto line = int(std::count(before.begin(), before.end(), '\n'));
+        const auto column = int(before.size() - (before.rfind('\n') + 1)); // npos + 1 is 0
+        const std::string text = error.what();
+        throw InputError({path, line + 1, column + 1},
+                         fmt::format("malformed JSON: {}.", text.substr(text.find(": ") + 2)));
     }
 }
 

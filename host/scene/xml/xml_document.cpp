@@ -4,6 +4,7 @@
 #include "scene/xml/names.h"
 #include "scene/xml/plain_instances.h"
 #include "scene/xml/read_files.h"
+#include "scene/xml/tag_pairs.h"
 #include "scene/xml/tags.h"
 #include "scene/xml/upgrade.h"
 
@@ -70,8 +71,7 @@ public:
         pugi::xml_document document;
         const pugi::xml_parse_result result = document.load_buffer_inplace(
             text.data(), text.size(), pugi::parse_default | pugi::parse_pi, pugi::encoding_utf8);
-        if (!result)
-            throw InputError(positions.at(result.offset), fmt::format("malformed XML: {}.", result.description()));
+        if (!result) throwMalformed(path, mention, positions, result);
 
         openFiles_.push_back(std::filesystem::weakly_canonical(path).string());
         Element root;
@@ -104,6 +104,26 @@ public:
     }
 
 private:
+    /// pugixml names no tags, and has overwritten the text, so it is read again.
+    [[noreturn]] void throwMalformed(const std::string& path, const SourceLocation& mention,
+                                     const TextPositions& positions, const pugi::xml_parse_result& result) const {
+        const std::string text = readFile(path, mention, "scene");
+        const auto mismatch = result.status == pugi::status_end_element_mismatch ? findTagMismatch(text) : std::nullopt;
+        if (!mismatch)
+            throw InputError(positions.at(result.offset), fmt::format("malformed XML: {}.", result.description()));
+        const auto& [opened, closed, openedAt, at] = *mismatch;
+        const SourceLocation where = positions.at(ptrdiff_t(at));
+        if (opened.empty())
+            throw InputError(where, fmt::format("malformed XML: </{}> ends nothing; remove it.", closed));
+        const int line = positions.at(ptrdiff_t(openedAt)).line;
+        if (closed.empty())
+            throw InputError(where, fmt::format("malformed XML: the file ends, but <{0}> of line {1} has no end; "
+                                                "expected </{0}>.",
+                                                opened, line));
+        throw InputError(where, fmt::format("malformed XML: </{}> where <{}> of line {} is open; expected </{}> first.",
+                                            closed, opened, line, opened));
+    }
+
     void checkNesting(const std::string& path, const SourceLocation& mention) const {
         files_.guard().checkNesting(openFiles_.size() + 1, mention);
         if (openFiles_.size() >= maximumNesting)
