@@ -122,6 +122,15 @@ TEST_F(CompareCommandTest, ThresholdsDecideTheExitCode) {
                 HasSubstr("exceeded: relative bias of region all is 0.125, the limit is 0.01"));
 }
 
+TEST_F(CompareCommandTest, NothingIsRelativeToABlackReference) {
+    write("black.exr", rgb, [](int, int, int) { return 0.0; });
+    const Outcome outcome = run({"compare", "image.exr", "black.exr", "--max-bias", "0.1"});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_THAT(outcome.output, HasSubstr("the reference is black in region all"));
+    EXPECT_THAT(outcome.output, HasSubstr("undefined"));
+    EXPECT_THAT(outcome.output, testing::Not(HasSubstr("nan")));
+}
+
 TEST_F(CompareCommandTest, PixelsThatAreNotFiniteAreNamed) {
     write("broken.exr", rgb, [](int x, int y, int c) {
         return x == 5 && y == 3 && c == 1 ? std::numeric_limits<double>::quiet_NaN() : 2.0;

@@ -94,7 +94,12 @@ RadianceImage readScale(const std::string& path, const RadianceImage& reference)
     return scale;
 }
 
-std::string numberText(const std::optional<double>& value) { return value ? fmt::format("{:.3e}", *value) : "unknown"; }
+/// Infinite is what is divided by a black reference.
+std::string numberText(const std::optional<double>& value) {
+    return !value ? "unknown" : std::isinf(*value) ? "undefined" : fmt::format("{:.3e}", *value);
+}
+
+bool isBlack(const RegionMeasures& region) { return region.referenceLuminance == 0; }
 
 std::vector<TableRow> regionRows(const Comparison& comparison) {
     std::vector<TableRow> rows{{"region", "pixels", "not finite", "relMSE", "reference's noise", "image's noise", "net",
@@ -105,8 +110,10 @@ std::vector<TableRow> regionRows(const Comparison& comparison) {
                         numberText(region.relMse), numberText(region.referenceNoise), numberText(region.imageNoise),
                         numberText(region.netRelMse), numberText(region.rmse),
                         fmt::format("{:.5g}", region.meanLuminance), fmt::format("{:.5g}", region.referenceLuminance),
-                        fmt::format("{:+.3f} %", 100 * region.relativeBias()),
-                        error ? fmt::format("{:.3f} %", 100 * *error / region.referenceLuminance) : "unknown"});
+                        isBlack(region) ? "undefined" : fmt::format("{:+.3f} %", 100 * region.relativeBias()),
+                        isBlack(region) ? "undefined"
+                        : error         ? fmt::format("{:.3f} %", 100 * *error / region.referenceLuminance)
+                                        : "unknown"});
     }
     return rows;
 }
@@ -132,6 +139,10 @@ std::vector<std::string> remarks(const Comparison& comparison, unsigned width, c
             fmt::format("not finite: {} pixels of the image, {} of the reference, at {}; {}", comparison.nonFiniteImage,
                         comparison.nonFiniteReference, pixelNames(comparison, width),
                         comparison.nonFiniteLeftOut ? "left out of all measures" : "they spoil what they are part of"));
+    for (const auto& region : comparison.regions)
+        if (isBlack(region))
+            lines.push_back(fmt::format(
+                "the reference is black in region {}: what is relative to it is undefined there", region.name));
     if (!scale.empty()) lines.push_back("relMSE is divided by the square of " + scale + ", not of the reference");
     if (comparison.beyondThreeStandardErrors)
         lines.push_back(
