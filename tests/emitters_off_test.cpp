@@ -1,5 +1,8 @@
 // Emitters that emit nothing are left out with a warning, as scenes from the web have them, and a scene without light
 // is black with one; Mitsuba's images are the same.
+#include "prepare/device_scene.h"
+#include "prepare/guide_tables.h"
+#include "prepare/media.h"
 #include "support/scene_files.h"
 
 #include <gmock/gmock.h>
@@ -72,6 +75,24 @@ TEST_P(OffEmitter, LeavesASceneWithoutLight) {
                                                            "is black")));
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, OffEmitter, testing::ValuesIn(offEmitters));
+
+// A red spot through a green picture: nothing says so but its power. Photons still begin somewhere, and bring nothing.
+TEST(EmittersOff, WhatMultipliesToNothingIsChosenEvenly) {
+    const std::string spot =
+        of("spot", R"(<rgb name="intensity" value="1,0,0"/><texture name="texture" type="checkerboard">
+        <rgb name="color0" value="0,1,0"/><rgb name="color1" value="0,1,0"/></texture>)");
+    for (const unsigned count : {1u, 100u}) {
+        std::string body;
+        for (unsigned k = 0; k < count; ++k) body += spot;
+        const test::SceneFiles files;
+        const Scene scene = loadScene(
+            files.write("scene.xml", "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + body + "</scene>"));
+        const EmitterTables tables = flattenEmitters(scene, placeMedia(scene));
+        ASSERT_EQ(tables.emitters.size(), count);
+        for (const auto& emitter : tables.emitters) EXPECT_FLOAT_EQ(emitter.selectionProbability, 1.0f / count);
+        EXPECT_EQ(plainGuide(tables).leaves.size(), count);
+    }
+}
 
 TEST(EmittersOff, OneChannelIsEnoughToBeOn) {
     const Scene scene = test::loadBody(of("point", R"(<rgb name="intensity" value="0,0,1"/>)"));

@@ -274,7 +274,8 @@ void reorder(std::vector<T>& values, const std::vector<unsigned>& order) {
 }
 
 void sortIntoTree(EmitterTables& tables) {
-    if (tables.emitters.size() < manyEmitters) return;
+    const bool isDark = std::all_of(tables.power.begin(), tables.power.end(), [](double p) { return p == 0; });
+    if (tables.emitters.size() < manyEmitters || isDark) return;
     LightTree tree = buildLightTree(tables);
     reorder(tables.emitters, tree.order);
     reorder(tables.power, tree.order);
@@ -290,8 +291,10 @@ void setSelection(EmitterTables& tables) {
     for (const double power : tables.power) total += power;
     double sum = 0;
     for (size_t k = 0; k < tables.emitters.size(); ++k) {
-        sum += tables.power[k] / total;
-        tables.emitters[k].selectionProbability = static_cast<float>(tables.power[k] / total);
+        // Values that multiply to nothing, such as a red spot through a green picture, are not seen to be off before.
+        const double share = total > 0 ? tables.power[k] / total : 1.0 / static_cast<double>(tables.emitters.size());
+        sum += share;
+        tables.emitters[k].selectionProbability = static_cast<float>(share);
         tables.emitters[k].selectionCdf = k + 1 == tables.emitters.size() ? 1.f : static_cast<float>(sum);
     }
 }
