@@ -9,6 +9,7 @@
 #include "importance_light.clh"
 #include "law.clh"
 #include "medium_flight.clh"
+#include "medium_place.clh"
 #ifdef HAS_METER
 #include "meter.clh"
 #endif
@@ -229,17 +230,25 @@ __kernel void traceImportancePaths(__global const BvhNode* nodes, __global const
     state.gathers = 0;
     state.lobePdf = state.passed = 0;
     state.hasScattered = 0;
-    state.medium = params.camera.medium;
 #ifdef HAS_IRRADIANCE_METER
     const MeterPlace place = meterPlace(&params.scene.meter, tables, pixel, rngNext2(&state.rng));
     const Surface s = meterSurfaceOf(&params.scene, tables, &place);
     const Frame frame = frameFromNormal(s.geometricNormal);
-    state.medium = place.medium;
     state.ray = leavingRay(&s, toWorld(&frame, sampleCosineHemisphere(rngNext2(&state.rng))));
     state.gathers = 1;
     state.events = SCATTER_GENUINE_DIFFUSE; /* what it has from emitters is no image of them */
 #else
     state.ray = importanceRay(&params.camera, tables, pixel, &state.rng);
+#endif
+#ifdef HAS_IRRADIANCE_METER
+    const uint medium = place.medium;
+#else
+    const uint medium = params.camera.medium;
+#endif
+#ifdef HAS_MEDIA
+    state.medium = mediumAtOrigin(medium, state.ray.origin, state.ray.direction, nodes, blocks, tables, &params.scene);
+#else
+    state.medium = medium;
 #endif
     state.from = state.ray.origin;
     uint event = isBeyondImage(&state.ray) ? IMPORTANCE_EVENTS_MAX : 0;

@@ -46,7 +46,7 @@ typedef struct {
     unsigned int filterSteps; /* FILTER_TABLE: word offset of its FilterStep records into the scene tables */
     unsigned int filterReach; /* and cells on either side of the pixel's centre */
     unsigned int filterEnds;  /* and 1: it ends at the edge of the image */
-    unsigned int medium;      /* in which it stands: index or MEDIUM_NONE */
+    unsigned int medium;      /* in which it stands: index, MEDIUM_NONE or MEDIUM_BY_PLACE */
 } Camera;
 
 /* ---- irradiance meters (kernels/meter.clh) ----------------------------------------------------------------------- */
@@ -74,7 +74,7 @@ typedef struct {
     MeterPrimitive plane;
     unsigned int firstPixel, columns, rows;
     unsigned int quantity; /* GRID_* */
-    unsigned int medium;   /* in which it lies: index or MEDIUM_NONE */
+    unsigned int medium;   /* in which it lies: index, MEDIUM_NONE or MEDIUM_BY_PLACE */
     /* GRID_CYLINDRICAL: of the cells in which photons are counted, half of it on each side of the plane */
     float height;
     float inverseExtent; /* 1 / area of a cell; GRID_CYLINDRICAL: 1 / its volume */
@@ -92,8 +92,8 @@ typedef struct {
     unsigned int width, height; /* pixels */
     unsigned int samples;       /* paths of a pixel in each pass, a power of two */
     unsigned int lobe;          /* a white Lambert lobe */
-    unsigned int medium;        /* METER_RAY, METER_AREA: in which the meter lies, index or MEDIUM_NONE */
-    float inverseArea;          /* METER_AREA: 1 / area of a pixel */
+    unsigned int medium; /* METER_RAY, METER_AREA: in which the meter lies: index, MEDIUM_NONE or MEDIUM_BY_PLACE */
+    float inverseArea;   /* METER_AREA: 1 / area of a pixel */
 } Meter;
 
 #ifdef __cplusplus

@@ -191,7 +191,8 @@ typedef struct {
 #define PHASE_MIXED 3u     /* of a medium: its PhasePart records */
 #define PHASE_TABULATED 4u /* of a part only */
 
-#define MEDIUM_NONE QL_NONE          /* vacuum */
+#define MEDIUM_NONE QL_NONE              /* vacuum */
+#define MEDIUM_BY_PLACE MEDIUM_UNCHANGED /* of an emitter, a grid, a camera: not the same everywhere on it */
 #define MEDIUM_UNCHANGED 0xfffffffeu /* of a surface that bounds no medium: a path that passes it stays where it is */
 
 /* A medium, homogeneous unless it has a grid of extinction. The phase function p is split by a level (sr^-1): genuine
@@ -321,7 +322,7 @@ typedef struct {
     float selectionProbability;                /* in proportion to power; beams: host/prepare/flatten_emitters.cpp */
     float selectionCdf;                        /* sum of the probabilities up to and including this emitter; last = 1 */
     unsigned int firstTriangle, triangleCount; /* into EmitterTriangle */
-    unsigned int medium;                       /* into which it emits: index or MEDIUM_NONE */
+    unsigned int medium;                       /* into which it emits: index, MEDIUM_NONE or MEDIUM_BY_PLACE */
     float beamAngle, cutoffAngle; /* spot: full intensity up to beamAngle, none beyond cutoffAngle, which is larger */
     unsigned int directByPhotons; /* 1: genuine diffuse lobes take its direct light from photons, not by sampling it */
     unsigned int texture;         /* 1 + index of the Texture that multiplies `radiance`; 0: none */

@@ -8,20 +8,51 @@ namespace quasilux {
 
 namespace {
 
-/// Where camera rays start: the centre of projection, or of the near plane.
-glm::dvec3 cameraOrigin(const Sensor& sensor) {
-    const glm::dvec4 local(0, 0, sensor.orthographic ? sensor.nearClip : 0, 1);
-    return glm::dvec3(sensor.toWorld * local);
+/// Where camera rays start: the centre of projection, or the near plane's part that the film shows.
+Box cameraOrigins(const Sensor& sensor) {
+    Box box;
+    const double height = double(sensor.filmHeight) / sensor.filmWidth;
+    for (const double x : {-1.0, 1.0})
+        for (const double y : {-1.0, 1.0})
+            box.add(glm::dvec3(sensor.toWorld * (sensor.orthographic ? glm::dvec4(x, y * height, sensor.nearClip, 1)
+                                                                     : glm::dvec4(0, 0, 0, 1))));
+    return box;
+}
+
+/// Where its light leaves from; of a luminaire a box about its luminous shape, however it is turned.
+Box boundsOf(const PointEmitter& emitter, const Scene& scene) {
+    double radius = 0;
+    if (emitter.luminaire) {
+        const LuminaireType& type = scene.luminaireTypes[emitter.luminaire->type];
+        const LuminousShape& shape = type.goniogram.shape;
+        if (type.fromShape)
+            radius = glm::length(glm::dvec3(shape.sizeC0, shape.sizeC90, shape.height)) / (2 * type.metresPerUnit);
+    }
+    Box box;
+    for (const double side : {-1.0, 1.0}) box.add(glm::dvec3(emitter.position) + side * radius);
+    return box;
+}
+
+Box boundsOf(const IlluminanceGrid& grid) {
+    Box box;
+    for (const double u : {0.0, 1.0})
+        for (const double v : {0.0, 1.0}) box.add(grid.origin + u * grid.edgeU + v * grid.edgeV);
+    return box;
+}
+
+/// Beside a surface that bounds none, on the side of its normal.
+unsigned mediumOff(const ShapeDescription& shape, const MediumBodies& bodies) {
+    const unsigned medium = bodies.mediumOf(boundsOff(shape));
+    return medium == MEDIUM_BY_PLACE ? medium : bodies.mediumAtMost(pointsOff(shape, true));
 }
 
 unsigned sensorMedium(const Scene& scene, const MediumBodies& bodies, const MediumPlacement& placement) {
     const Sensor& sensor = scene.sensor;
     if (sensor.medium) return *sensor.medium;
     if (sensor.meter == MeterKind::grid) return placement.grids.front();
-    if (sensor.meter != MeterKind::area) return bodies.mediumAt(cameraOrigin(sensor));
+    if (sensor.meter != MeterKind::area) return bodies.mediumOf(cameraOrigins(sensor));
     const unsigned exterior = placement.exterior[sensor.meterShape];
-    return exterior != MEDIUM_UNCHANGED ? exterior
-                                        : bodies.mediumAtMost(pointsOff(scene.shapes[sensor.meterShape], true));
+    return exterior != MEDIUM_UNCHANGED ? exterior : mediumOff(scene.shapes[sensor.meterShape], bodies);
 }
 
 } // namespace
@@ -38,17 +69,15 @@ MediumPlacement placeMedia(const Scene& scene) {
         const unsigned interior = shape.interior ? *shape.interior : bounds ? beside(shape, false) : unstated;
         const unsigned exterior = shape.exterior ? *shape.exterior : bounds ? beside(shape, true) : unstated;
         unsigned emitted = MEDIUM_NONE;
-        if (shape.emitter) emitted = bounds ? exterior : beside(shape, true);
+        if (shape.emitter) emitted = bounds ? exterior : mediumOff(shape, bodies);
         placement.interior.push_back(interior);
         placement.exterior.push_back(exterior);
         placement.shapeEmitters.push_back(emitted);
     }
     for (const PointEmitter& emitter : scene.pointEmitters)
-        placement.pointEmitters.push_back(emitter.medium ? *emitter.medium
-                                                         : bodies.mediumAt(glm::dvec3(emitter.position)));
+        placement.pointEmitters.push_back(emitter.medium ? *emitter.medium : bodies.mediumOf(boundsOf(emitter, scene)));
     if (scene.sensor.meter == MeterKind::grid)
-        for (const IlluminanceGrid& grid : scene.grids)
-            placement.grids.push_back(bodies.mediumAt(grid.origin + 0.5 * (grid.edgeU + grid.edgeV)));
+        for (const IlluminanceGrid& grid : scene.grids) placement.grids.push_back(bodies.mediumOf(boundsOf(grid)));
     placement.camera = sensorMedium(scene, bodies, placement);
     return placement;
 }

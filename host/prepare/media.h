@@ -7,13 +7,14 @@
 
 namespace quasilux {
 
-/// Indices into Scene::media, MEDIUM_NONE, or (surfaces that bound no medium) MEDIUM_UNCHANGED.
+/// Indices into Scene::media, MEDIUM_NONE, or (surfaces that bound no medium) MEDIUM_UNCHANGED. Of an emitter, a camera or
+/// a grid MEDIUM_BY_PLACE where a border of media may pass through it: each ray finds out for itself.
 struct MediumPlacement {
     std::vector<unsigned> interior, exterior; ///< by shape: behind the surface, and on the side of its normal
     std::vector<unsigned> shapeEmitters;      ///< by shape: what its emitter emits into
     std::vector<unsigned> pointEmitters;      ///< by point emitter
     unsigned camera = MEDIUM_NONE;
-    std::vector<unsigned> grids; ///< by grid that is measured: about its centre
+    std::vector<unsigned> grids; ///< by grid that is measured
 };
 
 /// What the scene states holds. Where a shape states only one of interior and exterior, the other one, and likewise

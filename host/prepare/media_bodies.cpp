@@ -63,6 +63,24 @@ bool MediumBody::holds(const glm::dvec3& point) const {
     return std::abs(windingNumber(point)) > 0.5 + rounding;
 }
 
+/// By the axes of the box and the plane of each triangle, two of the tests of Akenine-Moller (2001).
+bool MediumBody::mayCross(const Box& box) const {
+    if (!box_.overlaps(box)) return false;
+    const glm::dvec3 middle = box.center(), half = 0.5 * box.extent();
+    if (shape_->sphere) {
+        const glm::dvec3 offset = glm::abs(glm::dvec3(shape_->sphere->center) - middle);
+        const double radius = shape_->sphere->radius;
+        return glm::length(glm::max(offset - half, 0.0)) <= radius && glm::length(offset + half) >= radius;
+    }
+    return std::any_of(shape_->mesh.triangles.begin(), shape_->mesh.triangles.end(), [&](const glm::uvec3& triangle) {
+        const auto p = cornersFrom(shape_->mesh, triangle, middle);
+        Box bounds;
+        for (const glm::dvec3& corner : p) bounds.add(corner + middle);
+        const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+        return bounds.overlaps(box) && std::abs(glm::dot(normal, p[0])) <= glm::dot(glm::abs(normal), half);
+    });
+}
+
 MediumBodies::MediumBodies(const Scene& scene) {
     for (const ShapeDescription& shape : scene.shapes)
         if (shape.interior || shape.exterior) bodies_.emplace_back(shape);
@@ -74,6 +92,13 @@ unsigned MediumBodies::mediumAt(const glm::dvec3& point) const {
     const auto body = std::find_if(bodies_.begin(), bodies_.end(),
                                    [&](const MediumBody& candidate) { return candidate.holds(point); });
     return body == bodies_.end() ? MEDIUM_NONE : body->medium();
+}
+
+unsigned MediumBodies::mediumOf(const Box& box) const {
+    const bool isPoint = box.lower == box.upper;
+    const bool isCrossed = !isPoint && std::any_of(bodies_.begin(), bodies_.end(),
+                                                   [&](const MediumBody& body) { return body.mayCross(box); });
+    return isCrossed ? MEDIUM_BY_PLACE : mediumAt(box.center());
 }
 
 unsigned MediumBodies::mediumAtMost(const std::vector<glm::dvec3>& points) const {

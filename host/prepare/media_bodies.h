@@ -18,6 +18,8 @@ public:
     /// closed mesh wherever the point lies, without rays that could meet edges; an open mesh holds what it surrounds
     /// more than halfway.
     bool holds(const glm::dvec3& point) const;
+    /// Whether its surface may pass through the box: surely not, if not.
+    bool mayCross(const Box& box) const;
     /// Scene units cubed. Of two bodies, one within the other, the inner one has less.
     double volume() const { return volume_; }
     /// The medium inside as stated: behind the surface, or, where the normals point inwards, on their side.
@@ -39,6 +41,9 @@ public:
 
     /// Medium inside of the innermost body that holds `point`, or MEDIUM_NONE.
     unsigned mediumAt(const glm::dvec3& point) const;
+    /// What all of the box lies in; MEDIUM_BY_PLACE where a surface that states media may pass through it, unless the box
+    /// is a point.
+    unsigned mediumOf(const Box& box) const;
     /// What most of the points lie in.
     unsigned mediumAtMost(const std::vector<glm::dvec3>& points) const;
 

@@ -27,6 +27,11 @@ std::vector<glm::dvec3> pointsOffSphere(const Sphere& sphere, double side) {
     return points;
 }
 
+/// Off a mesh of this area.
+double offsetAt(const glm::dvec3& place, double area) {
+    return std::max(relative * std::sqrt(area), rounding * largestCoordinate(place));
+}
+
 std::vector<glm::dvec3> pointsOffMesh(const Mesh& mesh, double side) {
     std::vector<double> areaUpTo; // of triangles up to and including this one
     double area = 0;
@@ -43,8 +48,7 @@ std::vector<glm::dvec3> pointsOffMesh(const Mesh& mesh, double side) {
         const glm::uvec3& t = mesh.triangles[static_cast<size_t>(at - areaUpTo.begin())];
         const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
         const glm::dvec3 on = 0.41 * a + 0.34 * b + 0.25 * c; // not on lines of symmetry
-        const double offset = std::max(relative * std::sqrt(area), rounding * largestCoordinate(on));
-        points.push_back(on + side * offset * glm::normalize(glm::cross(b - a, c - a)));
+        points.push_back(on + side * offsetAt(on, area) * glm::normalize(glm::cross(b - a, c - a)));
     }
     return points;
 }
@@ -55,6 +59,28 @@ std::vector<glm::dvec3> pointsOff(const ShapeDescription& shape, bool onNormalSi
     const double side = onNormalSide ? 1 : -1;
     if (shape.sphere) return pointsOffSphere(*shape.sphere, shape.flipNormals ? -side : side);
     return pointsOffMesh(shape.mesh, side);
+}
+
+Box boundsOff(const ShapeDescription& shape) {
+    Box box;
+    if (shape.sphere)
+        for (const double side : {-1.0, 1.0})
+            box.add(glm::dvec3(shape.sphere->center) + side * double(shape.sphere->radius));
+    double area = 0;
+    const auto doubleArea = [&](const glm::uvec3& t) {
+        const glm::dvec3 a(shape.mesh.positions[t.x]);
+        return glm::cross(glm::dvec3(shape.mesh.positions[t.y]) - a, glm::dvec3(shape.mesh.positions[t.z]) - a);
+    };
+    for (const glm::uvec3& t : shape.mesh.triangles) area += glm::length(doubleArea(t)) / 2;
+    for (const glm::uvec3& t : shape.mesh.triangles) {
+        const glm::dvec3 normal = doubleArea(t);
+        if (!(glm::length(normal) > 0)) continue;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 corner(shape.mesh.positions[t[k]]);
+            box.add(corner + offsetAt(corner, area) * glm::normalize(normal));
+        }
+    }
+    return box;
 }
 
 } // namespace quasilux
