@@ -6,6 +6,7 @@
 #include "support/placed_scenes.h"
 #include "support/render_statistics.h"
 #include "support/shared_features.h"
+#include "support/wrong_rules.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -230,6 +231,42 @@ TEST(LightThroughAPane, BeginsNoSegmentInIntegratorsOfVolumes) {
     for (const auto direct : {DirectLight::emitters, DirectLight::photons}) {
         const auto result = renderPane(direct, 2, MapOrder::photons, "volpath");
         EXPECT_NEAR(result.mean, seenThrough(slanted), 3 * result.standardError + 0.005 * seenThrough(slanted));
+    }
+}
+
+// ---- shadow rays that a sheet moves ------------------------------------------------------------------------------
+
+/// A square lamp of side 0.5 two units above a floor, and a tilted half-open sheet between them, all at (place, place).
+Scene tiltedSheet(double place) {
+    const std::string at = fmt::format("{0},{0},", place), shift = fmt::format("x=\"{0}\" y=\"{0}\"", place);
+    return placedScene(orthographicSensor(at + "0.15", at + "0", 0.02, 4) + fmt::format(R"(
+<shape type="rectangle"><transform name="to_world"><scale value="3"/><translate {0}/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="{1}"/></bsdf></shape>
+<shape type="rectangle"><transform name="to_world"><rotate y="1" angle="45"/><translate {0} z="1"/></transform>
+    <bsdf type="mask"><float name="opacity" value="0.5"/>{2}</bsdf></shape>
+<shape type="rectangle"><transform name="to_world"><scale value="0.25"/><rotate x="1" angle="180"/><translate {0} z="2"/></transform>
+    {2}<emitter type="area"><rgb name="radiance" value="10"/></emitter></shape>)",
+                                                                                        shift, floorReflectance, black),
+                       Placement{});
+}
+
+// A surface that a shadow ray passes moves it by the bound on its place, which of a tilted one is large; the rest of the
+// ray must be the shorter for it, or it meets the lamp that it comes from. Control: the rest is as long as before.
+TEST(TiltedSheet, DoesNotLetShadowRaysMeetTheirLamp) {
+    const double a = 0.125, s = std::sqrt(1 + a * a); // half of the lamp's side over its distance
+    const double formFactor = 4 / std::numbers::pi * a / s * std::atan(a / s);
+    const double radiance = floorReflectance * 0.5 * 10 * formFactor;
+    for (const double place : {0.0, 10.0}) {
+        RenderSettings settings;
+        settings.photonsPerPass = 1000;
+        settings.furtherFeatures = test::surfaceFeatures();
+        const auto render = [&] {
+            return renderGroups(tiltedSheet(place), settings, std::vector<int>(16, 0), 10, 20).front();
+        };
+        const auto right = render();
+        EXPECT_NEAR(right.mean, radiance, 3 * right.standardError + 0.005 * radiance) << place;
+        settings.controlOptions = optionOf(test::SurfaceRule::movedShadows);
+        EXPECT_LT(render().mean, 0.7 * radiance) << "negative control";
     }
 }
 
