@@ -9,6 +9,7 @@
 // 0.3 % more are allowed for its radius. Each case must know its reading to 0.35 %, and each must find a light that is
 // 2 % stronger wrong.
 #include "support/meter_readings.h"
+#include "support/render_statistics.h"
 #include "support/wrong_rules.h"
 
 #include <numbers>
@@ -282,6 +283,26 @@ TEST(Radiancemeter, ReadsTheRadianceOfARay) {
     for (const auto map : {MapOrder::photons, MapOrder::camera})
         expectReading(test::meterScene(sensor + test::unitRoom(parts)), {"", 1, "auto", emitters, Variant::main, map},
                       2.5, true, 40, 8000);
+}
+
+// A meter of one pixel has all paths of a pass, and a lamp that lights little of a large scene much more irradiance than
+// the scene has in the mean: the fixed-point sum of a pixel must hold both.
+TEST(Meter, OnePixelHoldsTheSumOfAllPaths) {
+    const Scene scene = test::meterScene(
+        R"(<shape type="rectangle"><transform name="to_world"><scale value="50"/></transform>)" + test::diffuse(0) +
+        R"(</shape><emitter type="spot"><transform name="to_world"><lookat origin="0,0,3" target="0,0,0" up="0,1,0"/></transform>
+        <rgb name="intensity" value="1"/><float name="cutoff_angle" value="4"/><float name="beam_width" value="4"/></emitter>
+        <shape type="cube"><transform name="to_world"><scale x="0.5" y="0.5" z="0.01"/><translate z="2"/></transform>
+        <bsdf type="dielectric"><float name="int_ior" value="1.5"/></bsdf></shape>
+        <shape type="rectangle"><transform name="to_world"><scale value="0.05"/><translate z="0.001"/></transform>)" +
+        test::diffuse(0) + test::irradiancemeter() + "</shape>");
+    RenderSettings settings; // as many paths of the pixel as photons, a power of two
+    settings.photonsPerPass = 100'000;
+    const auto reading = renderGroups(scene, settings, {0}, 10, 2).front();
+    const double reflectance = 0.04, transmittance = (1 - reflectance) / (1 + reflectance); // of a pane, all orders
+    const double expected = transmittance / std::pow(2.999 - 0.02 / 3, 2);
+    EXPECT_NEAR(reading.mean, expected, 3 * reading.standardError + 0.002 * expected);
+    EXPECT_LT(reading.standardError, 0.01 * expected);
 }
 
 } // namespace

@@ -90,5 +90,20 @@ TEST(MediaBorder, PhotonsOfAnEmitterBeginInTheMediumOfTheirPlace) {
     EXPECT_LT(wrong.mean, 0.9) << "negative control";
 }
 
+// A black meter at the bottom of a tilted cube of absorbing fog, on its border: light falls four units deep. Rounding puts
+// half of its places beyond the border.
+TEST(MediaBorder, AMeterOnABorderBeginsOnItsOwnSide) {
+    const std::string turn = R"(<scale value="2"/><rotate x="1" angle="17.18873"/><rotate y="1" angle="11.45916"/>
+        <translate x="0.1" y="0.2" z="0.3"/>)";
+    const Scene scene = sceneOf(fogCube(turn, 0.5, 0) + R"(<shape type="rectangle"><transform name="to_world">
+        <translate z="-1"/>)" + turn +
+                                R"(</transform><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+        <sensor type="irradiancemeter"><film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/>
+        </film></sensor></shape><emitter type="directional"><vector name="direction" x="-0.189796" y="0.295520" z="-0.936293"/>
+        </emitter>)");
+    const auto found = means(scene, MediumRule::right, std::vector<int>(16, 0), 1000, 1).front();
+    EXPECT_NEAR(found.mean, std::exp(-2), 1e-4);
+}
+
 } // namespace
 } // namespace quasilux

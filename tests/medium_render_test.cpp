@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace quasilux {
@@ -185,6 +186,59 @@ TEST(MediumRender, FlightsEndAtTheFarClippingPlane) {
     const auto result = renderGroups(scene, settings, group, batches, 4).front();
     EXPECT_NEAR(result.mean, std::exp(-1.0), 3 * result.standardError + 0.002);
     EXPECT_LT(result.standardError, 0.01);
+}
+
+// A pool whose surface alone says what fills it: nothing tells its depth, from which photons' kernels follow. White walls
+// and water under a white sky are white. The surface lies in a plane through the origin: it goes round a volume of 0.
+TEST(MediumRender, OpenSurfacesBoundMedia) {
+    const test::SceneFiles files;
+    const auto wall = [](const char* transform) {
+        return fmt::format(
+            "<shape type=\"rectangle\"><transform name=\"to_world\">{}</transform><ref id=\"white\"/></shape>",
+            transform);
+    };
+    const Scene scene = loadScene(files.write(
+        "pool.xml", R"(<scene version="3.0.0">
+    <sensor type="perspective"><float name="fov" value="20"/><transform name="to_world">
+        <lookat origin="0,0,3" target="0,0,0" up="0,1,0"/></transform>
+        <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film></sensor>
+    <emitter type="constant"/>
+    <bsdf type="twosided" id="white"><bsdf type="diffuse"><rgb name="reflectance" value="1"/></bsdf></bsdf>
+    <shape type="rectangle"><bsdf type="null"/><medium name="interior" type="homogeneous">
+        <float name="sigma_t" value="1"/><float name="albedo" value="1"/></medium></shape>)" +
+                        wall("<translate z=\"-1\"/>") + wall("<rotate y=\"1\" angle=\"90\"/><translate x=\"1\"/>") +
+                        wall("<rotate y=\"1\" angle=\"90\"/><translate x=\"-1\"/>") +
+                        wall("<rotate x=\"1\" angle=\"90\"/><translate y=\"1\"/>") +
+                        wall("<rotate x=\"1\" angle=\"90\"/><translate y=\"-1\"/>") + "</scene>"));
+    RenderSettings settings;
+    settings.photonsPerPass = 5000;
+    const auto result = renderGroups(scene, settings, std::vector<int>(64, 0), batches, 10).front();
+    EXPECT_NEAR(result.mean, 1, 3 * result.standardError + 0.01) << "1 % for the finite kernel";
+    EXPECT_LT(result.standardError, 0.02);
+}
+
+// Fog without a border, which nothing but the camera says it stands in: single scattering of a point's light, closed form
+// sigma / (4 pi) integral of exp(-sigma (t + d)) / d^2 along the ray, d the distance to the point.
+TEST(MediumRender, FogThatTheCameraStatesScatters) {
+    const test::SceneFiles files;
+    const Scene scene = loadScene(files.write("fog.xml", R"(<scene version="3.0.0">
+    <integrator type="volpath"><integer name="max_depth" value="2"/></integrator>
+    <sensor type="perspective"><float name="fov" value="0.1"/>
+        <transform name="to_world"><lookat origin="0,0,0" target="0,0,1" up="0,1,0"/></transform>
+        <medium name="medium" type="homogeneous"><float name="sigma_t" value="0.1"/><float name="albedo" value="1"/></medium>
+        <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/><rfilter type="box"/></film></sensor>
+    <emitter type="point"><point name="position" x="0" y="2" z="0"/><rgb name="intensity" value="1"/></emitter></scene>)"));
+    constexpr double sigma = 0.1, step = 1e-3;
+    double expected = 0;
+    for (double t = 0.5 * step; t < 100; t += step) {
+        const double d = std::sqrt(t * t + 4);
+        expected += sigma / (4 * 3.141592653589793) * std::exp(-sigma * (t + d)) / (d * d) * step;
+    }
+    RenderSettings settings;
+    settings.photonsPerPass = 64;
+    const auto result = renderGroups(scene, settings, std::vector<int>(256, 0), batches, 20).front();
+    EXPECT_NEAR(result.mean, expected, 3 * result.standardError);
+    EXPECT_LT(result.standardError, 0.02 * expected);
 }
 
 } // namespace

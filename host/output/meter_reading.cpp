@@ -247,11 +247,13 @@ std::optional<size_t> horizontalTwin(const std::vector<IlluminanceGrid>& grids, 
 
 Modelling modelling(const FilmImage& image, PixelRange cylindrical, PixelRange horizontal, bool unitsArePhotometric) {
     Modelling found;
+    bool isFirst = true;
     for (size_t k = 0; k < cylindrical.count; ++k) {
         const double under = readingOf(image, horizontal.first + k, unitsArePhotometric).photometricValue;
         if (!(under > 0)) continue;
         const double ratio = readingOf(image, cylindrical.first + k, unitsArePhotometric).photometricValue / under;
-        found.least = found.most == 0 ? ratio : std::min(found.least, ratio);
+        found.least = isFirst ? ratio : std::min(found.least, ratio);
+        isFirst = false;
         found.most = std::max(found.most, ratio);
     }
     const MeterReading over = meanReading(image, cylindrical, unitsArePhotometric),

@@ -16,8 +16,11 @@ namespace quasilux {
 namespace {
 
 void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& media, const EmitterTables& emitters,
-                        Features& features) {
+                        const MediumPlacement& placement, Features& features) {
     features.media = !media.empty();
+    features.directInMedia |=
+        placement.camera != MEDIUM_NONE; // fog without a border, which the camera says it stands in
+    for (const unsigned medium : placement.grids) features.directInMedia |= medium != MEDIUM_NONE;
     for (const auto& medium : media) {
         features.phases.insert(medium.phase);
         features.chromaticMedia |= medium.sigmaT.r != medium.sigmaT.g || medium.sigmaT.r != medium.sigmaT.b;
@@ -33,7 +36,8 @@ void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& m
 }
 
 Features findFeatures(const Scene& scene, const MaterialTables& materials, const EmitterTables& emitters,
-                      const std::vector<shared::Medium>& media, const std::vector<BorderTree>& borders) {
+                      const std::vector<shared::Medium>& media, const MediumPlacement& placement,
+                      const std::vector<BorderTree>& borders) {
     Features features;
     for (const auto& lobe : materials.lobes) {
         features.lobes.insert(lobe.type);
@@ -58,7 +62,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
         features.areaTextures |= emitter.texture > 0 && emitter.shape != QL_NONE;
     }
     features.lightTree = !emitters.lightTree.empty();
-    findMediumFeatures(scene, media, emitters, features);
+    findMediumFeatures(scene, media, emitters, placement, features);
     for (const auto& shape : scene.shapes) {
         features.spheres |= shape.sphere.has_value();
         features.cornerNormals |= !shape.mesh.cornerNormals.empty();
@@ -269,7 +273,7 @@ DeviceScene flattenScene(const Scene& scene, const FlattenSettings& settings, co
         std::any_of(materials.lobes.begin(), materials.lobes.end(), [](const shared::Lobe& lobe) {
             return LOBE_IS_BROAD(lobe.type) && lobe.scattering == SCATTER_QUASI_SPECULAR;
         });
-    out.features = findFeatures(scene, materials, out.emitters, out.media, geometry.borderTrees);
+    out.features = findFeatures(scene, materials, out.emitters, out.media, placement, geometry.borderTrees);
     out.offsets.directSharing = directSharing(out.emitters.emitters, out.surfaceArea, out.features.irradianceMeter);
     out.features.sharingLambert = out.offsets.directSharing & DIRECT_SHARING_LAMBERT;
     out.features.sharingMedia = out.features.media && out.offsets.directSharing & DIRECT_SHARING_MEDIA;

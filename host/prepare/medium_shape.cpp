@@ -66,6 +66,43 @@ double enclosedVolume(const Mesh& mesh) {
     return six / 6;
 }
 
+/// What surfaces go round together. Those that are not closed by themselves may be so together, as six rectangles are;
+/// or else, as the surface of a pool, they say nothing of how deep the medium is.
+class EnclosedVolume {
+public:
+    void add(const ShapeDescription& shape) {
+        if (shape.sphere) {
+            closed_ += 4.0 / 3 * pi * std::pow(double(shape.sphere->radius), 3);
+            return;
+        }
+        glm::dvec3 vectorArea{0};
+        double area = 0;
+        for (const auto& t : shape.mesh.triangles) {
+            const glm::dvec3 a = shape.mesh.positions[t.x], b = shape.mesh.positions[t.y],
+                             c = shape.mesh.positions[t.z];
+            vectorArea += glm::cross(b - a, c - a);
+            area += glm::length(glm::cross(b - a, c - a));
+        }
+        const double volume = enclosedVolume(shape.mesh);
+        if (glm::length(vectorArea) < sameDirection * area) {
+            closed_ += std::abs(volume);
+            return;
+        }
+        openVectorArea_ += vectorArea;
+        openArea_ += area;
+        openVolume_ += volume;
+    }
+    /// `extent`: of the surfaces. Where they are open, that of a cube as wide.
+    double value(double extent) const {
+        const bool isOpen = glm::length(openVectorArea_) >= sameDirection * openArea_ && openArea_ > 0;
+        return closed_ + (isOpen ? extent * extent * extent : std::abs(openVolume_));
+    }
+
+private:
+    double closed_ = 0, openVolume_ = 0, openArea_ = 0;
+    glm::dvec3 openVectorArea_{0};
+};
+
 // All corners on the inner side of all planes, and the surface closed: then its faces' vector areas add up to nothing.
 bool isConvexPolyhedron(const Mesh& mesh, const std::vector<Face>& faces, double size) {
     glm::dvec3 vectorArea{0};
@@ -123,13 +160,13 @@ MediumShape findMediumShape(const Scene& scene, unsigned medium) {
     Box box;
     const ShapeDescription* only = nullptr;
     size_t boundaries = 0;
+    EnclosedVolume volume;
     for (const auto& candidate : scene.shapes) {
         boundaries += candidate.interior == medium || candidate.exterior == medium;
         if (candidate.interior != medium) continue;
         box.add(boxOf(candidate));
         only = &candidate;
-        shape.volume += candidate.sphere ? 4.0 / 3 * pi * std::pow(double(candidate.sphere->radius), 3)
-                                         : std::abs(enclosedVolume(candidate.mesh));
+        volume.add(candidate);
     }
     if (!only) {
         const Sphere bounds = boundingSphere(scene);
@@ -139,6 +176,7 @@ MediumShape findMediumShape(const Scene& scene, unsigned medium) {
     }
     const glm::dvec3 sides = box.extent();
     shape.extent = std::max({sides.x, sides.y, sides.z});
+    shape.volume = volume.value(shape.extent);
     if (boundaries != 1 || only->sphere) return shape;
     const auto faces = facesOf(only->mesh, shape.extent);
     if (!isConvexPolyhedron(only->mesh, faces, shape.extent)) return shape;

@@ -17,7 +17,7 @@ MeterStage::MeterStage(Device& device, const Program& pass, const GeometryBuffer
                        shared::CameraParams params, unsigned classes, double meanRadiance)
     : geometry_(geometry), film_(film), traceMeterPaths_(pass.kernel("traceMeterPaths")),
       addMeterSamples_(pass.kernel("addMeterSamples")), params_(params),
-      counted_(device, classes, film.pixels(), meanRadiance),
+      counted_(device, classes, film.pixels(), meanRadiance, params.scene.meter.samples),
       samples_(samplesOf(film.pixels(), params.scene.meter.samples).make(device)) {}
 
 BufferSizes MeterStage::plan(size_t pixels, unsigned samples, unsigned classes) {

@@ -15,8 +15,9 @@ constexpr int quantumBits = 36;
 
 } // namespace
 
-float quantaPerRadiance(double meanRadiance) {
-    const int exponent = meanRadiance > 0 && std::isfinite(meanRadiance) ? std::ilogb(meanRadiance) + 1 : 0;
+float quantaPerRadiance(double meanRadiance, unsigned samples) {
+    const double sum = meanRadiance * samples;
+    const int exponent = sum > 0 && std::isfinite(sum) ? std::ilogb(sum) + 1 : 0;
     return static_cast<float>(std::ldexp(1.0, std::clamp(quantumBits - exponent, -100, 100)));
 }
 

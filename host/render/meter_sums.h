@@ -6,8 +6,8 @@
 
 namespace quasilux {
 
-/// Units per W sr^-1 m^-2, a power of two, for sums of the order of `meanRadiance`.
-float quantaPerRadiance(double meanRadiance);
+/// Units per W sr^-1 m^-2, a power of two, for sums over the `samples` of a pixel, each of the order of `meanRadiance`.
+float quantaPerRadiance(double meanRadiance, unsigned samples);
 
 /// 32-bit words of a pixel's sums; `slots` are bits 1 << slot of the map.
 size_t splatWords(unsigned slots);
@@ -17,8 +17,9 @@ float sampleScale(const shared::Meter& meter);
 
 /// Photons counted where they cross a meter (kernels/meter_photons.clh).
 struct MeterSums {
-    MeterSums(Device& device, unsigned slots, size_t pixels, double meanRadiance)
-        : sums(planned(slots, pixels).make(device)), quantaPerRadiance(quasilux::quantaPerRadiance(meanRadiance)) {
+    MeterSums(Device& device, unsigned slots, size_t pixels, double meanRadiance, unsigned samples)
+        : sums(planned(slots, pixels).make(device)),
+          quantaPerRadiance(quasilux::quantaPerRadiance(meanRadiance, samples)) {
         sums.fill(0);
     }
     static PlannedBuffer<uint32_t> planned(unsigned slots, size_t pixels) {
