@@ -15,12 +15,15 @@ namespace quasilux {
 
 namespace {
 
+bool hasBorder(const Scene& scene, unsigned medium) {
+    return std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeDescription& shape) {
+        return shape.interior == medium || shape.exterior == medium;
+    });
+}
+
 void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& media, const EmitterTables& emitters,
                         const MediumPlacement& placement, Features& features) {
     features.media = !media.empty();
-    features.directInMedia |=
-        placement.camera != MEDIUM_NONE; // fog without a border, which the camera says it stands in
-    for (const unsigned medium : placement.grids) features.directInMedia |= medium != MEDIUM_NONE;
     for (const auto& medium : media) {
         features.phases.insert(medium.phase);
         features.chromaticMedia |= medium.sigmaT.r != medium.sigmaT.g || medium.sigmaT.r != medium.sigmaT.b;
@@ -28,6 +31,11 @@ void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& m
         features.genuineDiffuseMedia |= medium.level > 0;
         features.quasiSpecularMedia |= std::isfinite(medium.level);
     }
+    // Fog without a border, which only the camera or a meter says it stands in.
+    std::vector<unsigned> origins = placement.grids;
+    origins.push_back(placement.camera);
+    for (const unsigned medium : origins)
+        features.directInMedia |= medium < MEDIUM_UNCHANGED && !hasBorder(scene, medium);
     // What neither is null nor has holes lets no direct light pass: it comes as caustic photons.
     for (const auto& emitter : emitters.emitters) features.directInMedia |= emitter.medium != MEDIUM_NONE;
     for (const auto& shape : scene.shapes)
