@@ -75,7 +75,7 @@ std::string unknownArgument(CLI::App& app) {
 
 /// CLI11's own words, but for options that are given too often.
 std::string wordsOf(const CLI::ParseError& error) {
-    const std::string text = error.what();
+    std::string text = error.what();
     const std::string often = ": At Most 1 required but received ";
     const size_t at = text.find(often);
     if (at == std::string::npos) return text;
