@@ -1,6 +1,8 @@
 // Winding numbers and volumes of shapes, and the innermost one about a point.
 #include "prepare/media_bodies.h"
 
+#include "scene/origin.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -32,15 +34,12 @@ double solidAngle(const std::array<glm::dvec3, 3>& p) {
 
 } // namespace
 
-MediumBody::MediumBody(const ShapeDescription& shape) : shape_(&shape) {
+MediumBody::MediumBody(const ShapeDescription& shape) : shape_(&shape), box_(boxOf(shape)) {
     double sixfold = 0;
     if (shape.sphere) {
         const double radius = shape.sphere->radius;
-        box_.add(glm::dvec3(shape.sphere->center) - radius);
-        box_.add(glm::dvec3(shape.sphere->center) + radius);
         sixfold = (shape.flipNormals ? -8 : 8) * pi * radius * radius * radius;
     } else {
-        for (const glm::vec3& position : shape.mesh.positions) box_.add(glm::dvec3(position));
         const glm::dvec3 middle = box_.center();
         for (const glm::uvec3& triangle : shape.mesh.triangles)
             sixfold += sixfoldVolume(cornersFrom(shape.mesh, triangle, middle));

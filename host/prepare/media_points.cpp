@@ -1,6 +1,8 @@
 // Places to ask which medium lies beside a surface.
 #include "prepare/media_points.h"
 
+#include "scene/origin.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,12 +34,17 @@ double offsetAt(const glm::dvec3& place, double area) {
     return std::max(relative * std::sqrt(area), rounding * largestCoordinate(place));
 }
 
+/// Along the normal, twice the triangle's area long.
+glm::dvec3 doubleArea(const Mesh& mesh, const glm::uvec3& t) {
+    const glm::dvec3 a(mesh.positions[t.x]);
+    return glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
+}
+
 std::vector<glm::dvec3> pointsOffMesh(const Mesh& mesh, double side) {
     std::vector<double> areaUpTo; // of triangles up to and including this one
     double area = 0;
     for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3 a(mesh.positions[t.x]);
-        area += glm::length(glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a)) / 2;
+        area += glm::length(doubleArea(mesh, t)) / 2;
         areaUpTo.push_back(area);
     }
     std::vector<glm::dvec3> points;
@@ -48,7 +55,7 @@ std::vector<glm::dvec3> pointsOffMesh(const Mesh& mesh, double side) {
         const glm::uvec3& t = mesh.triangles[static_cast<size_t>(at - areaUpTo.begin())];
         const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
         const glm::dvec3 on = 0.41 * a + 0.34 * b + 0.25 * c; // not on lines of symmetry
-        points.push_back(on + side * offsetAt(on, area) * glm::normalize(glm::cross(b - a, c - a)));
+        points.push_back(on + side * offsetAt(on, area) * glm::normalize(doubleArea(mesh, t)));
     }
     return points;
 }
@@ -62,21 +69,16 @@ std::vector<glm::dvec3> pointsOff(const ShapeDescription& shape, bool onNormalSi
 }
 
 Box boundsOff(const ShapeDescription& shape) {
-    Box box;
-    if (shape.sphere)
-        for (const double side : {-1.0, 1.0})
-            box.add(glm::dvec3(shape.sphere->center) + side * double(shape.sphere->radius));
+    if (shape.sphere) return boxOf(shape);
+    const Mesh& mesh = shape.mesh;
     double area = 0;
-    const auto doubleArea = [&](const glm::uvec3& t) {
-        const glm::dvec3 a(shape.mesh.positions[t.x]);
-        return glm::cross(glm::dvec3(shape.mesh.positions[t.y]) - a, glm::dvec3(shape.mesh.positions[t.z]) - a);
-    };
-    for (const glm::uvec3& t : shape.mesh.triangles) area += glm::length(doubleArea(t)) / 2;
-    for (const glm::uvec3& t : shape.mesh.triangles) {
-        const glm::dvec3 normal = doubleArea(t);
+    for (const glm::uvec3& t : mesh.triangles) area += glm::length(doubleArea(mesh, t)) / 2;
+    Box box;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 normal = doubleArea(mesh, t);
         if (!(glm::length(normal) > 0)) continue;
         for (int k = 0; k < 3; ++k) {
-            const glm::dvec3 corner(shape.mesh.positions[t[k]]);
+            const glm::dvec3 corner(mesh.positions[t[k]]);
             box.add(corner + offsetAt(corner, area) * glm::normalize(normal));
         }
     }

@@ -18,16 +18,6 @@ constexpr double sameDirection = 1e-5; // sine between normals of one plane
 constexpr double plateShare = 0.6;     // of the surface, in two parallel faces
 constexpr size_t planesMax = 12;
 
-Box boxOf(const ShapeDescription& shape) {
-    Box box;
-    for (const auto& p : shape.mesh.positions) box.add(p);
-    if (shape.sphere) {
-        box.add(glm::dvec3(shape.sphere->center) - double(shape.sphere->radius));
-        box.add(glm::dvec3(shape.sphere->center) + double(shape.sphere->radius));
-    }
-    return box;
-}
-
 struct Face {
     glm::dvec3 normal{};
     double offset = 0, area = 0;

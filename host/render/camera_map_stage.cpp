@@ -21,8 +21,7 @@ CameraMapStage::CameraMapStage(Device& device, const Program& pass, const Geomet
     photonRegions_ = Buffer<shared::RegionCount>(device, photonParams_.regions, "photon regions");
 
     points_.pixelsPerRegion = pixelsPerRegion(device.info());
-    points_.quantaPerRadiance =
-        quantaPerRadiance(meanRadiance, camera.scene.meter.kind == METER_NONE ? 1 : camera.scene.meter.samples);
+    points_.quantaPerRadiance = quantaPerRadiance(meanRadiance, pathsPerPixel());
     points_.borderCapacity = points_.pixelsPerRegion / 2;
     index_.table().map().regionCapacity = points_.pixelsPerRegion;
     index_.table().map().media = camera.scene.media;

@@ -30,7 +30,8 @@ PhotonForecast forecastPhotons(const PassContext& context, const Program& photon
                       storesDepth(context.flat, context.settings));
     std::optional<MeterSums> uncounted;
     if (meterCountsPhotons(context.flat.features, context.settings))
-        stage.countAt(uncounted.emplace(device, context.classes, context.film.pixels(), meanRadiance(context.flat), 1));
+        stage.countAt(uncounted.emplace(device, context.classes, context.film.pixels(), meanRadiance(context.flat),
+                                        context.flat.offsets.meter.samples));
     stage.useField(context.field);
     const PhotonPassCount counted = stage.run(forecastPass, context.radii.radii(0), context.radii.volumeScale(0));
     stage.compile();

@@ -9,6 +9,7 @@ namespace quasilux {
 
 /// About shapes, in their own coordinates, and about an instance in the scene's.
 Box boxOf(std::span<const ShapeDescription> shapes);
+inline Box boxOf(const ShapeDescription& shape) { return boxOf(std::span(&shape, 1)); }
 Box boxOf(const Scene& scene, const Instance& instance);
 /// About all of them, in the scene's coordinates.
 Box boxOf(const Scene& scene);

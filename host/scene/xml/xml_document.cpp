@@ -107,8 +107,9 @@ private:
     /// pugixml names no tags, and has overwritten the text, so it is read again.
     [[noreturn]] void throwMalformed(const std::string& path, const SourceLocation& mention,
                                      const TextPositions& positions, const pugi::xml_parse_result& result) const {
-        const std::string text = readFile(path, mention, "scene");
-        const auto mismatch = result.status == pugi::status_end_element_mismatch ? findTagMismatch(text) : std::nullopt;
+        const bool isOfTags = result.status == pugi::status_end_element_mismatch;
+        const std::string text = isOfTags ? readFile(path, mention, "scene") : "";
+        const auto mismatch = findTagMismatch(text);
         if (!mismatch)
             throw InputError(positions.at(result.offset), fmt::format("malformed XML: {}.", result.description()));
         const auto& [opened, closed, openedAt, at] = *mismatch;
