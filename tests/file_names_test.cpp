@@ -17,9 +17,16 @@ TEST(FileNames, AreFilledInSteps) {
     EXPECT_EQ(fillName(early, namePartsOf(7, 42)), "out/a_b_1_7_42.exr");
     EXPECT_THAT(namePartsOf("x/box.xml").at("date"), testing::MatchesRegex("20[0-9][0-9]-[01][0-9]-[0-3][0-9]"));
     EXPECT_EQ(namePartsOf("x/box.xml").at("scene"), "box");
-    EXPECT_EQ(inFolder("out", "a.exr"), "out/a.exr");
-    EXPECT_EQ(inFolder("out", "b/a.exr"), "b/a.exr");
+}
+
+TEST(FileNames, WithoutAFolderGoIntoTheOneGiven) {
+    const test::SceneFiles files;
+    const std::string folder = files.path("");
+    EXPECT_EQ(inFolder(folder, "a.exr"), files.path("a.exr"));
+    EXPECT_EQ(inFolder(folder, "b/a.exr"), "b/a.exr");
     EXPECT_EQ(inFolder("", "a.exr"), "a.exr");
+    EXPECT_THAT(failureOf([&] { inFolder(files.path("none"), "a.exr"); }).value_or(""),
+                HasSubstr("none does not exist, create it first"));
 }
 
 std::string whyNot(const std::string& pattern, NameNeeded when = NameNeeded::whenWritten) {
