@@ -3,6 +3,7 @@
  * nothing. From: camera rays. To: AOV_FLOATS for each pixel of the part that the launch traces. Option: HAS_UV_LAYERS. */
 #include "aov_types.h"
 #include "camera.clh"
+#include "medium_place.clh"
 #include "tinted_lobe.clh"
 
 /* Is the lobe the gloss of a coat, whose base counts alone? Metals have an absorption, or no index at all. */
@@ -100,26 +101,54 @@ inline Surface addAovs(float* sums, const Ray* ray, const Hit* hit, float weight
     return s;
 }
 
-/* Is the surface more than a passage for light from behind it, and not hidden from the camera? */
-inline int isSeen(const Surface* s) {
+/* Does the camera look through the emitter on this surface? */
+inline int isHiddenEmitter(const Surface* s) {
 #ifdef HAS_HIDDEN_EMITTERS
-    if (s->isHidden) return 0;
+    return s->isHidden;
+#else
+    return 0;
 #endif
-    return !s->isNull;
 }
 
-/* Does the ray meet anything that is seen? */
-inline int meetsSurface(Ray ray, Hit hit, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
-                        __global const uint* tables, const SceneTables* scene) {
-    for (uint event = 0; event < PATH_EVENTS_MAX && hit.primitive != QL_NONE; ++event) {
-        const Surface s = surfaceAt(&hit, ray.origin, ray.direction, blocks, tables, scene);
-        if (isSeen(&s)) return 1;
-        const float tMax = ray.tMax - hit.t;
-        ray = leavingRay(&s, ray.direction);
-        ray.tMax = tMax;
-        hit = intersectClosest(nodes, blocks, &ray);
-    }
+/* Share of what comes from far behind along the ray that gets past the surface. */
+inline float3 passedBySurface(const Surface* s, float3 direction, __global const uint* tables,
+                              const SceneTables* scene) {
+    if (s->isNull || isHiddenEmitter(s)) return 1;
+#ifdef HAS_PASSING_LOBE
+    __global const Lobe* lobes = SCENE_TABLE(tables, scene, Lobe, lobes) + s->firstLobe;
+    return passedShare(s, lobes, -dot(direction, s->shadingNormal));
+#else
     return 0;
+#endif
+}
+
+/* Opacity of what the ray meets, mean of R, G and B: 1 less the light from far behind that comes straight through `null`
+ * surfaces, masks, panes and media. `medium`: as the camera states it. */
+inline float opacityAlong(Ray ray, uint medium, __global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
+                          __global const uint* tables, const SceneTables* scene) {
+    float3 passed = 1;
+#ifdef HAS_MEDIA
+    beginOnNearPlane(&ray);
+    medium = mediumAtOrigin(medium, ray.origin, ray.direction, nodes, blocks, tables, scene);
+#endif
+    for (uint event = 0; event < PATH_EVENTS_MAX && any(passed > 0); ++event) {
+        const Hit hit = intersectClosest(nodes, blocks, &ray);
+#ifdef HAS_MEDIA
+        if (inMedium(medium))
+            passed *= segmentTransmittance(SCENE_TABLE(tables, scene, Medium, media) + medium, ray.origin,
+                                           ray.direction, min(hit.t, ray.tMax));
+#endif
+        if (hit.primitive == QL_NONE) break;
+        const Surface s = surfaceAt(&hit, ray.origin, ray.direction, blocks, tables, scene);
+        passed *= passedBySurface(&s, ray.direction, tables, scene);
+#ifdef HAS_MEDIA
+        medium = mediumBeyond(SCENE_TABLE(tables, scene, Shape, shapes) + s.shape, !s.front, medium);
+#endif
+        const float rest = ray.tMax - hit.t;
+        ray = leavingRay(&s, ray.direction);
+        ray.tMax = rest;
+    }
+    return 1 - (passed.x + passed.y + passed.z) / 3;
 }
 
 __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
@@ -137,6 +166,7 @@ __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveB
         const float2 lens = lensNumbers(pixel, sample, seed);
         const Ray ray = cameraRay(camera, pixel, place.offset, lens);
         if (isBeyondImage(&ray)) continue;
+        sums[AOV_ALPHA] += place.weight * opacityAlong(ray, camera->medium, nodes, blocks, tables, &params.scene);
         const Hit hit = intersectClosest(nodes, blocks, &ray);
         if (hit.primitive == QL_NONE) continue;
         const Surface s = addAovs(sums, &ray, &hit, place.weight, blocks, tables, &params.scene);
@@ -145,7 +175,6 @@ __kernel void traceAovs(__global const BvhNode* nodes, __global const PrimitiveB
         const Ray besideY = cameraRay(camera, pixel, place.offset + (float2)(0, 1), lens);
         addUvAovs(sums, &s, place.weight, &besideX, &besideY);
 #endif
-        if (meetsSurface(ray, hit, nodes, blocks, tables, &params.scene)) sums[AOV_ALPHA] += place.weight;
     }
     for (uint k = 0; k < AOV_FLOATS; ++k) aovs[(size_t)place * AOV_FLOATS + k] = sums[k] / samples;
 }

@@ -202,10 +202,13 @@ inline int followImportancePath(const World* world, ImportancePath* path, Import
 inline Ray importanceRay(const Camera* camera, __global const uint* tables, uint pixel, Rng* rng) {
     const FilterPlace place = filterPlace(camera, tables, pixel, rngNext2(rng));
 #ifdef HAS_THIN_LENS
-    return cameraRay(camera, pixel, place.offset, rngNext2(rng));
+    const float2 lens = rngNext2(rng);
 #else
-    return cameraRay(camera, pixel, place.offset, 0);
+    const float2 lens = 0;
 #endif
+    Ray ray = cameraRay(camera, pixel, place.offset, lens);
+    beginOnNearPlane(&ray);
+    return ray;
 }
 
 __kernel void traceImportancePaths(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,

@@ -182,6 +182,39 @@ TEST(AlphaTexture, HalvesOfAnImageAreThoseOfConstantAlphas) {
     });
 }
 
+/// Radiance that GGX facets of reflectance 1 send along the normal, in sunlight from 60 degrees, 1 across its direction
+/// (Walter et al. 2007, eq. 20, 33 and 34).
+double mirroredSun(double alphaAcross, double alphaInPlane) {
+    const double pi = std::acos(-1), tangent = 1 / std::sqrt(3), cosine = std::sqrt(0.75);
+    const double d = 1 / (pi * alphaAcross * alphaInPlane * std::pow(cosine, 4) *
+                          std::pow(1 + std::pow(tangent / alphaInPlane, 2), 2));
+    const double masking = 2 / (1 + std::sqrt(1 + 3 * alphaInPlane * alphaInPlane));
+    return d * masking / 4;
+}
+
+// One alpha by a texture whose mean is the other alpha, on a sheet that is turned by 90 degrees: its u is the sun's plane.
+TEST(AlphaTexture, TellsTheAxesApartWhereItsMeanDoesNot) {
+    test::SceneFiles files;
+    const Scene scene = loadScene(files.write("scene.xml", R"(<scene version="3.0.0"><sensor type="orthographic">
+        <transform name="to_world"><lookat origin="0,0,5" target="0,0,0" up="0,1,0"/></transform><film type="hdrfilm">
+        <rfilter type="box"/><integer name="width" value="2"/><integer name="height" value="2"/></film></sensor>
+        <shape type="rectangle"><transform name="to_world"><rotate z="1" angle="90"/></transform><bsdf type="roughconductor">
+        <string name="material" value="none"/><string name="distribution" value="ggx"/><texture type="checkerboard"
+        name="alpha_u"><float name="color0" value="0.25"/><float name="color1" value="0.75"/></texture>
+        <float name="alpha_v" value="0.5"/></bsdf></shape><emitter type="directional"><vector name="direction" x="0"
+        y="-0.8660254" z="-0.5"/><rgb name="irradiance" value="1"/></emitter></scene>)"));
+    RenderSettings settings;
+    settings.photonsPerPass = 1000;
+    std::vector<double> found;
+    for (const MeanAndError& square : renderGroups(scene, settings, {0, 1, 2, 3}, 2, 1)) found.push_back(square.mean);
+    std::sort(found.begin(), found.end());
+    const double narrow = mirroredSun(0.5, 0.25), wide = mirroredSun(0.5, 0.75);
+    EXPECT_THAT(found, testing::ElementsAre(
+                           testing::DoubleNear(narrow, 0.005 * narrow), testing::DoubleNear(narrow, 0.005 * narrow),
+                           testing::DoubleNear(wide, 0.005 * wide), testing::DoubleNear(wide, 0.005 * wide)));
+    EXPECT_GT(mirroredSun(0.25, 0.5), 6 * narrow) << "control: the axes changed";
+}
+
 TEST(PrincipledTextures, HalvesOfAnImageAreThoseOfConstants) {
     expectHalvesOfConstants([](const auto& parameter) {
         return R"(<bsdf type="principled"><rgb name="base_color" value="0.8,0.4,0.1"/>)" + parameter("metallic") +

@@ -211,6 +211,41 @@ TEST(Aovs, AlphaPassesTheEmittersThatAreHidden) {
     }
 }
 
+/// Of the pixels in the middle; the light is a point's.
+float alphaBehind(const std::string& shapes) { return channelsOf(sceneOf(shapes)).at("A").at(12); }
+
+std::string squareAt(double z, const std::string& bsdf) {
+    return fmt::format(
+        R"(<shape type="rectangle"><transform name="to_world"><translate z="{}"/></transform>{}</shape>)", z, bsdf);
+}
+
+// As much as does not come straight through.
+TEST(Aovs, AlphaOfWhatLetsLightPass) {
+    const std::string mask = R"(<bsdf type="mask"><float name="opacity" value="0.25"/><bsdf type="diffuse"/></bsdf>)";
+    EXPECT_NEAR(alphaBehind(squareAt(0, mask)), 0.25, 1e-6);
+    EXPECT_NEAR(alphaBehind(squareAt(0, mask) + squareAt(-1, mask)), 1 - 0.75 * 0.75, 1e-6);
+    EXPECT_EQ(alphaBehind(squareAt(0, mask) + squareAt(-1, "")), 1);
+    const double fresnel = 0.04, pane = 2 * fresnel / (1 + fresnel);
+    EXPECT_NEAR(alphaBehind(squareAt(0, R"(<bsdf type="thindielectric"><float name="int_ior" value="1.5"/>
+        <float name="ext_ior" value="1"/></bsdf>)")),
+                pane, 1e-5);
+    EXPECT_EQ(alphaBehind(squareAt(0, R"(<bsdf type="null"/>)")), 0);
+    const std::string fog = R"(<shape type="cube"><bsdf type="null"/><medium name="interior" type="homogeneous"><float
+        name="sigma_t" value="SIGMA"/><float name="albedo" value="0.9"/></medium></shape>)";
+    const auto ofExtinction = [&](const std::string& sigma) {
+        return std::string(fog).replace(fog.find("SIGMA"), 5, sigma);
+    };
+    EXPECT_NEAR(alphaBehind(ofExtinction("1")), 1 - std::exp(-2), 1e-5);
+    EXPECT_NEAR(alphaBehind(ofExtinction("1") + squareAt(-2, mask)), 1 - 0.75 * std::exp(-2), 1e-5);
+}
+
+// The near plane, at z = 4.5, lies in the fog.
+TEST(Aovs, AlphaBeginsOnTheNearPlane) {
+    EXPECT_NEAR(alphaBehind(R"(<shape type="cube"><transform name="to_world"><translate z="5"/></transform>
+        <bsdf type="null"/><medium name="interior" type="homogeneous"><float name="sigma_t" value="1"/></medium></shape>)"),
+                1 - std::exp(-0.5), 1e-5);
+}
+
 void resize(Sensor& sensor, unsigned width, unsigned height) {
     sensor.width = sensor.filmWidth = width;
     sensor.height = sensor.filmHeight = height;

@@ -198,5 +198,27 @@ TEST(FilterTable, AnImageIsWhatTheFilterMakesOfIt) {
         << "control: another filter";
 }
 
+std::string tent(double radius) {
+    return R"(<rfilter type="tent"><float name="radius" value=")" + std::to_string(radius) + R"("/></rfilter>)";
+}
+
+// A filter narrower than a cell of the table counts as one of a cell's width.
+TEST(FilterTable, NarrowFiltersHaveSamplesInEveryPass) {
+    for (const double radius : {2.0, 1.0, 0.7}) EXPECT_TRUE(gainsBySharing(sceneSeenBy(tent(radius)).sensor)) << radius;
+    EXPECT_TRUE(gainsBySharing(sceneSeenBy(lanczos).sensor));
+    for (const double radius : {0.6, 0.5, 0.01, 0.0004}) {
+        const Scene scene = sceneSeenBy(tent(radius));
+        EXPECT_FALSE(gainsBySharing(scene.sensor)) << radius;
+        RenderSettings settings;
+        settings.photonsPerPass = 256;
+        Renderer renderer(testDevice(), scene, settings);
+        renderer.renderPass(0);
+        const FilmImage image = renderer.develop();
+        const size_t inside = size_t(3) * (3 * width + 8); // 1.5 pixels and more from the rectangle's edges
+        EXPECT_NEAR(image.radiance[inside], 3, 1e-5) << radius;
+        EXPECT_NEAR(image.radiance[0], 0, 1e-5) << radius;
+    }
+}
+
 } // namespace
 } // namespace quasilux

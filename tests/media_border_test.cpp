@@ -1,6 +1,6 @@
 // Emitters, grids and cameras that a border of a medium passes through: light begins in the medium of its own place.
 // Closed forms. Values are means of 20 batches; seeds are fixed, and a right render fails with a probability of
-// 1 % a value (Student t). Control: all of them begin in vacuum.
+// 1 % a value (Student t). Controls: all of them begin in vacuum; camera rays begin at the pinhole.
 #include "support/render_statistics.h"
 #include "support/scene_files.h"
 #include "support/test_kernels.h"
@@ -70,6 +70,40 @@ TEST(MediaBorder, RaysOfAnOrthographicCameraBeginInTheirOwnMedium) {
     EXPECT_NEAR(right[1].mean, std::exp(-0.999), studentT * right[1].standardError);
     EXPECT_LT(right[1].standardError, 0.02) << "too noisy to decide anything";
     EXPECT_NEAR(wrong[1].mean, 1, 1e-5) << "negative control";
+}
+
+/// Mean over a square film, `degrees` wide, of what comes through a slab of fog of this thickness, sigma_t 1.
+double throughSlab(double thickness, double degrees) {
+    const int cells = 64;
+    const double halfWidth = std::tan(degrees / 2 * std::acos(-1) / 180);
+    double sum = 0;
+    for (int k = 0; k < cells * cells; ++k)
+        sum += std::exp(-thickness * std::hypot(1, halfWidth * ((2 * (k % cells) + 1.0) / cells - 1),
+                                                halfWidth * ((2 * (k / cells) + 1.0) / cells - 1)));
+    return sum / (cells * cells);
+}
+
+// A cube of absorbing fog about a camera that stands before it or in it: what lies before the near plane is not seen, so
+// light goes through the fog behind it alone. The near plane of the first lies in fog, that of the second in a border.
+TEST(MediaBorder, RaysOfACameraBeginOnItsNearPlane) {
+    for (const double near : {1.0, 0.5}) {
+        const Scene scene =
+            sceneOf(R"(<sensor type="perspective"><float name="fov" value="20"/><float name="near_clip"
+            value=")" +
+                    std::to_string(near) +
+                    R"("/><transform name="to_world"><lookat origin="0,0,1.5" target="0,0,0" up="0,1,0"/>
+            </transform><film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/>
+            <rfilter type="box"/></film></sensor><shape type="rectangle"><transform name="to_world"><scale value="9"/>
+            <translate z="-2"/></transform><emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>)" +
+                    fogCube("<scale x=\"9\" y=\"9\" z=\"1\"/>", 1, 0));
+        const std::vector<int> all(16, 0);
+        const auto right = means(scene, MediumRule::right, all, 1000, 100).front(),
+                   wrong = means(scene, MediumRule::pinhole, all, 1000, 100).front();
+        const double expected = throughSlab(near == 1 ? 1.5 : 2, 20);
+        EXPECT_NEAR(right.mean, expected, studentT * right.standardError) << near;
+        EXPECT_LT(right.standardError, 0.02 * expected) << "too noisy to decide anything";
+        if (near == 1) EXPECT_LT(wrong.mean, 0.5 * expected) << "negative control";
+    }
 }
 
 // A white cube of fog that sticks out of a furnace: radiance is 1 everywhere. All light within the fog is scattered once

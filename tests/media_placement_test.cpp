@@ -79,6 +79,7 @@ TEST(MediaPlacement, AnySizeAndPlace) {
         for (const double offset : {0.0, 1e3}) { // in units of the scale: single precision then leaves 1e-4 of them
             Scene scene = nested();
             transform(scene, scale, dvec3(offset * scale));
+            scene.sensor.nearClip = 1e-2 * scale;
             for (ShapeDescription& shape : scene.shapes)
                 if (shape.sphere) {
                     shape.sphere->center = glm::vec3((dvec3(shape.sphere->center) + offset) * scale);
@@ -100,13 +101,22 @@ TEST(MediaPlacement, WhereTheCameraStands) {
     EXPECT_EQ(cameraMedium(scene, {0, 0, 30}), MEDIUM_NONE);
 }
 
-TEST(MediaPlacement, AnOrthographicCameraStandsOnItsNearPlane) {
+TEST(MediaPlacement, RaysOfACameraBeginOnItsNearPlane) {
     Scene scene = nested();
-    scene.sensor.orthographic = true;
-    scene.sensor.nearClip = 25; // along +z from -30 to -5
-    EXPECT_EQ(cameraMedium(scene, {0, 0, -30}), fog);
-    scene.sensor.orthographic = false;
-    EXPECT_EQ(cameraMedium(scene, {0, 0, -30}), MEDIUM_NONE);
+    for (const bool orthographic : {true, false}) {
+        scene.sensor.orthographic = orthographic;
+        scene.sensor.nearClip = 25; // along +z from -30 to -5
+        EXPECT_EQ(cameraMedium(scene, {0, 0, -30}), fog);
+        scene.sensor.nearClip = 1;
+        EXPECT_EQ(cameraMedium(scene, {0, 0, -30}), MEDIUM_NONE);
+    }
+    scene.sensor.nearClip = 25;
+    EXPECT_EQ(cameraMedium(scene, {0, 0, -28}), milk);
+    scene.sensor.fovX = 0.5;
+    EXPECT_EQ(cameraMedium(scene, {0, 0, -28}), MEDIUM_BY_PLACE) << "the image shows the milk's border";
+    scene.sensor.fovX = 0;
+    scene.sensor.apertureRadius = 12;
+    EXPECT_EQ(cameraMedium(scene, {0, 0, -30}), MEDIUM_BY_PLACE) << "the lens is wider than the fog";
 }
 
 TEST(MediaPlacement, WhatIsStatedWins) {
@@ -226,6 +236,7 @@ TEST(MediaPlacement, AHollowShellHoldsOnlyItsWall) {
 TEST(MediaPlacement, MeshesAgreeWithTheSphereThatTheyApproximate) {
     Scene scene;
     scene.media.resize(1);
+    scene.sensor.nearClip = 0; // so that the camera's rays begin at one point
     addSphereMesh(scene, {1, 2, 3}, 2, 24, 12);
     scene.shapes[0].interior = fog;
     std::mt19937 random(1);

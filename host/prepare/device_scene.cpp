@@ -89,6 +89,7 @@ Features findFeatures(const Scene& scene, const MaterialTables& materials, const
     features.fisheyeCamera = scene.sensor.fisheye != FISHEYE_NONE;
     features.thinLens = scene.sensor.apertureRadius > 0;
     features.filterTable = needsFilterTable(scene.sensor);
+    features.sharedFilter = gainsBySharing(scene.sensor);
     features.radianceMeter = scene.sensor.meter == MeterKind::ray;
     features.irradianceMeter = isIrradiance(scene.sensor.meter);
     return features;

@@ -19,6 +19,7 @@ struct Features {
          alphaTextures = false, indexTextures = false, textureVolumes = false, thinLens = false, fisheyeCamera = false,
          instances = false,
          filterTable = false;                            ///< a reconstruction filter wider than a pixel
+    bool sharedFilter = false;                           ///< which leaves less noise where pixels share samples
     bool lowCoats = false;                               ///< rough coats of an index below that outside
     bool radianceMeter = false, irradianceMeter = false; ///< what the sensor is, if no camera
     bool media = false, chromaticMedia = false;          ///< extinction differs between the channels of some medium

@@ -1,21 +1,31 @@
 // Which medium lies where, from what the scene states and which shapes hold what.
 #include "prepare/media.h"
 
+#include "prepare/device_scene.h"
 #include "prepare/media_bodies.h"
 #include "prepare/media_points.h"
+#include "prepare/pack.h"
 
 namespace quasilux {
 
 namespace {
 
-/// Where camera rays start: the centre of projection, or the near plane's part that the film shows.
+/// Where camera rays begin: the part of the near plane that the film shows, or a point.
 Box cameraOrigins(const Sensor& sensor) {
+    const shared::Camera camera = flattenCamera(sensor, MEDIUM_NONE);
+    const glm::dvec3 origin = unpack(camera.origin);
     Box box;
-    const double height = double(sensor.filmHeight) / sensor.filmWidth;
-    for (const double x : {-1.0, 1.0})
-        for (const double y : {-1.0, 1.0})
-            box.add(glm::dvec3(sensor.toWorld * (sensor.orthographic ? glm::dvec4(x, y * height, sensor.nearClip, 1)
-                                                                     : glm::dvec4(0, 0, 0, 1))));
+    if (camera.fisheye != FISHEYE_NONE) {
+        for (const double side : {-1.0, 1.0}) box.add(origin + side * sensor.nearClip);
+        return box;
+    }
+    const double scale = sensor.orthographic ? 1 : sensor.nearClip;
+    const double lens = glm::length(unpack(camera.lensX));
+    for (const double x : {0u, camera.width})
+        for (const double y : {0u, camera.height})
+            for (const double side : {-lens, lens})
+                box.add(origin + side +
+                        scale * (unpack(camera.corner) + x * unpack(camera.stepX) + y * unpack(camera.stepY)));
     return box;
 }
 

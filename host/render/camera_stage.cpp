@@ -83,13 +83,12 @@ void CameraStage::runOn(Film& film, const Film::Pass& onFilm, shared::CameraPara
     traceCameraPaths_.watchParts({});
 }
 
-const shared::CameraParams& CameraStage::params(unsigned pass, const PhotonStage& photons, PassPart part) {
-    params_.pass = part.numberOf(pass);
-    params_.parts = part.count;
-    params_.map = photons.table().map();
-    params_.radiusBlock = radii_ ? radii_->block() : 1;
-    params_.pathBlock = paths_.block();
-    return params_;
+shared::CameraParams CameraStage::params(unsigned pass, const PhotonStage& photons, PassPart part) const {
+    shared::CameraParams params = ofPass(params_, pass, part);
+    params.map = photons.table().map();
+    params.radiusBlock = radii_ ? radii_->block() : 1;
+    params.pathBlock = paths_.block();
+    return params;
 }
 
 PixelTables CameraStage::tables(unsigned pass) const { return {paths_, radiusScales(pass)}; }

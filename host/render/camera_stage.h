@@ -32,7 +32,7 @@ public:
     void compile(const PhotonStage& photons);
 
     /// Of the camera paths of a pass, or of a part of it, with its photons.
-    const shared::CameraParams& params(unsigned pass, const PhotonStage& photons, PassPart part = {});
+    shared::CameraParams params(unsigned pass, const PhotonStage& photons, PassPart part = {}) const;
 
     /// What these read by pixel.
     PixelTables tables(unsigned pass) const;

@@ -38,10 +38,10 @@ void MeterStage::compile(const PhotonStage& photons) {
 void MeterStage::run(unsigned pass, const PhotonStage& photons, PassPart part) {
     const shared::Meter& meter = params_.scene.meter;
     const Film::Pass onFilm = film_.beginBatch(part);
-    params_.pass = part.numberOf(pass);
-    params_.map = photons.table().map();
+    shared::CameraParams params = ofPass(params_, pass, part);
+    params.map = photons.table().map();
     traceMeterPaths_.launch(film_.pixels() * meter.samples, geometry_.nodes, geometry_.blocks, geometry_.tables,
-                            photons.table().cellStart(), photons.sorted(), samples_, film_.counterBuffer(), params_);
+                            photons.table().cellStart(), photons.sorted(), samples_, film_.counterBuffer(), params);
     addMeterSamples_.launch(film_.pixels(), samples_, counted_.sums, film_.sums(), film_.counterBuffer(),
                             static_cast<unsigned>(film_.pixels()), meter.samples,
                             sampleScale(meter) / static_cast<float>(part.count), counted_.quantaPerRadiance,

@@ -149,7 +149,7 @@ Features compiledFeatures(const DeviceScene& scene, const RenderSettings& settin
 }
 
 bool sharesSamples(const Features& features, const RenderSettings& settings) {
-    return features.filterTable && settings.map == MapOrder::photons && !isMeter(features);
+    return features.sharedFilter && settings.map == MapOrder::photons && !isMeter(features);
 }
 
 bool storesDepth(const DeviceScene& scene, const RenderSettings& settings) {

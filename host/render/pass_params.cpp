@@ -38,8 +38,7 @@ unsigned maxDepthOf(const Scene& scene) { return scene.maxDepth < 0 ? QL_NONE : 
 
 shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings) {
     shared::PhotonParams params{};
-    params.seedLow = static_cast<unsigned>(settings.seed);
-    params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
+    setNumbers(params, settings.seed);
     params.paths = photonsPerPass(settings, flat.camera);
     params.perFluxUnit = 1 / fluxUnit(flat, params.paths);
     params.maxDepth = maxDepthOf(scene);
@@ -58,8 +57,7 @@ shared::PhotonParams withPaths(shared::PhotonParams params, unsigned paths) {
 
 shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth) {
     shared::CameraParams params{};
-    params.seedLow = static_cast<unsigned>(settings.seed);
-    params.seedHigh = static_cast<unsigned>(settings.seed >> 32);
+    setNumbers(params, settings.seed);
     // The meter's own scattering does not count (kernels/meter.clh).
     params.bdd = settings.bdd + (meterIsGenuineDiffuse(flat.features, settings) ? 1 : 0);
     params.maxDepth = maxDepth;
@@ -71,6 +69,12 @@ shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings&
     params.causticsByPaths = settings.caustics == CausticLight::paths;
     params.camera = flat.camera;
     params.scene = sceneTables(flat, settings);
+    return params;
+}
+
+shared::CameraParams ofPass(shared::CameraParams params, unsigned pass, PassPart part) {
+    setNumbers(params, uint64_t{params.seedHigh} << 32 | params.seedLow, pass, part);
+    params.parts = part.count;
     return params;
 }
 

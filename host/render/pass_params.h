@@ -3,6 +3,7 @@
 
 #include "pass_types.h"
 #include "prepare/device_scene.h"
+#include "render/pass_part.h"
 #include "render/settings.h"
 
 namespace quasilux {
@@ -18,7 +19,17 @@ unsigned maxDepthOf(const Scene& scene);
 shared::PhotonParams photonParams(const Scene& scene, const DeviceScene& flat, const RenderSettings& settings);
 /// Of fewer photons, with all flux between them.
 shared::PhotonParams withPaths(shared::PhotonParams params, unsigned paths);
+/// Sets what the random numbers of photons or camera paths go by.
+template <typename Params>
+void setNumbers(Params& params, uint64_t seed, unsigned pass = 0, PassPart part = {}) {
+    const uint64_t ofPart = part.seedOf(seed);
+    params.seedLow = static_cast<unsigned>(ofPart);
+    params.seedHigh = static_cast<unsigned>(ofPart >> 32);
+    params.pass = pass;
+}
 shared::CameraParams cameraParams(const DeviceScene& flat, const RenderSettings& settings, unsigned maxDepth);
+/// Of a pass, or a part of it; `params` as cameraParams() returns them.
+shared::CameraParams ofPass(shared::CameraParams params, unsigned pass, PassPart part);
 
 /// Of the order of what the scene shows: the unit of splats need be no better.
 double meanRadiance(const DeviceScene& flat);

@@ -13,8 +13,9 @@ struct PassPart {
     bool isFirst() const { return number == 0; }
     bool isLast() const { return number + 1 == count; }
     bool isWhole() const { return count == 1; }
-    /// What stands for the number of the pass in random numbers.
-    unsigned numberOf(unsigned pass) const { return pass * count + number; }
+    /// What stands for the seed in the part's random numbers: no pass has those of another one, in however many parts both
+    /// come, so all may be added up.
+    uint64_t seedOf(uint64_t seed) const { return seed ^ number * 0x9E3779B97F4A7C15u; }
     /// Of the paths of a pass.
     unsigned share(unsigned paths) const { return static_cast<unsigned>((uint64_t{paths} + count - 1) / count); }
 };

@@ -29,7 +29,7 @@ PassPhotons::PassPhotons(const PassContext& context, const std::function<void(co
 }
 
 PhotonPassCount PassPhotons::run(unsigned pass, PassPart part) {
-    return stage_->run(part.numberOf(pass), context_.radii.radii(pass), context_.radii.volumeScale(pass));
+    return stage_->run(pass, part, context_.radii.radii(pass), context_.radii.volumeScale(pass));
 }
 
 // Kernels that other methods share know photons even where this one takes none: then their map is left empty, once for

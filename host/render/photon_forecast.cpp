@@ -33,7 +33,7 @@ PhotonForecast forecastPhotons(const PassContext& context, const Program& photon
         stage.countAt(uncounted.emplace(device, context.classes, context.film.pixels(), meanRadiance(context.flat),
                                         context.flat.offsets.meter.samples));
     stage.useField(context.field);
-    const PhotonPassCount counted = stage.run(forecastPass, context.radii.radii(0), context.radii.volumeScale(0));
+    const PhotonPassCount counted = stage.run(forecastPass, {}, context.radii.radii(0), context.radii.volumeScale(0));
     stage.compile();
     if (compile) compile(stage);
     device.finish();

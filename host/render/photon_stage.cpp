@@ -1,5 +1,6 @@
 #include "render/photon_stage.h"
 
+#include "render/pass_params.h"
 #include "render/regions.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ PhotonStage::PhotonStage(Device& device, const Program& pass, const GeometryBuff
                          shared::PhotonParams params, unsigned classes, bool storesDepth,
                          std::optional<uint64_t> photons)
     : geometry_(geometry), tracePhotons_(pass.kernel("tracePhotons")), photons_(device, pass, classes, storesDepth),
-      params_(params), classes_(classes) {
+      params_(params), seed_(uint64_t{params.seedHigh} << 32 | params.seedLow), classes_(classes) {
     params_.pathsPerRegion = photonsPerRegion(device.info());
     params_.regions = regionsOf(params_.paths, params_.pathsPerRegion);
     regions_ = regionCounts(params_.regions).make(device);
@@ -61,11 +62,12 @@ void PhotonStage::thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbabi
     }
 }
 
-PhotonPassCount PhotonStage::run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale) {
+PhotonPassCount PhotonStage::run(unsigned pass, PassPart part, const std::array<float, LIGHT_CLASSES>& radius,
+                                 float volumeScale) {
     shared::MapParams& map = photons_.table().map();
     std::copy(radius.begin(), radius.end(), map.radius);
     map.volumeScale = volumeScale;
-    params_.pass = pass;
+    setNumbers(params_, seed_, pass, part);
     PhotonPassCount total;
     if (classes_ == 0) return total;
     const auto counts = trace();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/meter_sums.h"
+#include "render/pass_part.h"
 #include "render/photon_arrays.h"
 #include "render/trace_count.h"
 
@@ -29,10 +30,11 @@ public:
     static BufferSizes plan(unsigned paths, uint64_t photons, unsigned classes, bool storesDepth,
                             const DeviceInfo& device);
 
-    /// Traces the photons of a pass and indexes them with these radii, by class. A photon buffer that proves too small
+    /// Traces the photons of a pass, or of a part of it, and indexes them with these radii, by class. A photon buffer that proves too small
     /// is enlarged and the pass traced again, so none is lost. `volumeScale` is that of kernels in media to their first
     /// size.
-    PhotonPassCount run(unsigned pass, const std::array<float, LIGHT_CLASSES>& radius, float volumeScale);
+    PhotonPassCount run(unsigned pass, PassPart part, const std::array<float, LIGHT_CLASSES>& radius,
+                        float volumeScale);
 
     /// From now on photons in media are kept with these probabilities, by class, and weigh accordingly more.
     void thinVolume(const std::array<float, LIGHT_CLASSES>& keepProbability);
@@ -59,6 +61,7 @@ private:
     Kernel tracePhotons_;
     PhotonArrays photons_;
     shared::PhotonParams params_;
+    uint64_t seed_;
     unsigned classes_; // bits 1 << slot
     MeterSums* meter_ = nullptr;
     Buffer<shared::RegionCount> regions_;

@@ -54,6 +54,7 @@ struct LobeDescription {
     std::string name;                  ///< "diffuse", "specular", …, as a quasi-specular list names it
     QuasiSpecularChoice quasiSpecular; ///< from the innermost bsdf that says something
     double halfWidth = 0; ///< radians: half the lobe's energy lies within this angle of its peak (0 delta, 45° Lambert)
+    bool axesByTexture = false; ///< textures may tell its two alphas apart, whatever their means
 };
 
 struct Bsdf {

@@ -42,7 +42,7 @@ StoredPasses tracePhotons(const DeviceScene& flat, const RenderSettings& setting
     for (unsigned pass = 0; pass < tracing.passes; ++pass) {
         std::array<float, LIGHT_CLASSES> radius;
         radius.fill(tracing.radius);
-        const auto count = stage.run(pass, radius, 1);
+        const auto count = stage.run(pass, {}, radius, 1);
         const auto sorted = stage.sorted().read();
         size_t photon = 0;
         for (unsigned slot = 0; slot < PHOTON_SLOTS; ++slot)

@@ -47,9 +47,8 @@ bool Bsdf::letsPass() const {
 
 bool Bsdf::isAnisotropic() const {
     const auto differs = [](const LobeDescription& lobe) {
-        const auto& levels = lobe.levelTextures;
-        const auto ofRoughness = std::count_if(levels.begin(), levels.end(), [](const auto& l) { return !l.ofIndex; });
-        return LOBE_HAS_TWO_ALPHAS(lobe.device.type) && (lobe.device.alphaU != lobe.device.alphaV || ofRoughness > 1);
+        return LOBE_HAS_TWO_ALPHAS(lobe.device.type) &&
+               (lobe.axesByTexture || lobe.device.alphaU != lobe.device.alphaV);
     };
     return std::any_of(front.begin(), front.end(), differs) || std::any_of(back.begin(), back.end(), differs);
 }

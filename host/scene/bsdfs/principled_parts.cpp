@@ -30,6 +30,7 @@ void setFacetLevels(const Principled& p, LobeDescription& lobe) {
     const bool byIndex = p.passed && p.eta.texture;
     if (byIndex) lobe.levelTextures.push_back({*p.eta.texture, 0, 1, true});
     if (lobe.levelTextures.empty()) return;
+    lobe.axesByTexture = p.anisotropic.texture || (p.roughness.texture && p.anisotropic.value > 0);
     lobe.setLevel = [p, byIndex](shared::Lobe& device, const std::vector<double>& values) {
         auto next = values.begin();
         const double ownRoughness = p.roughness.texture ? *next++ : p.roughness.value;

@@ -48,6 +48,7 @@ void Roughness::applyTo(LobeDescription& lobe) const {
     const bool isOne = alphaTextureU == alphaTextureV;
     if (alphaTextureU) lobe.levelTextures.push_back({*alphaTextureU});
     if (alphaTextureV && !isOne) lobe.levelTextures.push_back({*alphaTextureV});
+    lobe.axesByTexture = !isOne;
     lobe.setLevel = [u = alphaTextureU.has_value(), v = alphaTextureV.has_value()](shared::Lobe& device,
                                                                                    const std::vector<double>& alphas) {
         if (u) device.alphaU = static_cast<float>(alphas.front());
