@@ -3,6 +3,7 @@
 #include "photometry/glare.h"
 #include "scene/observer.h"
 #include "support/eye_readings.h"
+#include "support/gltf_files.h"
 #include "support/luminaire_files.h"
 #include "support/meter_scenes.h"
 
@@ -153,6 +154,23 @@ TEST(Glare, ASurfaceIsRatedAsTheFileOfIt) {
     EXPECT_TRUE(
         sourcesOf(sceneOf(files, panelShape(2) + "<?quasilux observer position=\"0,0,2\" direction=\"0,1,0\"?>"))
             .seen.empty());
+}
+
+// Of a glTF file +y is up: a small square 2 m ahead and 1 m above has the index of the angle above the line of sight.
+TEST(Glare, OfAGltfFileHasItsUpright) {
+    const test::SceneFiles files;
+    test::GltfFile file;
+    file.add("materials", {{"emissiveFactor", {1, 1, 1}}});
+    const double half = std::sqrt(0.5); // a quarter turn, towards -x
+    file.addNode({{"mesh", file.addSquare({{"material", 0}})},
+                  {"rotation", {0, -half, 0, half}},
+                  {"scale", {0.01, 0.01, 1}},
+                  {"translation", {2, 1, 0}}});
+    file.json["scenes"][0]["extras"]["quasilux"]["observer"] = {{"position", {0, 0, 0}}, {"direction", {1, 0, 0}}};
+    const GlareSources sources = sourcesOf(loadScene(files.write("scene.glb", file.binary())));
+    ASSERT_THAT(sources.seen, SizeIs(1));
+    const double sigma = std::atan(0.5) * 180 / pi;
+    EXPECT_NEAR(sources.seen[0].positionIndex, std::exp((35.2 - 1.22) * 1e-3 * sigma + 21e-5 * sigma * sigma), 0.01);
 }
 
 TEST(Glare, WhatIsHiddenDoesNotGlare) {

@@ -161,6 +161,18 @@ TEST_F(GltfScene, ASkyByExtras) {
     EXPECT_THROW(load(file), InputError);
 }
 
+TEST_F(GltfScene, ObserversStandUpright) {
+    const json upright = {{"position", {0, 0, 0}}, {"direction", {1, 0, 0}}};
+    json lying = upright;
+    lying["up"] = {0, 0, 1};
+    GltfFile file = square();
+    file.json["scenes"][0]["extras"]["quasilux"]["observer"] = {upright, lying};
+    const Scene scene = load(file);
+    ASSERT_EQ(scene.observers.size(), 2u);
+    EXPECT_EQ(scene.observers[0].up, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(scene.observers[1].up, glm::dvec3(0, 0, 1));
+}
+
 // EXT_lights_ies: in a file, a buffer and a data URI. Its zero points along -z and C0 along +x of the node.
 TEST_F(GltfScene, LuminairesByTheirExtension) {
     const std::string ies = test::IesText{}.text();

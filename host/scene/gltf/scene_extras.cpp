@@ -40,6 +40,8 @@ Instruction instructionOf(const std::string& kind, const tinygltf::Value& object
     if (!object.IsObject()) throw InputError(where, fmt::format("'{}' is no object.", kind));
     for (const std::string& name : object.Keys())
         instruction.entries.push_back({name, textOf(object.Get(name), name, where)});
+    // Where a scene file says nothing up is +z, where a glTF file says nothing +y.
+    if (kind == "observer" && !object.Has("up")) instruction.entries.push_back({"up", "0,1,0"});
     return instruction;
 }
 
