@@ -1,4 +1,5 @@
 // Lights, cameras, extras and what stands in for missing ones, of glTF files.
+#include "scene/skies/sky_image.h"
 #include "support/gltf_files.h"
 #include "support/luminaire_files.h"
 
@@ -159,6 +160,63 @@ TEST_F(GltfScene, ASkyByExtras) {
     EXPECT_LT(scene.directionalEmitters[0].direction.y, -0.8);
     file.json["scenes"][0]["extras"]["quasilux"]["sky"].erase("type");
     EXPECT_THROW(load(file), InputError);
+}
+
+/// Towards the sun of an image, in the world.
+glm::dvec3 sunOf(const EnvironmentImage& image) {
+    glm::dvec3 sum(0);
+    for (unsigned row = 0; row < image.height; ++row)
+        for (unsigned column = 0; column < image.width; ++column)
+            sum += double(image.pixels[size_t(row) * image.width + column].g) *
+                   std::sin(std::numbers::pi * row / (image.height - 1)) *
+                   directionOfSkyPixel(column, row, image.height);
+    return glm::normalize(image.axes * glm::dvec3(sum.x, sum.z, -sum.y)); // its x, y, z are the sky's x, z, -y
+}
+
+// East is +x, north -z, by place and time and by a direction: the sky of Mitsuba has the south along x, the west along
+// y.
+TEST_F(GltfScene, TheSunOfSunskyStandsAsOnTheMap) {
+    const auto sunBy = [&](json where) {
+        json sky = {{"type", "sunsky"}, {"sky_scale", 0}, {"sun_aperture", 4}};
+        sky.update(where);
+        GltfFile file = square();
+        file.json["scenes"][0]["extras"]["quasilux"]["sky"] = sky;
+        return sunOf(load(file).surroundings.value().image.value());
+    };
+    const glm::dvec3 along = glm::normalize(glm::dvec3(0.5, 2, -1)); // east, above, south
+    EXPECT_LT(glm::length(sunBy({{"sun_direction", {0.5, 1, 2}}}) - along), 1e-3);
+    const auto berlin = [&](int hour) {
+        return sunBy({{"latitude", 52.5},
+                      {"longitude", 15},
+                      {"timezone", 1},
+                      {"year", 2026},
+                      {"month", 6},
+                      {"day", 21},
+                      {"hour", hour}});
+    };
+    // 90 - 52.5 + 23.44 degrees above the south at noon, which the equation of time moves by 0.5 degrees.
+    const glm::dvec3 noon = berlin(12), morning = berlin(8), evening = berlin(16);
+    EXPECT_NEAR(noon.y, std::sin(60.94 * std::numbers::pi / 180), 2e-3);
+    EXPECT_NEAR(noon.x, 0, 0.01);
+    EXPECT_GT(noon.z, 0.4) << "in the south";
+    EXPECT_GT(morning.x, 0.5) << "in the east";
+    EXPECT_LT(evening.x, -0.5) << "in the west";
+}
+
+// Of an image +y is up already.
+TEST_F(GltfScene, AnEnvironmentMapByExtrasStandsUpright) {
+    std::vector<uint8_t> pixels(16, 255);
+    for (const size_t black : {8, 9, 10, 12, 13, 14}) pixels[black] = 0;
+    png(pixels); // white above, black below
+    GltfFile file = square();
+    file.json["scenes"][0]["extras"]["quasilux"]["sky"] = {{"type", "envmap"}, {"filename", "image.png"}};
+    const Scene scene = load(file);
+    const EnvironmentImage image = scene.surroundings.value().image.value();
+    EXPECT_LT(glm::length(image.axes[1] - glm::dvec3(0, 1, 0)), 1e-9);
+    EXPECT_LT(glm::length(image.axes[2] - glm::dvec3(0, 0, 1)), 1e-9);
+    EXPECT_GT(image.pixels.front().g, image.pixels.back().g);
+    file.json["scenes"][0]["extras"]["quasilux"]["sky"] = {{"type", "constant"}, {"radiance", {1, 2, 3}}};
+    EXPECT_EQ(load(file).surroundings.value().radiance.g, 2);
 }
 
 TEST_F(GltfScene, ObserversStandUpright) {
