@@ -231,6 +231,30 @@ TEST_F(GltfScene, ObserversStandUpright) {
     EXPECT_EQ(scene.observers[1].up, glm::dvec3(0, 0, 1));
 }
 
+// As of the scene language, whose gamma = 0 is along +z: turned about the x-axis.
+TEST_F(GltfScene, MirroredNodesMirrorTheirLuminaires) {
+    files.write("lamp.ies", test::IesText{}.text());
+    const std::vector<double> matrices[] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1},
+                                            {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1},
+                                            {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 2, 0, 1},
+                                            {0, 2, 0, 0, 2, 0, 0, 0, 0, 0, 2, 0, 0, 2, 0, 1}};
+    for (const std::vector<double>& m : matrices) {
+        GltfFile file = square();
+        file.addNode({{"matrix", m}, {"extras", {{"ies", "lamp.ies"}}}});
+        std::string rows;
+        for (size_t row = 0; row < 4; ++row)
+            for (size_t column = 0; column < 4; ++column) rows += fmt::format("{} ", m[4 * column + row]);
+        const Scene written = loadScene(files.write(
+            "lamp.xml", fmt::format(R"(<scene version="3.0.0"><sensor type="perspective"/><shape type="sphere"/>
+            <emitter type="quasilux_ies"><string name="filename" value="lamp.ies"/><transform name="to_world">
+            <rotate x="1" angle="180"/><matrix value="{}"/></transform></emitter></scene>)",
+                                    rows)));
+        const auto axesOf = [](const Scene& scene) { return scene.pointEmitters.at(0).luminaire.value().axes; };
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_LT(glm::length(axesOf(load(file))[axis] - axesOf(written)[axis]), 1e-9) << rows << axis;
+    }
+}
+
 // EXT_lights_ies: in a file, a buffer and a data URI. Its zero points along -z and C0 along +x of the node.
 TEST_F(GltfScene, LuminairesByTheirExtension) {
     const std::string ies = test::IesText{}.text();
