@@ -173,6 +173,29 @@ TEST(Glare, OfAGltfFileHasItsUpright) {
     EXPECT_NEAR(sources.seen[0].positionIndex, std::exp((35.2 - 1.22) * 1e-3 * sigma + 21e-5 * sigma * sigma), 0.01);
 }
 
+// A sphere whose normals are flipped shines inwards alone.
+TEST(Glare, ASphereShinesOnTheSideOfItsNormal) {
+    const test::SceneFiles files;
+    const auto sourcesBy = [&](double distance, bool inwards) {
+        return sourcesOf(sceneOf(files, fmt::format("<shape type=\"sphere\" id=\"lamp\"><point name=\"center\" "
+                                                    "value=\"0,{},0\"/><float name=\"radius\" value=\"0.5\"/>"
+                                                    "<boolean name=\"flip_normals\" value=\"{}\"/>{}</shape>",
+                                                    distance, inwards, test::areaLight(1)) +
+                                            eyeAtOrigin));
+    };
+    const GlareSources outwards = sourcesBy(2, false);
+    ASSERT_THAT(outwards.seen, SizeIs(1));
+    EXPECT_NEAR(outwards.seen[0].solidAngle / outwards.seen[0].visible, 2 * pi * (1 - std::sqrt(15.0 / 16)), 1e-6);
+    EXPECT_TRUE(sourcesBy(2, true).seen.empty()) << "dark from outside";
+    EXPECT_TRUE(sourcesBy(2, true).leftOut.empty());
+    EXPECT_TRUE(sourcesBy(0.25, false).seen.empty()) << "dark from inside";
+    EXPECT_TRUE(sourcesBy(0.25, false).leftOut.empty());
+    const GlareSources around = sourcesBy(0.25, true);
+    EXPECT_TRUE(around.seen.empty());
+    ASSERT_THAT(around.leftOut, SizeIs(1)) << "it has no position";
+    EXPECT_THAT(around.leftOut[0], HasSubstr("'lamp' surrounds the eye"));
+}
+
 TEST(Glare, WhatIsHiddenDoesNotGlare) {
     const test::SceneFiles files;
     const auto wall = [](double x) { // beyond x
