@@ -1,4 +1,4 @@
-// How glTF materials mix metal with what transmits light, by what their lobes come to.
+// How glTF materials mix metal with what transmits light, and the colour of a body, by what their lobes come to.
 #include "support/gltf_files.h"
 
 namespace quasilux {
@@ -71,6 +71,31 @@ TEST_F(GltfTransmission, MetalTransmitsNothing) {
                 EXPECT_NEAR(found.metal, base * m, 1e-6);
             }
         }
+}
+
+// Light enters and leaves a body: what both borders leave is the colour, once.
+TEST_F(GltfTransmission, VertexColorsTintABodyOnce) {
+    const auto tintOf = [&](bool isBody) {
+        json extensions = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
+        if (isBody) extensions["KHR_materials_volume"] = {{"thicknessFactor", 1}};
+        GltfFile file;
+        file.add("materials", {{"pbrMetallicRoughness",
+                                {{"baseColorFactor", {0.5, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0}}},
+                               {"extensions", extensions}});
+        const int colors = file.floats({0.5, 1, 1, 0.5, 1, 1, 0.5, 1, 1, 0.5, 1, 1}, "VEC3");
+        file.addNode({{"mesh", file.addSquare({{"material", 0}, {"attributes", {{"COLOR_0", colors}}}})}});
+        const Scene scene = load(file);
+        for (const LobeDescription& lobe : bsdfOf(scene).front) {
+            if (lobe.device.transmittanceTexture == 0) continue;
+            const std::string& name = scene.textures.at(lobe.device.transmittanceTexture - 1).attribute;
+            for (const MeshAttribute& attribute : scene.shapes.at(0).mesh.attributes)
+                if (attribute.name == name) return double(attribute.values.at(2).r);
+        }
+        ADD_FAILURE() << "no tint by an attribute";
+        return 0.0;
+    };
+    EXPECT_NEAR(tintOf(true) * tintOf(true), 0.25, 1e-6);
+    EXPECT_NEAR(tintOf(false), 0.25, 1e-6) << "a sheet is passed once";
 }
 
 } // namespace
