@@ -162,14 +162,18 @@ class DgpTest : public CommandLineTest {
 protected:
     DgpTest() { writeEye("eye.exr", ""); }
 
-    /// `units`: what the header says of them, or nothing.
-    void writeEye(const char* name, const char* units) const {
-        const View view{Projection::equidistant, pi};
+    /// `units`: what the header says of them, or nothing. `width`: an equidistant fisheye's, which it says then.
+    void writeEye(const char* name, const char* units, std::optional<double> width = {}) const {
+        const View view{Projection::equidistant, width.value_or(pi)};
         const LuminanceImage image = imageOf(view, 200, twoLamps);
         std::vector<float> rgb;
         for (const float value : image.values) rgb.insert(rgb.end(), 3, value / 683);
         OIIO::ImageSpec spec(200, 200, 3, OIIO::TypeDesc::FLOAT);
         if (*units) spec.attribute("quasilux:units", units);
+        if (width) {
+            spec.attribute("quasilux:projection", "equidistant");
+            spec.attribute("quasilux:fov", static_cast<float>(*width * 180 / pi));
+        }
         const auto file = OIIO::ImageOutput::create("openexr");
         file->open((folder / name).string(), spec);
         file->write_image(OIIO::TypeDesc::FLOAT, rgb.data());
@@ -188,6 +192,20 @@ TEST_F(DgpTest, IsPrinted) {
     EXPECT_EQ(json["sources"].size(), 2u);
     EXPECT_TRUE(json["standardErrorAtMost"].is_null());
     EXPECT_THAT(run({"dgp", "eye.exr", "--illuminance", "100"}).errors, HasSubstr("DGP was made from 380 lx on"));
+}
+
+// The angle in the header is that of the projection there: to say the same one again changes nothing.
+TEST_F(DgpTest, KeepsTheAngleOfTheHeader) {
+    writeEye("narrow.exr", "", 2 * pi / 3);
+    const auto found = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"dgp", "narrow.exr", "--illuminance", "2000", "--json"});
+        const auto json = nlohmann::json::parse(run(options).output);
+        return std::pair(json["covered"].get<double>(), json["DGP"].get<double>());
+    };
+    // Of a uniform field a cone of half angle 60 degrees gives sin² 60 degrees of the illuminance.
+    EXPECT_NEAR(found({}).first, 0.75, 0.01);
+    EXPECT_EQ(found({"--projection", "equidistant"}), found({}));
+    EXPECT_NEAR(found({"--projection", "equisolid"}).first, 1, 0.01) << "of another one nothing is said";
 }
 
 // Of a sky in W per nanometre luminances are 107 times too low, so that what glares seems not to.

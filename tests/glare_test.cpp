@@ -3,6 +3,7 @@
 #include "photometry/glare.h"
 #include "scene/observer.h"
 #include "support/eye_readings.h"
+#include "support/gltf_files.h"
 #include "support/luminaire_files.h"
 #include "support/meter_scenes.h"
 
@@ -153,6 +154,46 @@ TEST(Glare, ASurfaceIsRatedAsTheFileOfIt) {
     EXPECT_TRUE(
         sourcesOf(sceneOf(files, panelShape(2) + "<?quasilux observer position=\"0,0,2\" direction=\"0,1,0\"?>"))
             .seen.empty());
+}
+
+// Of a glTF file +y is up: a small square 2 m ahead and 1 m above has the index of the angle above the line of sight.
+TEST(Glare, OfAGltfFileHasItsUpright) {
+    const test::SceneFiles files;
+    test::GltfFile file;
+    file.add("materials", {{"emissiveFactor", {1, 1, 1}}});
+    const double half = std::sqrt(0.5); // a quarter turn, towards -x
+    file.addNode({{"mesh", file.addSquare({{"material", 0}})},
+                  {"rotation", {0, -half, 0, half}},
+                  {"scale", {0.01, 0.01, 1}},
+                  {"translation", {2, 1, 0}}});
+    file.json["scenes"][0]["extras"]["quasilux"]["observer"] = {{"position", {0, 0, 0}}, {"direction", {1, 0, 0}}};
+    const GlareSources sources = sourcesOf(loadScene(files.write("scene.glb", file.binary())));
+    ASSERT_THAT(sources.seen, SizeIs(1));
+    const double sigma = std::atan(0.5) * 180 / pi;
+    EXPECT_NEAR(sources.seen[0].positionIndex, std::exp((35.2 - 1.22) * 1e-3 * sigma + 21e-5 * sigma * sigma), 0.01);
+}
+
+// A sphere whose normals are flipped shines inwards alone.
+TEST(Glare, ASphereShinesOnTheSideOfItsNormal) {
+    const test::SceneFiles files;
+    const auto sourcesBy = [&](double distance, bool inwards) {
+        return sourcesOf(sceneOf(files, fmt::format("<shape type=\"sphere\" id=\"lamp\"><point name=\"center\" "
+                                                    "value=\"0,{},0\"/><float name=\"radius\" value=\"0.5\"/>"
+                                                    "<boolean name=\"flip_normals\" value=\"{}\"/>{}</shape>",
+                                                    distance, inwards, test::areaLight(1)) +
+                                            eyeAtOrigin));
+    };
+    const GlareSources outwards = sourcesBy(2, false);
+    ASSERT_THAT(outwards.seen, SizeIs(1));
+    EXPECT_NEAR(outwards.seen[0].solidAngle / outwards.seen[0].visible, 2 * pi * (1 - std::sqrt(15.0 / 16)), 1e-6);
+    EXPECT_TRUE(sourcesBy(2, true).seen.empty()) << "dark from outside";
+    EXPECT_TRUE(sourcesBy(2, true).leftOut.empty());
+    EXPECT_TRUE(sourcesBy(0.25, false).seen.empty()) << "dark from inside";
+    EXPECT_TRUE(sourcesBy(0.25, false).leftOut.empty());
+    const GlareSources around = sourcesBy(0.25, true);
+    EXPECT_TRUE(around.seen.empty());
+    ASSERT_THAT(around.leftOut, SizeIs(1)) << "it has no position";
+    EXPECT_THAT(around.leftOut[0], HasSubstr("'lamp' surrounds the eye"));
 }
 
 TEST(Glare, WhatIsHiddenDoesNotGlare) {

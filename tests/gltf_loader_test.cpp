@@ -1,7 +1,6 @@
 // What a glTF file means: the scene that it gives is that of XML which says the same.
 #include "support/gltf_files.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -15,29 +14,10 @@ using testing::HasSubstr;
 
 class Gltf : public test::GltfTest {
 protected:
-    /// A square with this material.
-    static GltfFile squareOf(const json& material, GltfFile file = {}) {
-        file.add("materials", material);
-        file.addNode({{"mesh", file.addSquare({{"material", 0}})}});
-        return file;
-    }
-    static Bsdf bsdfOf(const Scene& scene) { return scene.bsdfs.at(static_cast<size_t>(scene.shapes.at(0).bsdf)); }
     Bsdf bsdfOfMaterial(const json& material) const { return bsdfOf(load(squareOf(material))); }
     Bsdf bsdfOfXml(const std::string& bsdf) const {
         return bsdfOf(
             loadScene(files.write("scene.xml", test::sceneWith("<shape type=\"rectangle\">" + bsdf + "</shape>"))));
-    }
-    /// Encoded, of 2 x 2 pixels with these channels.
-    std::string png(const std::vector<uint8_t>& pixels) const {
-        const std::string path = files.path("image.png");
-        auto output = OIIO::ImageOutput::create(path);
-        OIIO::ImageSpec spec(2, 2, static_cast<int>(pixels.size()) / 4, OIIO::TypeDesc::UINT8);
-        spec["oiio:UnassociatedAlpha"] = 1;
-        output->open(path, spec);
-        output->write_image(OIIO::TypeDesc::UINT8, pixels.data());
-        output->close();
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
     }
 };
 

@@ -1,4 +1,5 @@
 // Lights, cameras, extras and what stands in for missing ones, of glTF files.
+#include "scene/skies/sky_image.h"
 #include "support/gltf_files.h"
 #include "support/luminaire_files.h"
 
@@ -159,6 +160,99 @@ TEST_F(GltfScene, ASkyByExtras) {
     EXPECT_LT(scene.directionalEmitters[0].direction.y, -0.8);
     file.json["scenes"][0]["extras"]["quasilux"]["sky"].erase("type");
     EXPECT_THROW(load(file), InputError);
+}
+
+/// Towards the sun of an image, in the world.
+glm::dvec3 sunOf(const EnvironmentImage& image) {
+    glm::dvec3 sum(0);
+    for (unsigned row = 0; row < image.height; ++row)
+        for (unsigned column = 0; column < image.width; ++column)
+            sum += double(image.pixels[size_t(row) * image.width + column].g) *
+                   std::sin(std::numbers::pi * row / (image.height - 1)) *
+                   directionOfSkyPixel(column, row, image.height);
+    return glm::normalize(image.axes * glm::dvec3(sum.x, sum.z, -sum.y)); // its x, y, z are the sky's x, z, -y
+}
+
+// East is +x, north -z, by place and time and by a direction: the sky of Mitsuba has the south along x, the west along
+// y.
+TEST_F(GltfScene, TheSunOfSunskyStandsAsOnTheMap) {
+    const auto sunBy = [&](json where) {
+        json sky = {{"type", "sunsky"}, {"sky_scale", 0}, {"sun_aperture", 4}};
+        sky.update(where);
+        GltfFile file = square();
+        file.json["scenes"][0]["extras"]["quasilux"]["sky"] = sky;
+        return sunOf(load(file).surroundings.value().image.value());
+    };
+    const glm::dvec3 along = glm::normalize(glm::dvec3(0.5, 2, -1)); // east, above, south
+    EXPECT_LT(glm::length(sunBy({{"sun_direction", {0.5, 1, 2}}}) - along), 1e-3);
+    const auto berlin = [&](int hour) {
+        return sunBy({{"latitude", 52.5},
+                      {"longitude", 15},
+                      {"timezone", 1},
+                      {"year", 2026},
+                      {"month", 6},
+                      {"day", 21},
+                      {"hour", hour}});
+    };
+    // 90 - 52.5 + 23.44 degrees above the south at noon, which the equation of time moves by 0.5 degrees.
+    const glm::dvec3 noon = berlin(12), morning = berlin(8), evening = berlin(16);
+    EXPECT_NEAR(noon.y, std::sin(60.94 * std::numbers::pi / 180), 2e-3);
+    EXPECT_NEAR(noon.x, 0, 0.01);
+    EXPECT_GT(noon.z, 0.4) << "in the south";
+    EXPECT_GT(morning.x, 0.5) << "in the east";
+    EXPECT_LT(evening.x, -0.5) << "in the west";
+}
+
+// Of an image +y is up already.
+TEST_F(GltfScene, AnEnvironmentMapByExtrasStandsUpright) {
+    std::vector<uint8_t> pixels(16, 255);
+    for (const size_t black : {8, 9, 10, 12, 13, 14}) pixels[black] = 0;
+    png(pixels); // white above, black below
+    GltfFile file = square();
+    file.json["scenes"][0]["extras"]["quasilux"]["sky"] = {{"type", "envmap"}, {"filename", "image.png"}};
+    const Scene scene = load(file);
+    const EnvironmentImage image = scene.surroundings.value().image.value();
+    EXPECT_LT(glm::length(image.axes[1] - glm::dvec3(0, 1, 0)), 1e-9);
+    EXPECT_LT(glm::length(image.axes[2] - glm::dvec3(0, 0, 1)), 1e-9);
+    EXPECT_GT(image.pixels.front().g, image.pixels.back().g);
+    file.json["scenes"][0]["extras"]["quasilux"]["sky"] = {{"type", "constant"}, {"radiance", {1, 2, 3}}};
+    EXPECT_EQ(load(file).surroundings.value().radiance.g, 2);
+}
+
+TEST_F(GltfScene, ObserversStandUpright) {
+    const json upright = {{"position", {0, 0, 0}}, {"direction", {1, 0, 0}}};
+    json lying = upright;
+    lying["up"] = {0, 0, 1};
+    GltfFile file = square();
+    file.json["scenes"][0]["extras"]["quasilux"]["observer"] = {upright, lying};
+    const Scene scene = load(file);
+    ASSERT_EQ(scene.observers.size(), 2u);
+    EXPECT_EQ(scene.observers[0].up, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(scene.observers[1].up, glm::dvec3(0, 0, 1));
+}
+
+// As of the scene language, whose gamma = 0 is along +z: turned about the x-axis.
+TEST_F(GltfScene, MirroredNodesMirrorTheirLuminaires) {
+    files.write("lamp.ies", test::IesText{}.text());
+    const std::vector<double> matrices[] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1},
+                                            {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 2, 0, 1},
+                                            {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 2, 0, 1},
+                                            {0, 2, 0, 0, 2, 0, 0, 0, 0, 0, 2, 0, 0, 2, 0, 1}};
+    for (const std::vector<double>& m : matrices) {
+        GltfFile file = square();
+        file.addNode({{"matrix", m}, {"extras", {{"ies", "lamp.ies"}}}});
+        std::string rows;
+        for (size_t row = 0; row < 4; ++row)
+            for (size_t column = 0; column < 4; ++column) rows += fmt::format("{} ", m[4 * column + row]);
+        const Scene written = loadScene(files.write(
+            "lamp.xml", fmt::format(R"(<scene version="3.0.0"><sensor type="perspective"/><shape type="sphere"/>
+            <emitter type="quasilux_ies"><string name="filename" value="lamp.ies"/><transform name="to_world">
+            <rotate x="1" angle="180"/><matrix value="{}"/></transform></emitter></scene>)",
+                                    rows)));
+        const auto axesOf = [](const Scene& scene) { return scene.pointEmitters.at(0).luminaire.value().axes; };
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_LT(glm::length(axesOf(load(file))[axis] - axesOf(written)[axis]), 1e-9) << rows << axis;
+    }
 }
 
 // EXT_lights_ies: in a file, a buffer and a data URI. Its zero points along -z and C0 along +x of the node.

@@ -24,7 +24,9 @@ View viewOf(const DgpOptions& options, const LuminanceImage& image) {
     const Projection projection = parseProjection(options.projection.value_or(stated ? stated->first : "equidistant"));
     if (projection == Projection::perspective && !options.degrees)
         throw InputError("--projection perspective: the image does not say how wide it is; give --fov DEGREES");
-    const double degrees = options.degrees.value_or(stated && !options.projection ? stated->second : 180);
+    // Of another projection the header says no angle.
+    const bool isStated = stated && parseProjection(stated->first) == projection;
+    const double degrees = options.degrees.value_or(isStated ? stated->second : 180);
     if (projection == Projection::perspective && degrees > 175)
         throw InputError(fmt::format("--fov {}: a perspective image spans at most 175 degrees here", degrees));
     return {projection, degrees * std::numbers::pi / 180};

@@ -120,7 +120,6 @@ void addMesh(Sums& sums, const Eye& eye, const Mesh& mesh) {
 void addSphere(Sums& sums, const Eye& eye, const Sphere& sphere) {
     const glm::dvec3 centre(sphere.center), way = centre - eye.place();
     const double distance = glm::length(way), radius = sphere.radius;
-    if (distance <= radius) return;
     const double solidAngle = 2 * std::numbers::pi * (1 - std::sqrt(1 - radius * radius / (distance * distance)));
     const glm::dvec3 forward = way / distance;
     const glm::dvec3 right = glm::normalize(std::abs(forward.x) < 0.5 ? glm::cross(forward, glm::dvec3(1, 0, 0))
@@ -131,6 +130,10 @@ void addSphere(Sums& sums, const Eye& eye, const Sphere& sphere) {
                               std::sqrt(radius * radius - r * r) * forward;
         sums.add(eye, at, solidAngle / placesOfLuminaire);
     }
+}
+
+bool isInside(const Sphere& sphere, const glm::dvec3& place) {
+    return glm::length(glm::dvec3(sphere.center) - place) <= sphere.radius;
 }
 
 class Collector {
@@ -163,6 +166,10 @@ public:
         if (shape.emitter->alongNormal)
             return leaveOut(shape.id, "emits along its normal only, so that it has no luminance");
         if (shape.emitter->texture) return leaveOut(shape.id, "has a texture, so that its luminance varies over it");
+        // A sphere is dark on the side that its normals turn away from.
+        if (shape.sphere && isInside(*shape.sphere, eye_.place()) != shape.flipNormals) return;
+        if (shape.sphere && shape.flipNormals)
+            return leaveOut(shape.id, "surrounds the eye, so that it has no one position");
         Sums sums;
         if (shape.sphere)
             addSphere(sums, eye_, *shape.sphere);

@@ -3,8 +3,10 @@
 
 #include "support/scene_files.h"
 
+#include <OpenImageIO/imageio.h>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -103,6 +105,25 @@ class GltfTest : public testing::Test {
 protected:
     Scene load(const GltfFile& file, const LoadChoice& choice = {}) const {
         return loadScene(files.write("scene.glb", file.binary()), {}, choice);
+    }
+    /// A square with this material.
+    static GltfFile squareOf(const nlohmann::json& material, GltfFile file = {}) {
+        file.add("materials", material);
+        file.addNode({{"mesh", file.addSquare({{"material", 0}})}});
+        return file;
+    }
+    static Bsdf bsdfOf(const Scene& scene) { return scene.bsdfs.at(static_cast<size_t>(scene.shapes.at(0).bsdf)); }
+    /// Encoded, of 2 x 2 pixels with these channels.
+    std::string png(const std::vector<uint8_t>& pixels) const {
+        const std::string path = files.path("image.png");
+        auto output = OIIO::ImageOutput::create(path);
+        OIIO::ImageSpec spec(2, 2, static_cast<int>(pixels.size()) / 4, OIIO::TypeDesc::UINT8);
+        spec["oiio:UnassociatedAlpha"] = 1;
+        output->open(path, spec);
+        output->write_image(OIIO::TypeDesc::UINT8, pixels.data());
+        output->close();
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
     }
     SceneFiles files;
 };

@@ -29,6 +29,10 @@ void addShare(Element& bsdf, const std::string& name, const GltfParameter& param
         addNumber(bsdf, name, parameter.value.x);
 }
 
+bool isAllOver(const GltfParameter& parameter, double value) {
+    return !parameter.isTextured() && parameter.value.x == value;
+}
+
 /// That whose reflectance at normal incidence is the material's index's, times its specular factor and a share.
 double indexOf(const GltfMaterial& material, double share) {
     const double amplitude = (material.ior - 1) / (material.ior + 1);
@@ -124,13 +128,6 @@ Element border(const GltfMaterial& material, const GltfSurface& surface) {
     return bsdf;
 }
 
-/// How much of the light that a metal does not take is transmitted.
-GltfParameter transmittedShare(const GltfSurface& surface) {
-    GltfParameter share = surface.transmission;
-    if (!share.isTextured() && !surface.metallic.isTextured()) share.value *= 1 - surface.metallic.value.x;
-    return share;
-}
-
 Element normalMapOf(const GltfParameter& normals, Element nested) {
     Element map = newObject("bsdf", "normalmap", "", nested.where);
     addReference(map, "normalmap", normals.texture);
@@ -138,19 +135,28 @@ Element normalMapOf(const GltfParameter& normals, Element nested) {
     return map;
 }
 
-Element scattering(const GltfMaterial& material, const GltfSurface& surface) {
-    Element opaque = reflecting(material, surface);
-    const GltfParameter share = transmittedShare(surface);
-    if (!share.isTextured() && share.value.x == 0) {
-        if (surface.normal) opaque = normalMapOf(*surface.normal, std::move(opaque));
-        return material.doubleSided ? wrapped("twosided", std::move(opaque)) : opaque;
-    }
+/// What is no metal, where light passes: a sheet is seen from both sides in any case.
+Element passingDielectric(const GltfMaterial& material, const GltfSurface& surface) {
     Element passing = material.hasVolume ? border(material, surface) : thinSheet(material, surface);
-    // A sheet is seen from both sides in any case.
-    Element all = !share.isTextured() && share.value.x == 1
-                      ? std::move(passing)
-                      : blendOf(share, wrapped("twosided", std::move(opaque)), std::move(passing), material.where);
-    return surface.normal ? normalMapOf(*surface.normal, std::move(all)) : all;
+    if (isAllOver(surface.transmission, 1)) return passing;
+    return blendOf(surface.transmission, wrapped("twosided", ofOneMetal(material, surface, 0)), std::move(passing),
+                   material.where);
+}
+
+/// As KHR_materials_transmission mixes them: metal takes its share first, as nothing passes it, and transmission is a
+/// share of the rest.
+Element transmitting(const GltfMaterial& material, const GltfSurface& surface) {
+    Element dielectric = passingDielectric(material, surface);
+    if (isAllOver(surface.metallic, 0)) return dielectric;
+    return blendOf(surface.metallic, std::move(dielectric), wrapped("twosided", ofOneMetal(material, surface, 1)),
+                   material.where);
+}
+
+Element scattering(const GltfMaterial& material, const GltfSurface& surface) {
+    const bool isOpaque = isAllOver(surface.transmission, 0) || isAllOver(surface.metallic, 1);
+    Element all = isOpaque ? reflecting(material, surface) : transmitting(material, surface);
+    if (surface.normal) all = normalMapOf(*surface.normal, std::move(all));
+    return isOpaque && material.doubleSided ? wrapped("twosided", std::move(all)) : all;
 }
 
 } // namespace

@@ -13,7 +13,8 @@ struct PrimitiveSurface {
 };
 
 /// Textures of attributes of meshes, which the scene has once where any bsdf needs them.
-inline constexpr const char *vertexColorId = "vertex colours", *vertexAlphaId = "vertex alpha";
+inline constexpr const char *vertexColorId = "vertex colours", *vertexRootId = "roots of vertex colours",
+                            *vertexAlphaId = "vertex alpha";
 
 /// What the parameters of a material come to at such primitives.
 struct GltfSurface {

@@ -61,11 +61,18 @@ Element punctualLight(GltfContext& context, const tinygltf::Light& light, const 
     return emitter;
 }
 
+/// Unlike a spot, what a file shines is another light where it is mirrored.
+glm::dmat4 luminaireAxes(const glm::dmat4& toWorld, const SourceLocation& where) {
+    glm::dmat4 axes = lightAxes(toWorld, where);
+    if (glm::determinant(glm::dmat3(toWorld)) < 0) axes[1] = -axes[1];
+    return axes;
+}
+
 Element luminaireOf(GltfContext& context, const std::string& filename, const std::string& name,
                     const glm::dmat4& toWorld, const SourceLocation& where) {
     Element emitter = newObject("emitter", "quasilux_ies", context.newId(name, "luminaire"), where);
     addText(emitter, "filename", filename);
-    addMatrix(emitter, "to_world", lightAxes(toWorld, where));
+    addMatrix(emitter, "to_world", luminaireAxes(toWorld, where));
     return emitter;
 }
 

@@ -3,6 +3,7 @@
 #include "scene/gltf/accessors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace quasilux {
@@ -73,7 +74,13 @@ void readColors(const GltfContext& context, const tinygltf::Primitive& primitive
         const float opacity = colors.components == 4 ? share(3) : static_cast<float>(use.colorFactor.w);
         alpha.values.push_back({opacity, opacity, opacity});
     }
-    mesh.attributes = {std::move(color), std::move(alpha)};
+    if (use.needsRoots) {
+        mesh.attributes.push_back(newAttribute("vertex_color_root", 3));
+        for (const Rgb& c : color.values)
+            mesh.attributes.back().values.push_back({std::sqrt(c.r), std::sqrt(c.g), std::sqrt(c.b)});
+    }
+    mesh.attributes.push_back(std::move(color));
+    mesh.attributes.push_back(std::move(alpha));
 }
 
 void readUvs(GltfContext& context, const tinygltf::Primitive& primitive, const PrimitiveUse& use, MeshSource& mesh) {

@@ -12,6 +12,7 @@ namespace quasilux {
 struct PrimitiveUse {
     int texCoord = 0;                 ///< the set of texture coordinates
     glm::dvec4 colorFactor{1};        ///< on vertex colours, which become the attributes vertex_color and vertex_alpha
+    bool needsRoots = false;          ///< of these colours, as the attribute vertex_color_root
     std::vector<double> morphWeights; ///< of its targets
     SourceLocation where;             ///< of the primitive
 };

@@ -72,6 +72,8 @@ GltfShapes::Made GltfShapes::makeMaterial(const GltfMaterial& material, const Pr
             scene_.children.push_back(attributeTexture(id, attribute, material.where));
     };
     addOnce(surface.base, vertexColorId, "vertex_color");
+    addOnce(surface.transmitted, vertexRootId, "vertex_color_root");
+    made.needsRoots = surface.transmitted.texture == vertexRootId;
     addOnce(surface.opacity, vertexAlphaId, "vertex_alpha");
     made.bsdf = context_.newId(material.name, "material");
     scene_.children.push_back(bsdfOf(material, surface, made.bsdf));
@@ -105,7 +107,8 @@ std::string GltfShapes::meshOf(std::string name, const tinygltf::Primitive& prim
     if (!primitive.targets.empty() && !weights.empty()) name += fmt::format(" {}", fmt::join(weights, ","));
     const auto [entry, isNew] = context_.parts.meshes.try_emplace(name);
     if (isNew)
-        entry->second = readPrimitive(context_, primitive, {material.texCoord, material.colorFactor, weights, where});
+        entry->second = readPrimitive(context_, primitive,
+                                      {material.texCoord, material.colorFactor, material.needsRoots, weights, where});
     return entry->second ? name : std::string();
 }
 

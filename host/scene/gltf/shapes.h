@@ -30,6 +30,7 @@ private:
         std::optional<GltfParameter> emission;
         int texCoord = 0;
         glm::dvec4 colorFactor{1};
+        bool needsRoots = false; ///< of vertex colours
     };
     const Made& materialOf(const tinygltf::Primitive& primitive, const SourceLocation& where);
     Made makeMaterial(const GltfMaterial& material, const PrimitiveSurface& primitive, int texCoord);

@@ -25,12 +25,12 @@ public:
     GltfSurface read() {
         GltfSurface surface;
         const glm::dvec3 factor(material_.baseColor);
-        surface.base = baseColor("base colour", [=](const glm::dvec3& color) { return color * factor; });
+        surface.base = baseColor("base colour", vertexColorId, [=](const glm::dvec3& color) { return color * factor; });
         surface.transmitted = surface.base;
         // A body is entered and left: its colour is seen once of both.
         if (material_.hasVolume && material_.transmission > 0)
-            surface.transmitted =
-                baseColor("root of base colour", [=](const glm::dvec3& color) { return glm::sqrt(color * factor); });
+            surface.transmitted = baseColor("root of base colour", vertexRootId,
+                                            [=](const glm::dvec3& color) { return glm::sqrt(color * factor); });
         const double rough = material_.roughness, metal = material_.metallic, passed = material_.transmission;
         surface.roughness = number(material_.metallicRoughnessTexture, "roughness", rough,
                                    [=](const glm::dvec4& pixel) { return pixel.y * rough; });
@@ -53,7 +53,9 @@ public:
 private:
     bool isShown(const tinygltf::TextureInfo& texture) const { return texture.index >= 0 && primitive_.hasUvs; }
 
-    GltfParameter baseColor(const std::string& meaning, const std::function<glm::dvec3(const glm::dvec3&)>& change) {
+    /// `vertexId`: of vertex colours with the same change.
+    GltfParameter baseColor(const std::string& meaning, const char* vertexId,
+                            const std::function<glm::dvec3(const glm::dvec3&)>& change) {
         const glm::dvec3 factor(material_.baseColor);
         if (isShown(material_.baseTexture)) {
             if (primitive_.hasColors) context_.withoutEffect.insert("vertex colours beside a base colour texture");
@@ -61,7 +63,7 @@ private:
                 material_.baseTexture, PixelCode::srgb, meaning + " " + colorText(factor),
                 [&](const glm::dvec4& pixel) { return change(glm::dvec3(pixel)); }, material_.where);
         }
-        if (primitive_.hasColors) return {{}, vertexColorId}; // the factor is in the attribute
+        if (primitive_.hasColors) return {{}, vertexId}; // the factor is in the attribute
         return {change(glm::dvec3(1)), {}};
     }
 
