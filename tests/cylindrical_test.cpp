@@ -140,6 +140,27 @@ TEST(Cylindrical, IsTheMeanOverCellsByPhotons) {
     EXPECT_FALSE(agrees(image, {0, 8}, meanOf(4 * cells.height, cylindricalAt))) << "cells of another height";
 }
 
+// Sunlight along the cells of a grid in absorbing fog, of which red light is weakened e^-2 times in each. Control: what is
+// left in the middle of a cell counts for all of it.
+TEST(Cylindrical, PhotonsFadeAlongTheCellsInColouredFog) {
+    RenderSettings settings;
+    settings.direct = DirectLight::photons;
+    settings.photonsPerPass = 100000;
+    const Scene scene = test::meterScene(
+        R"(<emitter type="directional"><vector name="direction" value="1,0,0"/><rgb name="irradiance" value="1"/></emitter>
+        <shape type="cube"><transform name="to_world"><scale x="1" y="3" z="3"/></transform><bsdf type="null"/>
+        <medium name="interior" type="homogeneous"><rgb name="sigma_t" value="4,1,1"/><float name="albedo" value="0"/>
+        </medium></shape>)" +
+        grid("faces", "cylindrical"));
+    const auto truth = truths(scene.grids.front(), [](unsigned i, unsigned) {
+        const double entry = 4 * 0.5 * i, exit = entry + 2;
+        return (std::exp(-entry) - std::exp(-exit)) / 2 / pi;
+    });
+    EXPECT_TRUE(agrees(render(scene, settings), {0, 8}, truth));
+    settings.controlOptions = " -DMETER_MIDDLE";
+    EXPECT_FALSE(agrees(render(scene, settings), {0, 8}, truth)) << "negative control";
+}
+
 TEST(SeveralGrids, HaveNamesOfTheirOwn) {
     const auto refusal = [](const std::string& body) {
         try {

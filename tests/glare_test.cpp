@@ -96,6 +96,25 @@ Scene sceneOf(const test::SceneFiles& files, const std::string& body) {
 
 GlareSources sourcesOf(const Scene& scene) { return test::sourcesSeenBy(scene, scene.observers.at(0)); }
 
+// A `null` surface hides no lamp, so what passes it is direct light; a pane hides it here. By any integrator.
+TEST(Glare, DirectLightIsThatOfTheSourcesThatAreSeen) {
+    const test::SceneFiles files;
+    for (const std::string integrator : {"path", "volpath"}) {
+        const auto direct = [&](const std::string& bsdf) {
+            const Scene scene = sceneOf(files, fmt::format(R"(<integrator type="{}"/>{}<shape type="sphere"><point
+                name="center" x="0" y="-2" z="-1"/><float name="radius" value="0.5"/><bsdf type="{}"/></shape>
+                <?quasilux observer position="0,-2,-1" direction="0,1,0"?>)",
+                                                           integrator, ball(files, "0,0,0"), bsdf));
+            const Observer& observer = scene.observers.at(0);
+            EXPECT_EQ(sourcesOf(scene).seen.size(), bsdf == "null" ? 1u : 0u);
+            const auto first = [](const auto& points) { return points.front(); };
+            return test::readingsAtEye(scene, observer, EyeLight::direct, 4).figure(first).value;
+        };
+        EXPECT_NEAR(direct("null"), 100 / 5.0 * 2 / std::sqrt(5), 0.05) << integrator;
+        EXPECT_EQ(direct("thindielectric"), 0) << integrator;
+    }
+}
+
 // In a white ball with reflectance 1/2 all walls have the same luminance where the luminaire shines alike in all
 // directions from the centre: E = I / r² = 4 lx by direct light, 8 lx with all reflections, so L = 4 / pi cd/m², and at
 // every place and in every direction Ei = 4 lx and Lb = 4 / pi. The eye at (0, -2, -1) looks along +y: the source is at

@@ -6,6 +6,7 @@
 #include "learn/guide.h"
 #include "learn/guide_tree.h"
 #include "learn/openings.h"
+#include "prepare/media.h"
 #include "prepare/pack.h"
 #include "render/renderer.h"
 #include "scene/color.h"
@@ -32,6 +33,31 @@ bool holds(const GuideBox& box, const std::array<float, emissionDimensions>& u) 
     for (size_t d = 0; d < emissionDimensions; ++d)
         if (u[d] < box.lower[d] || u[d] >= box.lower[d] + box.size[d]) return false;
     return true;
+}
+
+// Beside emitters that are 1e9 times as strong, in any order: each has random numbers of its own, multiples of 2^-24, and
+// its photons weigh as these say.
+TEST(GuideTables, WeakEmittersAreNotLost) {
+    const auto point = [](double intensity) {
+        return "<emitter type=\"point\"><rgb name=\"intensity\" value=\"" + std::to_string(intensity) +
+               "\"/></emitter>";
+    };
+    const std::string strong = point(1e9), weak = point(1);
+    for (const std::string& body : {strong + weak, weak + strong, strong + weak + strong + weak + weak}) {
+        const test::SceneFiles files;
+        const Scene scene = loadScene(files.write("scene.xml", test::sceneWith(body)));
+        const GuideTables guide = plainGuide(flattenEmitters(scene, placeMedia(scene)));
+        ASSERT_EQ(guide.leaves.size(), scene.pointEmitters.size());
+        double below = 0;
+        for (const auto& leaf : guide.leaves) {
+            const double numbers = 0x1p24 * (leaf.cdf - below);
+            EXPECT_EQ(numbers, std::round(numbers));
+            EXPECT_GE(numbers, 1);
+            EXPECT_NEAR(leaf.weight * (leaf.cdf - below), 1, 1e-6);
+            below = leaf.cdf;
+        }
+        EXPECT_EQ(below, 1);
+    }
 }
 
 TEST(GuideTree, LeavesFillTheCubeOnce) {

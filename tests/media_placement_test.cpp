@@ -1,5 +1,6 @@
 // Which medium lies around shapes, the camera and the emitters: as stated, or derived from what holds what.
 #include "prepare/media.h"
+#include "prepare/medium_shape.h"
 
 #include "support/border_scenes.h"
 
@@ -117,6 +118,19 @@ TEST(MediaPlacement, RaysOfACameraBeginOnItsNearPlane) {
     scene.sensor.fovX = 0;
     scene.sensor.apertureRadius = 12;
     EXPECT_EQ(cameraMedium(scene, {0, 0, -30}), MEDIUM_BY_PLACE) << "the lens is wider than the fog";
+}
+
+// A glass block in a wide sea, say, of which both sides state the same water: water does not end at it.
+TEST(MediumShape, EndsNowhereAtASurfaceThatHasItOnBothSides) {
+    Scene scene;
+    scene.media.resize(1);
+    cube(scene, {0, 0, 0}, 1).interior = fog;
+    EXPECT_EQ(findMediumShape(scene, fog).planes.size(), 6u);
+    scene.shapes[0].exterior = fog;
+    addSphere(scene, {0, 0, 0}, 50);
+    const MediumShape shape = findMediumShape(scene, fog);
+    EXPECT_TRUE(shape.planes.empty());
+    EXPECT_GE(shape.extent, 100);
 }
 
 TEST(MediaPlacement, WhatIsStatedWins) {

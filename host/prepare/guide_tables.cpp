@@ -32,6 +32,29 @@ double fluxOf(const EmitterTables& emitters, const shared::GuideSource& source) 
     return mean(emitter.radiance) * solidAngle * area;
 }
 
+// Random numbers are multiples of 2^-24, so boxes have so many of them each: single precision and sums of small numbers
+// after large ones would leave some boxes none, or not what their weight says.
+constexpr double numbers = 0x1p24, fewestNumbers = 16;
+
+/// How many numbers fall to each box, in proportion to its probability: in all as many as there are.
+std::vector<double> numbersOf(const std::vector<SourceBox>& boxes) {
+    const double fewest = std::clamp(std::floor(numbers / (2.0 * double(boxes.size()))), 1.0, fewestNumbers);
+    double all = 0, taken = 0;
+    for (const auto& [source, box] : boxes) all += box.probability;
+    std::vector<double> counts;
+    for (const auto& [source, box] : boxes) {
+        counts.push_back(std::max(std::round(box.probability / all * numbers), fewest));
+        taken += counts.back();
+    }
+    for (double over = taken - numbers; over != 0;) { // from those that have most
+        double& most = *std::max_element(counts.begin(), counts.end());
+        const double change = std::min(over, std::floor(most / 2));
+        most -= change;
+        over -= change;
+    }
+    return counts;
+}
+
 } // namespace
 
 bool isSurroundings(const shared::Emitter& emitter) {
@@ -49,13 +72,14 @@ double GuideBox::volume() const {
 GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::GuideSource> sources,
                             const std::vector<SourceBox>& boxes) {
     GuideTables tables;
-    double all = 0, cdf = 0, logFlux = 0, heaviest = 0;
-    for (const auto& [source, box] : boxes) all += box.probability;
-    for (const auto& [source, box] : boxes) {
-        const double probability = box.probability / all, weight = box.volume() / probability;
+    double cdf = 0, logFlux = 0, heaviest = 0;
+    const std::vector<double> counts = numbersOf(boxes);
+    for (size_t k = 0; k < boxes.size(); ++k) {
+        const auto& [source, box] = boxes[k];
+        const double probability = counts[k] / numbers, weight = box.volume() / probability;
         cdf += probability;
         shared::GuideLeaf leaf{};
-        leaf.cdf = static_cast<float>(cdf);
+        leaf.cdf = static_cast<float>(cdf); // without rounding
         leaf.source = source;
         leaf.weight = static_cast<float>(weight);
         for (size_t d = 0; d < emissionDimensions; ++d) {
@@ -67,7 +91,6 @@ GuideTables makeGuideTables(const EmitterTables& emitters, std::vector<shared::G
         logFlux += probability * std::log(flux);
         heaviest = std::max(heaviest, flux);
     }
-    if (!tables.leaves.empty()) tables.leaves.back().cdf = 1;
     tables.typicalFlux = std::max(std::exp(logFlux), heaviest / heaviestToTypical);
     tables.sources = std::move(sources);
     return tables;

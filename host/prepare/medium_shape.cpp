@@ -152,6 +152,7 @@ MediumShape findMediumShape(const Scene& scene, unsigned medium) {
     size_t boundaries = 0;
     EnclosedVolume volume;
     for (const auto& candidate : scene.shapes) {
+        if (candidate.interior == candidate.exterior) continue; // it goes on behind the surface
         boundaries += candidate.interior == medium || candidate.exterior == medium;
         if (candidate.interior != medium) continue;
         box.add(boxOf(candidate));

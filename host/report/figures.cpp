@@ -40,6 +40,13 @@ double crossed(const BatchedReadings& readings, PixelRange range, double sign) {
 // From the lamp to the eye (Scene::maxDepth).
 constexpr int segmentsOfDirectLight = 1;
 
+/// Lamps behind them are no glare sources (Occlusion), so their light must be no direct light; through `null` surfaces
+/// they are seen.
+bool hasPanesOrMasks(const Scene& scene) {
+    return std::any_of(scene.bsdfs.begin(), scene.bsdfs.end(),
+                       [](const Bsdf& bsdf) { return !bsdf.isNull && bsdf.letsPass(); });
+}
+
 /// Of two independent figures.
 Figure difference(const Figure& a, const Figure& b) {
     return {a.value - b.value, std::hypot(a.standardError, b.standardError), std::min(a.batches, b.batches)};
@@ -157,7 +164,10 @@ void measureAtEye(Scene& scene, const Observer& observer, EyeLight light) {
     scene.surroundings.reset();
     scene.directionalEmitters.clear();
     scene.grids = {eyeGrid(observer)};
-    if (light == EyeLight::direct) scene.maxDepth = segmentsOfDirectLight;
+    if (light == EyeLight::direct) {
+        scene.maxDepth = segmentsOfDirectLight;
+        scene.countsPassages = hasPanesOrMasks(scene);
+    }
     useGridsAsSensor(scene);
 }
 
