@@ -186,6 +186,24 @@ TEST(Integrator, DepthLimit) {
                 testing::HasSubstr("stderr.R"));
 }
 
+// As in Mitsuba 3.9.1, where that of the outer one changes no pixel.
+TEST(Integrator, EmittersAreHiddenByTheNestedOneAlone) {
+    const auto hide = [](const char* value) {
+        return std::string(R"(<boolean name="hide_emitters" value=")") + value + "\"/>";
+    };
+    for (const std::string outer : {"aov", "moment"}) {
+        const auto hides = [&](const std::string& ofOuter, const std::string& ofNested) {
+            return loadBody("<integrator type=\"" + outer + "\">" + ofOuter + R"(<integrator type="path">)" + ofNested +
+                            "</integrator></integrator>")
+                .hideEmitters;
+        };
+        EXPECT_FALSE(hides(hide("true"), "")) << outer;
+        EXPECT_FALSE(hides(hide("true"), hide("false"))) << outer;
+        EXPECT_TRUE(hides(hide("false"), hide("true"))) << outer;
+        EXPECT_TRUE(hides("", hide("true"))) << outer;
+    }
+}
+
 TEST(Integrator, FormerOnesForAllLightAreThePath) {
     const std::string limit = R"(<integer name="max_depth" value="4"/>)";
     for (const std::string type : {"bdpt", "vpl", "volpath_simple", "volpathsimple"})

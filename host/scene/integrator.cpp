@@ -109,9 +109,8 @@ IntegratorChoice readNested(Properties& properties) {
             "and stderr.B; layers of second moments are not written.");
     if (plugin == "aov") properties.context().scene.aovs = readLayers(properties);
     const Element* nested = properties.object("integrator");
-    IntegratorChoice choice = nested ? readIntegrator(*nested, properties.context()) : IntegratorChoice{};
-    choice.hidesEmitters = properties.boolean("hide_emitters", choice.hidesEmitters);
-    return choice;
+    properties.accept({"hide_emitters"}); // in Mitsuba the nested one goes by its own
+    return nested ? readIntegrator(*nested, properties.context()) : IntegratorChoice{};
 }
 
 /// Of Mitsuba 0.x and 2, for all light.
