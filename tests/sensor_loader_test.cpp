@@ -186,6 +186,30 @@ TEST(Integrator, DepthLimit) {
                 testing::HasSubstr("stderr.R"));
 }
 
+// Mitsuba 3.9.1: a point lights nothing without samples of emitters, a mirror under a white sky is black without those
+// of bsdfs, and it refuses a scene with neither.
+TEST(Integrator, SamplesThatMitsubaLacksAreWarnedOf) {
+    const auto integrator = [](const std::string& name, int count) {
+        return "<integrator type=\"direct\">\n<integer name=\"" + name + "\" value=\"" + std::to_string(count) +
+               "\"/></integrator>";
+    };
+    const auto warnings = [&](const std::string& name, int count) {
+        return loadBody(integrator(name, count)).warnings;
+    };
+    for (const std::string name : {"emitter_samples", "bsdf_samples"}) {
+        EXPECT_THAT(warnings(name, 0), testing::ElementsAre(testing::AllOf(
+                                           testing::HasSubstr("scene.xml:5:1: integrator 'direct' without " + name),
+                                           testing::HasSubstr("Mitsuba's image lacks"))));
+        EXPECT_TRUE(warnings(name, 1).empty()) << name;
+    }
+    EXPECT_TRUE(warnings("shading_samples", 4).empty());
+    SceneFiles files;
+    EXPECT_THAT(test::errorOf(files.write("scene.xml", test::sceneWith(integrator("shading_samples", 0)))),
+                testing::HasSubstr("scene.xml:4:1: integrator 'direct' has neither emitter_samples nor bsdf_samples"));
+    EXPECT_THAT(test::errorOf(files.write("scene.xml", test::sceneWith(integrator("bsdf_samples", -1)))),
+                testing::HasSubstr("'bsdf_samples' is -1"));
+}
+
 // As in Mitsuba 3.9.1, where that of the outer one changes no pixel.
 TEST(Integrator, EmittersAreHiddenByTheNestedOneAlone) {
     const auto hide = [](const char* value) {
