@@ -47,5 +47,21 @@ TEST(Includes, AndSpectraAreLookedForWhereMitsubaDoes) {
     EXPECT_EQ(found(R"(<include filename="parts/own.xml"/>)"), "parts/deep/");
 }
 
+// As in Mitsuba 3.9.1; that of a <scene> says nothing.
+TEST(Includes, MayNameTheirObject) {
+    SceneFiles files;
+    const std::string texture = R"(type="checkerboard"><rgb name="color0" value="0.25"/></texture>)";
+    files.write("plain.xml", "<texture version=\"3.0.0\" " + texture);
+    files.write("named.xml", "<texture version=\"3.0.0\" name=\"other\" " + texture);
+    files.write("scene_of_one.xml", "<scene version=\"3.0.0\"><texture name=\"reflectance\" " + texture + "</scene>");
+    for (const std::string include :
+         {R"("plain.xml" name="reflectance")", R"("named.xml" name="reflectance")", R"("scene_of_one.xml" name="x")"}) {
+        const Scene scene = loadScene(files.write(
+            "scene.xml", sceneWith("<shape type=\"cube\"><bsdf type=\"diffuse\"><include filename=" + include +
+                                   "/></bsdf></shape>")));
+        EXPECT_EQ(scene.textures.size(), 1u) << include;
+    }
+}
+
 } // namespace
 } // namespace quasilux

@@ -43,6 +43,13 @@ private:
     std::vector<size_t> lineStarts_;
 };
 
+/// As the parameter `name` of the object around it.
+void rename(Element& object, const std::string& name) {
+    auto& all = object.attributes;
+    all.erase(std::remove_if(all.begin(), all.end(), [](const Attribute& a) { return a.name == "name"; }), all.end());
+    all.push_back({"name", name});
+}
+
 struct Parameter {
     std::string name, value;
     bool given = false; ///< by the caller; a `<default>` does not change it
@@ -232,6 +239,7 @@ private:
         version_ = version;
         folders_ = folders;
         if (root.tag != "scene") {
+            if (const std::string* name = element.find("name")) rename(root, *name);
             checkElement(root, &parent);
             parent.children.push_back(std::move(root));
             return;
