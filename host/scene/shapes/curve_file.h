@@ -14,8 +14,8 @@ struct CurvePoint {
 };
 using Curve = std::vector<CurvePoint>;
 
-/// Those of the file `filename` under the curve's own `to_world`, before an instance places them: lines "x y z radius", blank lines between curves of at least `fewest`
-/// points. Throws InputError at its line for a bad file.
+/// Those of the file `filename` under the curve's own `to_world`, before an instance places them: lines "x y z radius",
+/// blank lines between curves of at least `fewest` points. Throws InputError at its line for a bad file.
 std::vector<Curve> readCurves(Properties& properties, size_t fewest);
 
 } // namespace quasilux

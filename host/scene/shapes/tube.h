@@ -24,7 +24,8 @@ struct Ring {
 
 /// Adds the tube through these rings, two or more. Its ends are open.
 void appendTube(const std::vector<Ring>& rings, MeshSource& mesh);
-/// Tubes under their own to_world as the mesh of `shape`, where `placement` puts it. Throws InputError at `file` where they have no area.
+/// Tubes under their own to_world as the mesh of `shape`, where `placement` puts it. Throws InputError at `file` where
+/// they have no area.
 Mesh tubeMesh(const MeshSource& tubes, const glm::dmat4& placement, const ShapeDescription& shape,
               const SourceLocation& file);
 
