@@ -130,6 +130,29 @@ TEST(EmittersOff, AreKeptInMindForHiding) {
     EXPECT_FALSE(test::loadShape("<shape type=\"rectangle\"/>").emitterIsOff);
 }
 
+// Mitsuba 3.9.1, beside a second emitter: the first five then light nothing, the others as ever.
+TEST(EmittersOff, AreThoseThatOnlySamplesOfWeightZeroFind) {
+    const std::string never = R"(<float name="sampling_weight" value="0"/>)";
+    const std::string rarely = R"(<float name="sampling_weight" value="1e-3"/>)";
+    for (const std::string plugin : {"point", "spot", "directional", "projector"}) {
+        const std::string picture = plugin == "projector" ? R"(<rgb name="irradiance" value="1"/>)" : "";
+        const Scene off = test::loadBody(of(plugin, picture + never));
+        EXPECT_EQ(emittersOf(off), 1u) << plugin;
+        EXPECT_THAT(off.warnings, ElementsAre(HasSubstr("is off: its sampling_weight is 0"))) << plugin;
+        EXPECT_TRUE(off.withoutEffect.empty()) << plugin;
+        const Scene on = test::loadBody(of(plugin, picture + rarely));
+        EXPECT_EQ(emittersOf(on), 2u) << plugin;
+        EXPECT_THAT(on.withoutEffect, ElementsAre("sampling_weight")) << plugin;
+    }
+    EXPECT_TRUE(test::loadShape(inShape(of("directionalarea", never))).emitterIsOff);
+    for (const std::string& met : {of("constant", never), of("sunsky", never), inShape(of("area", never))})
+        EXPECT_EQ(emittersOf(test::loadBody(met)), 2u) << met;
+    const test::SceneFiles files;
+    EXPECT_THAT(test::errorOf(files.write(
+                    "scene.xml", test::sceneWith(of("point", R"(<float name="sampling_weight" value="-1"/>)")))),
+                HasSubstr("'sampling_weight' of emitter 'point' is -1; it must be at least 0"));
+}
+
 TEST(EmittersOff, NegativeOnesAreRefused) {
     test::SceneFiles files;
     EXPECT_THAT(

@@ -101,12 +101,35 @@ TEST(InstanceLevels, AreFlattenedWhereTheyCannotBeKept) {
               0u);
 }
 
-TEST(InstanceLevels, OfCurvesAreFlattened) {
+const char* const curves = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"linearcurve\"><string "
+                           "name=\"filename\" value=\"c.txt\"/><transform name=\"to_world\"><scale value=\"2\"/>"
+                           "</transform></shape></shape>";
+
+// As in Mitsuba 3.9.1: the curve's own to_world leaves its radius, that of the instance does not.
+TEST(Instances, OfCurvesScaleTheRadiiToo) {
     SceneFiles files;
-    files.write("c.txt", "0 0 0 1\n1 0 0 1\n");
-    const std::string curves = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"linearcurve\"><string "
-                               "name=\"filename\" value=\"c.txt\"/></shape></shape>";
-    EXPECT_EQ(loadScene(files.write("scene.xml", sceneWith(asLevel + curves + instance("")))).instances.size(), 0u);
+    files.write("c.txt", "-1 0 0 0.1\n1 0 0 0.1\n");
+    const auto sizeUnder = [&](const std::string& operations) {
+        const Scene scene = loadScene(files.write("scene.xml", sceneWith(curves + instance(operations))));
+        glm::vec3 largest(0);
+        for (const glm::vec3& p : scene.shapes.at(0).mesh.positions) largest = glm::max(largest, p);
+        return largest;
+    };
+    expectNear(sizeUnder("") / glm::vec3(2.1, 0.1, 0.1), glm::vec3(1), 0.005f);
+    expectNear(sizeUnder("<scale value=\"10\"/>") / glm::vec3(21, 1, 1), glm::vec3(1), 0.005f);
+    expectNear(sizeUnder("<scale x=\"1\" y=\"10\" z=\"20\"/>") / glm::vec3(2.1, 1, 2), glm::vec3(1), 0.005f);
+}
+
+TEST(InstanceLevels, OfCurvesAreKept) {
+    SceneFiles files;
+    files.write("c.txt", "-1 0 0 0.1\n1 0 0 0.1\n");
+    const std::string far = "<translate x=\"1e6\"/>"; // the scene's origin belongs to the instance
+    const Scene scene = loadScene(files.write("scene.xml", sceneWith(asLevel + curves + instance(far))));
+    ASSERT_EQ(scene.instances.size(), 1u);
+    glm::vec3 largest(0);
+    for (const glm::vec3& p : scene.shapes.at(0).mesh.positions) largest = glm::max(largest, p);
+    expectNear(largest / glm::vec3(2.1, 0.1, 0.1), glm::vec3(1), 0.005f);
+    EXPECT_NEAR(scene.origin.x + scene.instances[0].toWorld[3].x, 1e6, 1e-3);
 }
 
 TEST(InstanceLevels, AreChosenWhereCopiesWouldBeAMillionTriangles) {

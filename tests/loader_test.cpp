@@ -297,6 +297,25 @@ TEST(Documents, ParametersOfFormerVersionsAreRead) {
         << "control";
 }
 
+// Mitsuba 3.9.1 takes each of these, of 0.5 to 1.0.
+TEST(Documents, TheFormerNameOfReflectanceMayNameATextureOrAFile) {
+    SceneFiles files;
+    files.write("grey.pgm", "P2 1 1 255 128");
+    files.write("grey.spd", "400 0.2\n700 0.2\n");
+    const auto load = [&](const std::string& color) {
+        return loadScene(files.write("scene.xml", R"(<scene version="0.6.0"><sensor type="perspective"/>
+            <emitter type="point"/><texture id="t" type="bitmap"><string name="filename" value="grey.pgm"/></texture>
+            <shape type="rectangle"><bsdf type="diffuse">)" +
+                                                      color + "</bsdf></shape></scene>"));
+    };
+    const std::string texture = R"(<texture name="diffuseReflectance" type="bitmap">
+        <string name="filename" value="grey.pgm"/></texture>)";
+    for (const std::string& color : {texture, std::string(R"(<ref id="t" name="diffuseReflectance"/>)")})
+        EXPECT_NEAR(load(color).textures.at(0).texels.at(0).r, 0.21586f, 1e-4f) << color;
+    const Scene scene = load(R"(<spectrum name="diffuseReflectance" filename="grey.spd"/>)");
+    EXPECT_NEAR(scene.bsdfs.at(0).front.at(0).device.reflectance.g, 0.2f, 2e-3f);
+}
+
 TEST(Documents, CommentsOtherInstructionsAndByteOrderMarkAreNoMatter) {
     SceneFiles files;
     const Scene scene = loadScene(

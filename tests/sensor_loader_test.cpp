@@ -186,6 +186,48 @@ TEST(Integrator, DepthLimit) {
                 testing::HasSubstr("stderr.R"));
 }
 
+// Mitsuba 3.9.1: a point lights nothing without samples of emitters, a mirror under a white sky is black without those
+// of bsdfs, and it refuses a scene with neither.
+TEST(Integrator, SamplesThatMitsubaLacksAreWarnedOf) {
+    const auto integrator = [](const std::string& name, int count) {
+        return "<integrator type=\"direct\">\n<integer name=\"" + name + "\" value=\"" + std::to_string(count) +
+               "\"/></integrator>";
+    };
+    const auto warnings = [&](const std::string& name, int count) {
+        return loadBody(integrator(name, count)).warnings;
+    };
+    for (const std::string name : {"emitter_samples", "bsdf_samples"}) {
+        EXPECT_THAT(warnings(name, 0), testing::ElementsAre(testing::AllOf(
+                                           testing::HasSubstr("scene.xml:5:1: integrator 'direct' without " + name),
+                                           testing::HasSubstr("Mitsuba's image lacks"))));
+        EXPECT_TRUE(warnings(name, 1).empty()) << name;
+    }
+    EXPECT_TRUE(warnings("shading_samples", 4).empty());
+    SceneFiles files;
+    EXPECT_THAT(test::errorOf(files.write("scene.xml", test::sceneWith(integrator("shading_samples", 0)))),
+                testing::HasSubstr("scene.xml:4:1: integrator 'direct' has neither emitter_samples nor bsdf_samples"));
+    EXPECT_THAT(test::errorOf(files.write("scene.xml", test::sceneWith(integrator("bsdf_samples", -1)))),
+                testing::HasSubstr("'bsdf_samples' is -1"));
+}
+
+// As in Mitsuba 3.9.1, where that of the outer one changes no pixel.
+TEST(Integrator, EmittersAreHiddenByTheNestedOneAlone) {
+    const auto hide = [](const char* value) {
+        return std::string(R"(<boolean name="hide_emitters" value=")") + value + "\"/>";
+    };
+    for (const std::string outer : {"aov", "moment"}) {
+        const auto hides = [&](const std::string& ofOuter, const std::string& ofNested) {
+            return loadBody("<integrator type=\"" + outer + "\">" + ofOuter + R"(<integrator type="path">)" + ofNested +
+                            "</integrator></integrator>")
+                .hideEmitters;
+        };
+        EXPECT_FALSE(hides(hide("true"), "")) << outer;
+        EXPECT_FALSE(hides(hide("true"), hide("false"))) << outer;
+        EXPECT_TRUE(hides(hide("false"), hide("true"))) << outer;
+        EXPECT_TRUE(hides("", hide("true"))) << outer;
+    }
+}
+
 TEST(Integrator, FormerOnesForAllLightAreThePath) {
     const std::string limit = R"(<integer name="max_depth" value="4"/>)";
     for (const std::string type : {"bdpt", "vpl", "volpath_simple", "volpathsimple"})

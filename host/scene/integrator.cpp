@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 
 namespace quasilux {
 
@@ -51,11 +52,35 @@ IntegratorChoice readForDerivatives(Properties& properties) {
             properties.plugin() != "prbvolpath"};
 }
 
+/// How many samples are taken is chosen here, but a way of sampling that Mitsuba has none of leaves out light.
+void checkSamples(Properties& properties) {
+    constexpr int most = std::numeric_limits<int>::max();
+    const int both = properties.integerWithin("shading_samples", 1, 0, most);
+    const int ofEmitters = properties.integerWithin("emitter_samples", both, 0, most);
+    const int ofBsdfs = properties.integerWithin("bsdf_samples", both, 0, most);
+    const auto warn = [&](const char* name, const char* lost) {
+        properties.context().warn(properties.where(name),
+                                  fmt::format("integrator 'direct' without {}: Mitsuba's image lacks {}; here it is "
+                                              "there.",
+                                              name, lost));
+    };
+    if (ofEmitters == 0 && ofBsdfs == 0)
+        properties.context().refuseUnknown(properties.element().where,
+                                           "integrator 'direct' has neither emitter_samples nor bsdf_samples; give one "
+                                           "of them, or none.",
+                                           "taken as if both were 1");
+    else if (ofEmitters == 0)
+        warn("emitter_samples", "the light of points and parallel light");
+    else if (ofBsdfs == 0)
+        warn("bsdf_samples", "what smooth mirrors and glass show");
+    properties.accept({"shading_samples", "emitter_samples", "bsdf_samples"});
+}
+
 /// Light of one scattering, and of emitters seen directly.
 IntegratorChoice readDirect(Properties& properties) {
     properties.accept(sampling);
     if (properties.plugin() == "direct") {
-        properties.accept({"shading_samples", "emitter_samples", "bsdf_samples"});
+        checkSamples(properties);
     } else {
         properties.accept(properties.plugin() == "direct_reparam" ? ofReparameterization : ofSilhouettes);
         properties.accept({"max_depth", "rr_depth"}); // read by Mitsuba, and replaced by 2
@@ -109,9 +134,8 @@ IntegratorChoice readNested(Properties& properties) {
             "and stderr.B; layers of second moments are not written.");
     if (plugin == "aov") properties.context().scene.aovs = readLayers(properties);
     const Element* nested = properties.object("integrator");
-    IntegratorChoice choice = nested ? readIntegrator(*nested, properties.context()) : IntegratorChoice{};
-    choice.hidesEmitters = properties.boolean("hide_emitters", choice.hidesEmitters);
-    return choice;
+    properties.accept({"hide_emitters"}); // in Mitsuba the nested one goes by its own
+    return nested ? readIntegrator(*nested, properties.context()) : IntegratorChoice{};
 }
 
 /// Of Mitsuba 0.x and 2, for all light.

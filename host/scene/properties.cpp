@@ -166,10 +166,18 @@ glm::dvec3 Properties::direction(const std::string& name, const glm::dvec3& miss
 }
 
 glm::dmat4 Properties::transform(const std::string& name) {
+    const glm::dmat4 own = ownTransform(name);
+    return name == "to_world" ? placement() * own : own;
+}
+
+glm::dmat4 Properties::ownTransform(const std::string& name) {
     const Element* parameter = find(name, {"transform"});
-    glm::dmat4 matrix = parameter ? parseTransform(*parameter) : glm::dmat4(1.0);
-    if (name == "to_world" && context_.placement) matrix = *context_.placement * matrix;
-    if (name == "to_world") matrix[3] -= glm::dvec4(context_.scene.origin, 0);
+    return parameter ? parseTransform(*parameter) : glm::dmat4(1.0);
+}
+
+glm::dmat4 Properties::placement() const {
+    glm::dmat4 matrix = context_.placement.value_or(glm::dmat4(1.0));
+    matrix[3] -= glm::dvec4(context_.scene.origin, 0);
     return matrix;
 }
 

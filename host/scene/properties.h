@@ -49,6 +49,10 @@ public:
     glm::dvec3 direction(const std::string& name, const glm::dvec3& missing);
     /// Unity where it is missing. What `to_world` leads to is relative to Scene::origin.
     glm::dmat4 transform(const std::string& name);
+    /// The same without the part of an instance, and without Scene::origin: as the file states it.
+    glm::dmat4 ownTransform(const std::string& name);
+    /// What `to_world` has beside that.
+    glm::dmat4 placement() const;
     /// Channels within [0, 1].
     Rgb reflectance(const std::string& name, float missing);
     /// Channels of at least 0. `use` is for spectra.

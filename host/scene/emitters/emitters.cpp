@@ -37,10 +37,22 @@ constexpr SceneEmitterPlugin sceneEmitters[] = {
 };
 
 /// As in Mitsuba a lamp that is off is no error; here it is not even asked for light.
-void warnOff(const Element& element, LoadContext& context) {
+void warnOff(const Element& element, LoadContext& context, std::string_view why = "all that it emits is 0") {
     ++context.emittersOff;
-    context.warn(element.where,
-                 fmt::format("emitter '{}' is off: all that it emits is 0. It is left out.", idOf(element)));
+    context.warn(element.where, fmt::format("emitter '{}' is off: {}. It is left out.", idOf(element), why));
+}
+
+constexpr std::string_view neverSampled = "its sampling_weight is 0, and nothing but samples of it finds its light";
+
+/// Which emitter is chosen is learned here, but for a weight of 0: in Mitsuba light of the emitter then comes by what
+/// bsdfs scatter there alone, and points and parallel light have nothing that a ray could meet.
+bool isNeverSampled(Properties& properties) {
+    constexpr std::string_view withoutSurface[] = {"point", "spot", "directional", "projector", "directionalarea"};
+    const bool isMet = std::find(std::begin(withoutSurface), std::end(withoutSurface), properties.plugin()) ==
+                       std::end(withoutSurface);
+    if (properties.numberAbove("sampling_weight", 1, 0, false) == 0 && !isMet) return true;
+    properties.accept({"sampling_weight"});
+    return false;
 }
 
 bool isOff(const PointEmitter& emitter) { return isBlack(emitter.intensity); }
@@ -103,10 +115,14 @@ std::optional<AreaEmitter> readShapeEmitter(const Element& element, LoadContext&
         context.usedEmitters.insert(&element);
         Properties properties(element, context);
         AreaEmitter emitter = plugin.read(properties);
-        properties.accept({"sampling_weight"}); // which emitter is chosen is learned
+        const bool isUnused = isNeverSampled(properties);
         properties.finish();
-        if (!isBlack(emitter.radiance)) return emitter;
-        warnOff(element, context);
+        if (isBlack(emitter.radiance))
+            warnOff(element, context);
+        else if (isUnused)
+            warnOff(element, context, neverSampled);
+        else
+            return emitter;
         return std::nullopt;
     }
     throwNotHere(element);
@@ -117,10 +133,15 @@ void readSceneEmitter(const Element& element, LoadContext& context) {
         if (plugin.name != element.get("type")) continue;
         Properties properties(element, context);
         SceneEmitter emitter = plugin.read(properties);
-        properties.accept({"sampling_weight"}); // which emitter is chosen is learned
+        const bool isUnused = isNeverSampled(properties);
         properties.finish();
         const auto finish = [&](auto& read) {
-            isOff(read) ? warnOff(element, context) : add(std::move(read), context.scene);
+            if (isOff(read))
+                warnOff(element, context);
+            else if (isUnused)
+                warnOff(element, context, neverSampled);
+            else
+                add(std::move(read), context.scene);
         };
         std::visit(finish, emitter);
         return;

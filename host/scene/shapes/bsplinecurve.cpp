@@ -98,7 +98,7 @@ void readBsplineCurve(Properties& properties, ShapeDescription& shape) {
         setAxesAtRest(rings, properties.where("filename"));
         appendTube(rings, mesh);
     }
-    shape.mesh = tubeMesh(mesh, shape, properties.where("filename"));
+    shape.mesh = tubeMesh(mesh, properties.placement(), shape, properties.where("filename"));
 }
 
 } // namespace quasilux

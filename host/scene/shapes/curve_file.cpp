@@ -38,7 +38,7 @@ std::vector<Curve> readCurves(Properties& properties, size_t fewest) {
         throw InputError(whereName,
                          fmt::format("{} needs <string name=\"filename\" value=\"…\"/>.", properties.describe()));
     const std::string path = properties.context().files.resolve(name, whereName);
-    const glm::dmat4 toWorld = properties.transform("to_world");
+    const glm::dmat4 own = properties.ownTransform("to_world");
     std::istringstream lines(readFile(path, whereName, "curve"));
     std::vector<Curve> curves(1);
     SourceLocation where{path, 0, 0};
@@ -46,7 +46,7 @@ std::vector<Curve> readCurves(Properties& properties, size_t fewest) {
         ++where.line;
         if (line.find_first_not_of(" \t\r") != std::string::npos) {
             CurvePoint point = parsePoint(line, where);
-            point.position = transformPoint(toWorld, point.position);
+            point.position = transformPoint(own, point.position);
             curves.back().push_back(point);
         } else if (!curves.back().empty()) {
             checkLength(curves.back(), fewest, where);

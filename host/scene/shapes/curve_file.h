@@ -9,13 +9,13 @@
 namespace quasilux {
 
 struct CurvePoint {
-    glm::dvec3 position{}; ///< in world space
-    double radius = 0;     ///< there, too: transforms leave it, as in Mitsuba
+    glm::dvec3 position{}; ///< under the curve's own to_world
+    double radius = 0;     ///< which leaves it, as in Mitsuba; instances scale the tube as a whole
 };
 using Curve = std::vector<CurvePoint>;
 
-/// Those of the file `filename` under `to_world`: lines "x y z radius", blank lines between curves of at least `fewest`
-/// points. Throws InputError at its line for a bad file.
+/// Those of the file `filename` under the curve's own `to_world`, before an instance places them: lines "x y z radius",
+/// blank lines between curves of at least `fewest` points. Throws InputError at its line for a bad file.
 std::vector<Curve> readCurves(Properties& properties, size_t fewest);
 
 } // namespace quasilux

@@ -27,11 +27,10 @@ bool hasSphere(const GroupUse& use) {
                        [](const auto& shape) { return shape.sphere.has_value(); });
 }
 
-/// Media lie where their shapes are in the world; radii of curves do not go by the transform of an instance.
+/// Media lie where their shapes are in the world.
 bool mustBeFlattened(const GroupUse& use) {
-    return std::any_of(use.shapes.begin(), use.shapes.end(), [](const auto& shape) {
-        return shape.interior || shape.exterior || shape.plugin == "bsplinecurve" || shape.plugin == "linearcurve";
-    });
+    return std::any_of(use.shapes.begin(), use.shapes.end(),
+                       [](const auto& shape) { return shape.interior || shape.exterior; });
 }
 
 /// In a space in which single precision does them justice.

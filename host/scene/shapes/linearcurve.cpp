@@ -84,7 +84,7 @@ void readLinearCurve(Properties& properties, ShapeDescription& shape) {
                              "a curve's control points are all the same; set them apart.");
         appendTube(ringsOf(apart), mesh);
     }
-    shape.mesh = tubeMesh(mesh, shape, properties.where("filename"));
+    shape.mesh = tubeMesh(mesh, properties.placement(), shape, properties.where("filename"));
 }
 
 } // namespace quasilux

@@ -61,9 +61,10 @@ void appendTube(const std::vector<Ring>& rings, MeshSource& mesh) {
         }
 }
 
-Mesh tubeMesh(const MeshSource& tubes, const ShapeDescription& shape, const SourceLocation& file) {
+Mesh tubeMesh(const MeshSource& tubes, const glm::dmat4& placement, const ShapeDescription& shape,
+              const SourceLocation& file) {
     if (tubes.triangles.empty()) throw InputError(file, "the curves have no area: give them radii above 0.");
-    return fileMesh(tubes, glm::dmat4(1.0), shape.flipNormals, false, shape.where);
+    return fileMesh(tubes, placement, shape.flipNormals, false, shape.where);
 }
 
 } // namespace quasilux

@@ -24,7 +24,9 @@ struct Ring {
 
 /// Adds the tube through these rings, two or more. Its ends are open.
 void appendTube(const std::vector<Ring>& rings, MeshSource& mesh);
-/// Tubes in world space as the mesh of `shape`. Throws InputError at `file` where they have no area.
-Mesh tubeMesh(const MeshSource& tubes, const ShapeDescription& shape, const SourceLocation& file);
+/// Tubes under their own to_world as the mesh of `shape`, where `placement` puts it. Throws InputError at `file` where
+/// they have no area.
+Mesh tubeMesh(const MeshSource& tubes, const glm::dmat4& placement, const ShapeDescription& shape,
+              const SourceLocation& file);
 
 } // namespace quasilux

@@ -16,15 +16,21 @@ bool isThere(const fs::path& path) {
     return fs::exists(path, ignored);
 }
 
-fs::path folderOf(const std::string& file) { return fs::path(file).parent_path(); }
-
 } // namespace
 
-FileResolver::FileResolver(const std::string& scene, std::shared_ptr<LoadGuard> guard)
-    : folders_{folderOf(scene).string()}, guard_(guard ? std::move(guard) : std::make_shared<LoadGuard>(scene)) {}
+std::string folderOf(const std::string& file) { return fs::path(file).parent_path().string(); }
 
-void FileResolver::prepend(const std::string& value, const SourceLocation& where) {
-    std::string folder = (folderOf(where.file) / value).string();
+std::optional<std::string> findIn(const Folders& folders, const std::string& name) {
+    for (const std::string& folder : folders)
+        if (const fs::path found = fs::path(folder) / name; isThere(found)) return found.string();
+    return std::nullopt;
+}
+
+FileResolver::FileResolver(const std::string& scene, std::shared_ptr<LoadGuard> guard)
+    : folders_{folderOf(scene)}, guard_(guard ? std::move(guard) : std::make_shared<LoadGuard>(scene)) {}
+
+std::string FileResolver::prepend(const std::string& value, const SourceLocation& where) {
+    std::string folder = (fs::path(folderOf(where.file)) / value).string();
     std::error_code ignored;
     if (!fs::is_directory(folder, ignored)) folder = find(value, where);
     guard_->admitFolder(folder, where);
@@ -34,18 +40,19 @@ void FileResolver::prepend(const std::string& value, const SourceLocation& where
                                value));
     if (std::find(folders_.begin(), folders_.end(), folder) == folders_.end())
         folders_.insert(folders_.begin(), folder);
+    return folder;
 }
 
-std::string FileResolver::resolve(const std::string& name, const SourceLocation& where) const {
-    std::string path = find(name, where);
+std::string FileResolver::resolve(const std::string& name, const SourceLocation& where, const Folders& before) const {
+    const auto found = findIn(before, name);
+    std::string path = found ? *found : find(name, where);
     guard_->admit(path, where);
     return path;
 }
 
 std::string FileResolver::find(const std::string& name, const SourceLocation& where) const {
-    for (const auto& folder : folders_)
-        if (const fs::path found = fs::path(folder) / name; isThere(found)) return found.string();
-    return (folderOf(where.file) / name).string();
+    if (const auto found = findIn(folders_, name)) return *found;
+    return (fs::path(folderOf(where.file)) / name).string();
 }
 
 } // namespace quasilux

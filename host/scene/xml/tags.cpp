@@ -11,7 +11,7 @@ namespace {
 const std::vector<Tag> tags = {
     {"scene", TagKind::scene, {"version"}, {"type", "id", "name"}},
     {"default", TagKind::directive, {"name", "value"}, {}},
-    {"include", TagKind::directive, {"filename"}, {}},
+    {"include", TagKind::directive, {"filename"}, {"name"}},
     {"path", TagKind::directive, {"value"}, {}},
     {"alias", TagKind::directive, {"id", "as"}, {}},
     {"ref", TagKind::reference, {"id"}, {"name"}},

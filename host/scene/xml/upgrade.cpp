@@ -31,12 +31,18 @@ bool isCamelCase(const std::string& name) {
     return false;
 }
 
-// The parameter of that name, or nullptr.
-Element* find(Element& element, std::string_view name) {
+// The parameter or object of that name, or nullptr.
+Element* findNamed(Element& element, std::string_view name) {
     const auto found = std::find_if(element.children.begin(), element.children.end(), [&](const Element& child) {
-        return child.find("name") && child.get("name") == name && child.find("value");
+        return child.find("name") && child.get("name") == name;
     });
     return found == element.children.end() ? nullptr : &*found;
+}
+
+// The same, if it states a value.
+Element* find(Element& element, std::string_view name) {
+    Element* const found = findNamed(element, name);
+    return found && found->find("value") ? found : nullptr;
 }
 
 // Takes the <float> of that name out of the element; `missing` where there is none.
@@ -140,9 +146,9 @@ void upgradeParameters(Element& element) {
     const std::string* const type = element.find("type");
     if (element.tag == "texture") upgradeTextureCoordinates(element);
     if (element.tag == "texture" && type && *type == "bitmap") upgradeBitmap(element);
-    // That of `diffuse` had two names.
+    // That of `diffuse` had two names; it may be a texture, a reference or a spectrum's file.
     Element* const color =
-        element.tag == "bsdf" && type && *type == "diffuse" ? find(element, "diffuse_reflectance") : nullptr;
+        element.tag == "bsdf" && type && *type == "diffuse" ? findNamed(element, "diffuse_reflectance") : nullptr;
     if (color) setAttribute(*color, "name", "reflectance");
     if (element.tag == "medium" && type && *type == "heterogeneous") upgradeCloud(element);
     // What lies outside of a metal: air, or nothing.

@@ -43,6 +43,13 @@ private:
     std::vector<size_t> lineStarts_;
 };
 
+/// As the parameter `name` of the object around it.
+void rename(Element& object, const std::string& name) {
+    auto& all = object.attributes;
+    all.erase(std::remove_if(all.begin(), all.end(), [](const Attribute& a) { return a.name == "name"; }), all.end());
+    all.push_back({"name", name});
+}
+
 struct Parameter {
     std::string name, value;
     bool given = false; ///< by the caller; a `<default>` does not change it
@@ -53,7 +60,7 @@ class DocumentReader {
 public:
     DocumentReader(const std::string& path, const SceneParameters& parameters, Unknown unknown,
                    std::shared_ptr<LoadGuard> guard)
-        : files_(path, std::move(guard)), unknown_(unknown) {
+        : files_(path, std::move(guard)), folders_{folderOf(path)}, unknown_(unknown) {
         for (const auto& [name, value] : parameters) {
             for (const Parameter& earlier : parameters_)
                 if (earlier.name == name)
@@ -150,6 +157,7 @@ private:
         if (element.tag == "spectrum" && element.find("type"))
             element.tag = "texture"; // one kind of plugin, as in Mitsuba
         checkElement(element, parent);
+        if (element.tag == "spectrum" && openFiles_.size() > 1) placeSpectrum(element);
         for (pugi::xml_node child : node.children()) convertChild(child, element, positions, depth);
         if (isOld) upgradeParameters(element);
         return element;
@@ -181,7 +189,7 @@ private:
             else if (element.tag == "include")
                 include(element, parent, depth);
             else if (element.tag == "path")
-                files_.prepend(element.get("value"), element.where);
+                folders_.insert(folders_.begin(), files_.prepend(element.get("value"), element.where));
             else if (!plainInstances_.keep(element, parent)) {
                 plainInstances_.note(element);
                 parent.children.push_back(std::move(element));
@@ -214,11 +222,24 @@ private:
         if (!known) parameters_.push_back({name, element.get("value"), false, false});
     }
 
+    /// Within an included file Mitsuba looks for spectra elsewhere than for what is loaded later; that is here too.
+    void placeSpectrum(Element& element) const {
+        for (Attribute& attribute : element.attributes)
+            if (attribute.name == "filename")
+                if (const auto found = findIn(folders_, attribute.value))
+                    attribute.value = std::filesystem::absolute(*found).string();
+    }
+
     void include(const Element& element, Element& parent, int depth) {
         const int version = version_; // each file has its own
-        Element root = readRoot(files_.resolve(element.get("filename"), element.where), element.where, depth);
+        const Folders folders = folders_;
+        folders_.insert(folders_.begin(), folderOf(element.where.file));
+        const std::string path = files_.resolve(element.get("filename"), element.where, folders_);
+        Element root = readRoot(path, element.where, depth);
         version_ = version;
+        folders_ = folders;
         if (root.tag != "scene") {
+            if (const std::string* name = element.find("name")) rename(root, *name);
             checkElement(root, &parent);
             parent.children.push_back(std::move(root));
             return;
@@ -266,6 +287,9 @@ private:
     std::vector<Parameter> parameters_;
     std::vector<std::string> openFiles_;
     FileResolver files_;
+    /// Where Mitsuba looks for includes and spectra: the folders of the <path>s of the file that is being read, the
+    /// last one first, that of the file which includes it, the <path>s of that one …
+    Folders folders_;
     Unknown unknown_;
     std::vector<std::string> forgiven_;
     PlainInstanceReader plainInstances_;
