@@ -8,6 +8,7 @@ namespace quasilux {
 namespace {
 
 constexpr double passesOfPatience = 10;
+constexpr double secondsToOpen = 1; // at the end, for those that are just about to have opened their device
 std::atomic<bool> someAreAbandoned{false};
 
 } // namespace
@@ -15,9 +16,21 @@ std::atomic<bool> someAreAbandoned{false};
 bool hasAbandonedThreads() { return someAreAbandoned; }
 
 DeviceWorkers::~DeviceWorkers() {
-    for (Member& member : members_) member.worker->end();
+    waitForOpening();
+    for (size_t k = 0; k < members_.size(); ++k) {
+        if (members_[k].isAlive && opening_.contains(k)) abandon(members_[k]);
+        members_[k].worker->end();
+    }
     for (Member& member : members_)
         if (member.thread.joinable()) member.thread.join();
+}
+
+// Opening a device compiles kernels, which may take minutes, or for ever where the device gives no answer; what others
+// have rendered is still to be written.
+void DeviceWorkers::waitForOpening() {
+    const Stopwatch watch;
+    while (!opening_.empty() && watch.seconds() < secondsToOpen)
+        if (auto event = events_->wait(secondsToOpen - watch.seconds())) note(std::move(*event));
 }
 
 void DeviceWorkers::add(const std::string& name, std::function<OpenedRenderer()> open) {

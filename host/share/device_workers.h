@@ -11,7 +11,7 @@ namespace quasilux {
 /// One that ends no pass within so many seconds, or ten times its longest one, gives no answer any more.
 inline constexpr double usualAnswerSeconds = 600;
 
-/// Threads that gave no answer still run: the program must end without waiting for them or taking from them what they
+/// Threads that gave no answer, or had not opened their device in the end, still run: the program must end without waiting for them or taking from them what they
 /// use.
 bool hasAbandonedThreads();
 
@@ -41,6 +41,7 @@ private:
     std::optional<WorkerEvent> note(WorkerEvent event);
     std::optional<WorkerEvent> silentOne();
     void abandon(Member& member);
+    void waitForOpening();
 
     double answerSeconds_;
     std::shared_ptr<WorkerEvents> events_ = std::make_shared<WorkerEvents>();
