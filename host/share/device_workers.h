@@ -2,6 +2,7 @@
 #pragma once
 
 #include "share/device_worker.h"
+#include "util/stopwatch.h"
 
 #include <set>
 #include <thread>
@@ -37,13 +38,19 @@ private:
         std::shared_ptr<DeviceWorker> worker;
         std::thread thread;
         bool isAlive = true;
+        unsigned signs = 0; ///< when it was looked at last
+        double silence = 0; ///< seconds that wait() has seen since its last sign
     };
     std::optional<WorkerEvent> note(WorkerEvent event);
+    double secondsWaited();
+    static void countSilence(Member& member, double seconds);
     std::optional<WorkerEvent> silentOne();
     void abandon(Member& member);
     void waitForOpening();
 
     double answerSeconds_;
+    Stopwatch watch_;
+    double lastWait_ = 0; ///< by watch_
     std::shared_ptr<WorkerEvents> events_ = std::make_shared<WorkerEvents>();
     std::vector<Member> members_;
     std::set<size_t> opening_, asked_; ///< who has not answered yet
