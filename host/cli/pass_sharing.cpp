@@ -64,7 +64,8 @@ std::unique_ptr<PassWorkers> PassSharing::workers(const ChosenRender& chosen) co
 
 RenderOutcome PassSharing::run(const ChosenRender& chosen) {
     Renderer& renderer = *chosen.renderer;
-    if (!chosen.interrupted) keeper_.afterPass(chosen.soFar, renderer, chosen.seconds, false);
+    // Where no pass follows, this is the last time: of no sums there is none at the end.
+    keeper_.afterPass(chosen.soFar, renderer, chosen.seconds, chosen.interrupted);
     SharedStart start;
     start.passes = {chosen.stop.firstPass, std::max(renderer.nextPass(), chosen.stop.firstPass)};
     start.seconds = chosen.seconds;
