@@ -71,6 +71,7 @@ RenderOutcome PassSharing::run(const ChosenRender& chosen) {
     start.seconds = chosen.seconds;
     renderer.saveRadii(start.radii);
     start.sums = takeSums(*devices_.first, renderer);
+    report_ = renderer.report();
     const auto all = workers(chosen);
     SharedRender shared(*all, std::move(start), chosen.stop, hooks(chosen), chosen.interrupted);
     RenderOutcome outcome = shared.run();
@@ -101,10 +102,10 @@ void PassSharing::keep(const ChosenRender& chosen, const SharedPasses& soFar, do
         soFar.sums.save(sink, "film");
         soFar.radii.copyTo(sink);
     };
-    keeper_.afterPasses(chosen.soFar,
-                        {chosen.renderer->report(), soFar.sums.counters, soFar.sums.shape, soFar.passes.end,
-                         [&] { return soFar.sums.timings; }, save},
-                        seconds, isLast);
+    keeper_.afterPasses(
+        chosen.soFar,
+        {report_, soFar.sums.counters, soFar.sums.shape, soFar.passes.end, [&] { return soFar.sums.timings; }, save},
+        seconds, isLast);
 }
 
 void PassSharing::describe(AutoRender& render) const {
