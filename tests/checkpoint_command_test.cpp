@@ -318,6 +318,19 @@ TEST_F(CheckpointCommand, MergeSaysWhatItLeavesOut) {
     expectSameImage("with.exr", "all.exr");
 }
 
+// Of an image in W per nanometre lux are 107 times too low: tools that warn of it must know of a merged one, too.
+TEST_F(CheckpointCommand, MergeKeepsTheUnit) {
+    std::string scene = test::litPlate();
+    writeScene(scene.insert(scene.find("</scene>"), R"(<emitter type="sunsky"/>)"));
+    renderWell({"-o", "a.exr", "--passes", "0:4", "--checkpoint", "a.ckpt"});
+    renderWell({"-o", "b.exr", "--passes", "4:8", "--checkpoint", "b.ckpt"});
+    const Outcome merged = run({"merge", "a.ckpt", "b.ckpt", "-o", "all.exr", "--checkpoint", "all.ckpt"});
+    EXPECT_EQ(merged.exitCode, 0) << merged.errors;
+    EXPECT_EQ(run({"merge", "all.ckpt", "-o", "again.exr"}).exitCode, 0);
+    for (const char* image : {"a.exr", "all.exr", "again.exr"})
+        EXPECT_THAT(run({"falsecolour", image, "-o", "f.png"}).errors, HasSubstr("is in W per nanometre")) << image;
+}
+
 // The example of the documents, its array as a loop; each task twice, the second time as one that is requeued.
 TEST_F(CheckpointCommand, ExampleOfASlurmArrayRuns) {
     const std::string text = readText(QUASILUX_SOURCE_DIR "/docs/reference/reliability.md");

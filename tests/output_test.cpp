@@ -269,6 +269,21 @@ TEST_F(OutputTest, AtomicFileReplacesOnlyOnCommit) {
     EXPECT_THAT(files(), testing::ElementsAre("a.txt"));
 }
 
+// In a container each program may have the same PID, and so the temporary name of one that was killed.
+TEST_F(OutputTest, OutputPathsAreFreeWhereOneOfThisPidWasKilled) {
+    const std::string left = AtomicFile(path("a.exr")).temporary();
+    std::ofstream(left) << "half";
+    checkOutputPath(path("a.exr"), "--output", ".exr");
+    EXPECT_TRUE(files().empty());
+    AtomicFile other(path("a.exr")); // that is written just now keeps its file
+    OutputStream stream(other, path("a.exr"));
+    checkOutputPath(path("a.exr"), "--output", ".exr");
+    EXPECT_EQ(files().size(), 1u);
+    stream.close();
+    other.commit();
+    EXPECT_THAT(files(), testing::ElementsAre("a.exr"));
+}
+
 TEST_F(OutputTest, OutputPathsAreCheckedWithoutATrace) {
     checkOutputPath(path("a.exr"), "--output", ".exr");
     checkOutputPath(path("A.EXR"), "--output", ".exr");

@@ -159,6 +159,17 @@ INSTANTIATE_TEST_SUITE_P(
                     BadDevice{"1", "silent", "1500", "no answer for"}),
     [](const auto& test) { return std::string(test.param.how) + "_" + test.param.queue + "_" + test.param.at; });
 
+// One that is still being opened is not waited for, as that may take for ever.
+TEST_F(SharedRenderTest, ImageDoesNotWaitForDevicesThatAreOpened) {
+    const Variables bad{{"QUASILUX_BAD_QUEUE", "2"}, {"QUASILUX_BAD_HOW", "silent"}, {"QUASILUX_BAD_AT", "1"}};
+    const Outcome outcome =
+        endWithin(120, startWith(QUASILUX_BAD_DEVICE, shared({"-o", "a.exr", "--passes", "20"}), bad));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
+    EXPECT_THAT(outcome.errors, Not(HasSubstr(" is dropped")));
+    EXPECT_EQ(nlohmann::json::parse(outcome.output).at("workers").size(), 1u); // control: it was never opened
+    expectPassesOf("a.exr", "20");
+}
+
 // With --strict that is an error, but only once the image is there.
 TEST_F(SharedRenderTest, StrictOnesAreWrittenFirst) {
     const auto expectError = [&](const std::string& passes, const Variables& bad) {

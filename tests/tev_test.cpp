@@ -215,5 +215,21 @@ TEST_F(TevTest, ThatGoesAwayIsAWarning) {
     EXPECT_THAT(outcome.errors, HasSubstr("warning: tev at " + server.address() + " has gone"));
 }
 
+// The pictures take memory of the device, which may have none left: the render goes on without them.
+TEST_F(TevTest, PicturesThatCannotBeMadeAreAWarning) {
+    TevServer server;
+    const Outcome outcome = runWith(QUASILUX_FAILING_OPENCL,
+                                    {"render", "--tev", server.address(), "scene.xml", "--fixed", "--passes", "20",
+                                     "--photons", "256", "-o", "a.exr"},
+                                    {{"QUASILUX_FAIL_CALL", "clEnqueueNDRangeKernel"},
+                                     {"QUASILUX_FAIL_KERNEL", "cutFilm"},
+                                     {"QUASILUX_FAIL_AT", "1"}});
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_THAT(outcome.errors,
+                HasSubstr("warning: tev at " + server.address() + " gets no more pictures (kernel cutFilm"));
+    EXPECT_THAT(outcome.errors, HasSubstr("it has an older one or none"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.exr"));
+}
+
 } // namespace
 } // namespace quasilux

@@ -40,6 +40,7 @@ Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const 
     checkpoint.meter = scene.sensor.meter;
     checkpoint.stop = stop;
     checkpoint.scene = fs::path(options.scene).filename().string();
+    checkpoint.isPerNanometre = scene.surroundings && scene.surroundings->isPerNanometre;
     if (checkpoint.meter == MeterKind::none) checkpoint.layersOfScene = layersOf(scene);
     return checkpoint;
 }

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <unistd.h>
 
 namespace quasilux {
@@ -12,15 +14,33 @@ namespace {
 constexpr int signalBase = 128; // exit code of a program that a signal ends, as shells report it
 constexpr std::array<int, 3> endingSignals{SIGINT, SIGTERM, SIGHUP};
 
+// One cause may send several: a terminal that is closed SIGHUP by the shell and by the kernel, systemd SIGTERM with
+// SIGHUP, `timeout` SIGTERM to the program and to its group. These come close together.
+constexpr int64_t millisecondsOfOneCause = 2000;
+
 std::atomic<bool> interrupted{false};
 std::atomic<int> firstSignal{0};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+std::atomic<int64_t> firstTime{0}; // of milliseconds(); 0: none has come
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+                  std::atomic<int64_t>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 
+// Never 0. A signal handler may ask the system's clock, std::chrono promises nothing.
+int64_t milliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1 + int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
+}
+
 void onInterrupt(int signal) {
-    int none = 0;
-    if (!firstSignal.compare_exchange_strong(none, signal)) _exit(signalBase + signal);
-    interrupted = true;
+    const int64_t now = milliseconds();
+    int64_t first = 0;
+    if (firstTime.compare_exchange_strong(first, now)) {
+        firstSignal = signal;
+        interrupted = true;
+    } else if (signal == SIGINT || now - first > millisecondsOfOneCause) {
+        _exit(signalBase + signal);
+    }
 }
 
 void exitNow(int signal) { _exit(signalBase + signal); }

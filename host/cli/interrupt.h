@@ -10,8 +10,8 @@ namespace quasilux {
 /// Set by the first of these signals while rendering.
 const std::atomic<bool>& interruptFlag();
 
-/// While rendering: such a signal sets the flag, and a second one ends the program with exit code 128 + its number.
-/// Call it at each pass.
+/// While rendering: such a signal sets the flag, and a second one ends the program with exit code 128 + its number: a
+/// second Ctrl-C at once, others from 2 s after the first on, as one cause may send several. Call it at each pass.
 void catchInterrupt();
 
 /// Before there is anything to keep: such a signal ends the program at once, with that exit code. Call it again after

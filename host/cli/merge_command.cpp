@@ -42,6 +42,7 @@ RenderRecord recordOf(const Checkpoint& merged, const FilmImage& image) {
     RenderRecord record;
     record.scene = merged.scene;
     record.settings = merged.settings;
+    record.isPerNanometre = merged.isPerNanometre;
     record.stop = merged.stop;
     record.device = merged.device;
     record.report.photonsPerPass = merged.photonsPerPass;

@@ -64,12 +64,14 @@ std::unique_ptr<PassWorkers> PassSharing::workers(const ChosenRender& chosen) co
 
 RenderOutcome PassSharing::run(const ChosenRender& chosen) {
     Renderer& renderer = *chosen.renderer;
-    if (!chosen.interrupted) keeper_.afterPass(chosen.soFar, renderer, chosen.seconds, false);
+    // Where no pass follows, this is the last time: of no sums there is none at the end.
+    keeper_.afterPass(chosen.soFar, renderer, chosen.seconds, chosen.interrupted);
     SharedStart start;
     start.passes = {chosen.stop.firstPass, std::max(renderer.nextPass(), chosen.stop.firstPass)};
     start.seconds = chosen.seconds;
     renderer.saveRadii(start.radii);
     start.sums = takeSums(*devices_.first, renderer);
+    report_ = renderer.report();
     const auto all = workers(chosen);
     SharedRender shared(*all, std::move(start), chosen.stop, hooks(chosen), chosen.interrupted);
     RenderOutcome outcome = shared.run();
@@ -100,10 +102,10 @@ void PassSharing::keep(const ChosenRender& chosen, const SharedPasses& soFar, do
         soFar.sums.save(sink, "film");
         soFar.radii.copyTo(sink);
     };
-    keeper_.afterPasses(chosen.soFar,
-                        {chosen.renderer->report(), soFar.sums.counters, soFar.sums.shape, soFar.passes.end,
-                         [&] { return soFar.sums.timings; }, save},
-                        seconds, isLast);
+    keeper_.afterPasses(
+        chosen.soFar,
+        {report_, soFar.sums.counters, soFar.sums.shape, soFar.passes.end, [&] { return soFar.sums.timings; }, save},
+        seconds, isLast);
 }
 
 void PassSharing::describe(AutoRender& render) const {

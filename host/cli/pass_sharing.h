@@ -37,6 +37,7 @@ private:
     const SharedDevices& devices_;
     CheckpointKeeper& keeper_;
     WarnAmidPasses warn_;
+    SceneReport report_; ///< from before the first device's thread takes its renderer
     std::vector<WorkerRecord> records_;
     std::map<std::string, KernelTiming> timings_;
 };

@@ -45,15 +45,39 @@ void sync(const std::string& name, int flags, const std::string& path) {
     if (failed) fail(path);
 }
 
+/// Whether the name is still that of the open file: another process may have renamed it before its lock was free.
+bool hasName(int descriptor, const std::string& name) {
+    struct stat open {
+    }, named{};
+    return fstat(descriptor, &open) == 0 && stat(name.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+           open.st_ino == named.st_ino;
+}
+
+/// Opens and locks `name`; EWOULDBLOCK: another process has it. Below 0: errno says why.
+int openLocked(const std::string& name) {
+    for (unsigned tries = 0; tries < 100; ++tries) { // as often as another may be faster
+        const int descriptor = open(name.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+        if (descriptor < 0) return descriptor;
+        const bool isOthers = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        if (!isOthers && hasName(descriptor, name)) return descriptor;
+        close(descriptor);
+        if (isOthers) break;
+    }
+    errno = EWOULDBLOCK;
+    return -1;
+}
+
 /// Asks the file system itself: permission bits say nothing of read-only mounts, quotas or the superuser.
+/// There may be one already, of a killed program that had the same PID, as all in containers have.
 void probeFolder(const std::string& path, const std::string& option) {
     const std::string probe = temporaryName(path);
-    const int descriptor = open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    const int descriptor = openLocked(probe);
+    if (descriptor < 0 && errno == EWOULDBLOCK) return; // another of this PID, in its container, writes it just now
     if (descriptor < 0)
         throw InputError(fmt::format("{} {}: cannot write there ({}), choose another folder or change its permissions",
                                      option, path, std::strerror(errno)));
+    unlink(probe.c_str()); // while it is locked
     close(descriptor);
-    unlink(probe.c_str());
 }
 
 } // namespace
@@ -117,32 +141,6 @@ void AtomicFile::keep(const std::string& earlier) {
         fail(earlier);
     }
 }
-
-namespace {
-
-/// Whether the name is still that of the open file: another process may have renamed it before its lock was free.
-bool hasName(int descriptor, const std::string& name) {
-    struct stat open {
-    }, named{};
-    return fstat(descriptor, &open) == 0 && stat(name.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
-           open.st_ino == named.st_ino;
-}
-
-/// Opens and locks `name`; EWOULDBLOCK: another process has it. Below 0: errno says why.
-int openLocked(const std::string& name) {
-    for (unsigned tries = 0; tries < 100; ++tries) { // as often as another may be faster
-        const int descriptor = open(name.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
-        if (descriptor < 0) return descriptor;
-        const bool isOthers = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-        if (!isOthers && hasName(descriptor, name)) return descriptor;
-        close(descriptor);
-        if (isOthers) break;
-    }
-    errno = EWOULDBLOCK;
-    return -1;
-}
-
-} // namespace
 
 OutputStream::OutputStream(AtomicFile& file, std::string path) : path_(std::move(path)) {
     descriptor_ = openLocked(file.temporary());

@@ -53,6 +53,7 @@ Json describe(const Checkpoint& c) {
             {"counters", toJson(c.counters)},
             {"scene", c.scene},
             {"layersOfScene", c.layersOfScene},
+            {"isPerNanometre", c.isPerNanometre},
             {"photonsPerPass", c.photonsPerPass},
             {"search", toJson(c.search)},
             {"device", toJson(c.device)},
@@ -84,6 +85,7 @@ Checkpoint checkpointOf(const CheckpointReader& reader) {
         c.counters = parsed<RenderCounters>(from.at("counters"));
         c.scene = from.at("scene");
         c.layersOfScene = from.value("layersOfScene", "");
+        c.isPerNanometre = from.value("isPerNanometre", false);
         c.photonsPerPass = wholeNumber<decltype(c.photonsPerPass)>(from.at("photonsPerPass"));
         c.search = parsed<SearchReport>(from.at("search"));
         c.device = parsed<DeviceInfo>(from.at("device"));

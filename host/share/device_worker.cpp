@@ -1,6 +1,7 @@
 #include "share/device_worker.h"
 
 #include "util/error.h"
+#include "util/stopwatch.h"
 
 namespace quasilux {
 
@@ -50,7 +51,7 @@ DeviceWorker::Task DeviceWorker::next() {
     isBusy_ = false;
     isThere_.wait(lock, [this] { return !tasks_.empty() || isOver_; });
     if (isOver_) return {};
-    sign();
+    ++signs_;
     isBusy_ = true;
     Task task = std::move(tasks_.front());
     tasks_.pop_front();
@@ -93,10 +94,6 @@ PassSums DeviceWorker::takeSums() {
     return std::exchange(given_, {});
 }
 
-void DeviceWorker::sign() { lastSign_ = watch_.seconds(); }
-
-double DeviceWorker::silentFor() const { return isBusy_ ? watch_.seconds() - lastSign_ : 0; }
-
 void DeviceWorker::doRender(const PassRange& passes) {
     Renderer& renderer = *opened_.renderer;
     const Stopwatch watch;
@@ -108,7 +105,7 @@ void DeviceWorker::doRender(const PassRange& passes) {
         const double seconds = ofPass.seconds();
         longestPass_ = std::max<double>(longestPass_, seconds);
         rendered.squaredSeconds += seconds * seconds;
-        sign();
+        ++signs_;
     }
     rendered.passes = passes;
     rendered.seconds = watch.seconds();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "share/pass_workers.h"
-#include "util/stopwatch.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -46,9 +45,9 @@ public:
     PassSums takeSums();
 
     const std::string& name() const { return name_; }
-    /// Seconds since its last sign: a pass that ended, or the beginning of what it does now; 0 where it has nothing to
-    /// do.
-    double silentFor() const;
+    bool isBusy() const { return isBusy_; }
+    /// How many it has given: of a pass that ended, or of the beginning of what it does next.
+    unsigned signs() const { return signs_; }
     double longestPass() const { return longestPass_; }
 
 private:
@@ -56,7 +55,6 @@ private:
     void put(Task task);
     Task next();
     void obey();
-    void sign();
     void doRender(const PassRange& passes);
     void doGive();
     WorkerEvent event(WorkerEvent::Kind kind) const;
@@ -73,8 +71,8 @@ private:
     std::deque<Task> tasks_;
     PassSums given_;
     std::atomic<bool> isBusy_{true}, isOver_{false};
-    Stopwatch watch_;
-    std::atomic<double> lastSign_{0}, longestPass_{0}; ///< the first by watch_
+    std::atomic<unsigned> signs_{0};
+    std::atomic<double> longestPass_{0};
 };
 
 } // namespace quasilux

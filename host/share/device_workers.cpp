@@ -8,6 +8,8 @@ namespace quasilux {
 namespace {
 
 constexpr double passesOfPatience = 10;
+constexpr double longestWait = 1;   // seconds that one wait() adds to a device's silence at most
+constexpr double secondsToOpen = 1; // at the end, for those that are just about to have opened their device
 std::atomic<bool> someAreAbandoned{false};
 
 } // namespace
@@ -15,9 +17,21 @@ std::atomic<bool> someAreAbandoned{false};
 bool hasAbandonedThreads() { return someAreAbandoned; }
 
 DeviceWorkers::~DeviceWorkers() {
-    for (Member& member : members_) member.worker->end();
+    waitForOpening();
+    for (size_t k = 0; k < members_.size(); ++k) {
+        if (members_[k].isAlive && opening_.contains(k)) abandon(members_[k]);
+        members_[k].worker->end();
+    }
     for (Member& member : members_)
         if (member.thread.joinable()) member.thread.join();
+}
+
+// Opening a device compiles kernels, which may take minutes, or for ever where the device gives no answer; what others
+// have rendered is still to be written.
+void DeviceWorkers::waitForOpening() {
+    const Stopwatch watch;
+    while (!opening_.empty() && watch.seconds() < secondsToOpen)
+        if (auto event = events_->wait(secondsToOpen - watch.seconds())) note(std::move(*event));
 }
 
 void DeviceWorkers::add(const std::string& name, std::function<OpenedRenderer()> open) {
@@ -52,12 +66,28 @@ std::optional<WorkerEvent> DeviceWorkers::note(WorkerEvent event) {
     return event;
 }
 
+// Time in which nobody waited is none of the devices': a program that is stopped (Ctrl-Z) stops them, and the clock
+// runs on.
+double DeviceWorkers::secondsWaited() {
+    const double before = std::exchange(lastWait_, watch_.seconds());
+    return std::min(longestWait, lastWait_ - before);
+}
+
+void DeviceWorkers::countSilence(Member& member, double seconds) {
+    const unsigned signs = member.worker->signs();
+    const bool isSilent = member.worker->isBusy() && signs == member.signs;
+    member.silence = isSilent ? member.silence + seconds : 0;
+    member.signs = signs;
+}
+
 std::optional<WorkerEvent> DeviceWorkers::silentOne() {
+    const double seconds = secondsWaited();
     for (size_t k = 0; k < members_.size(); ++k) {
         Member& member = members_[k];
         if (!member.isAlive) continue;
+        countSilence(member, seconds);
         const double patience = std::max(answerSeconds_, passesOfPatience * member.worker->longestPass());
-        if (member.worker->silentFor() <= patience) continue;
+        if (member.silence <= patience) continue;
         abandon(member);
         WorkerEvent event;
         event.kind = WorkerEvent::Kind::failed;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "share/device_worker.h"
+#include "util/stopwatch.h"
 
 #include <set>
 #include <thread>
@@ -11,7 +12,7 @@ namespace quasilux {
 /// One that ends no pass within so many seconds, or ten times its longest one, gives no answer any more.
 inline constexpr double usualAnswerSeconds = 600;
 
-/// Threads that gave no answer still run: the program must end without waiting for them or taking from them what they
+/// Threads that gave no answer, or had not opened their device in the end, still run: the program must end without waiting for them or taking from them what they
 /// use.
 bool hasAbandonedThreads();
 
@@ -37,12 +38,19 @@ private:
         std::shared_ptr<DeviceWorker> worker;
         std::thread thread;
         bool isAlive = true;
+        unsigned signs = 0; ///< when it was looked at last
+        double silence = 0; ///< seconds that wait() has seen since its last sign
     };
     std::optional<WorkerEvent> note(WorkerEvent event);
+    double secondsWaited();
+    static void countSilence(Member& member, double seconds);
     std::optional<WorkerEvent> silentOne();
     void abandon(Member& member);
+    void waitForOpening();
 
     double answerSeconds_;
+    Stopwatch watch_;
+    double lastWait_ = 0; ///< by watch_
     std::shared_ptr<WorkerEvents> events_ = std::make_shared<WorkerEvents>();
     std::vector<Member> members_;
     std::set<size_t> opening_, asked_; ///< who has not answered yet

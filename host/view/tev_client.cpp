@@ -1,6 +1,7 @@
 #include "view/tev_client.h"
 
 #include "render/renderer.h"
+#include "util/error.h"
 
 #include <algorithm>
 #include <bit>
@@ -146,7 +147,9 @@ void TevClient::afterPass(const Renderer& renderer, bool isLast) {
         if (isLost_ || passes == 0) return;
         if (!isLast && (start < next_ || isSending_ || picture_)) return;
     }
-    auto picture = std::make_unique<FilmImage>(develop(renderer.film(), passes));
+    std::unique_ptr<FilmImage> picture;
+    if (const auto why = failureOf([&] { picture = std::make_unique<FilmImage>(develop(renderer.film(), passes)); }))
+        return giveUp("gets no more pictures", *why); // the render is to go on
     const double cost = std::chrono::duration<double>(Clock::now() - start).count();
     next_ = start + std::chrono::duration_cast<Clock::duration>(
                         std::chrono::duration<double>(std::max(secondsBetweenPictures, cost / shareOfTime)));
@@ -201,14 +204,14 @@ bool TevClient::sendAll(const std::string& bytes) {
     // a word.
     char none = 0;
     if (recv(socket_, &none, 1, MSG_PEEK | MSG_DONTWAIT) == 0) {
-        giveUp("it has closed the connection");
+        giveUp("has gone", "it has closed the connection");
         return false;
     }
     for (size_t sent = 0; sent < bytes.size();) {
         const ssize_t count = ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) {
-            giveUp(errno == EAGAIN ? "it takes nothing any more" : std::strerror(errno));
+            giveUp("has gone", errno == EAGAIN ? "it takes nothing any more" : std::strerror(errno));
             return false;
         }
         sent += static_cast<size_t>(count);
@@ -216,10 +219,10 @@ bool TevClient::sendAll(const std::string& bytes) {
     return true;
 }
 
-void TevClient::giveUp(const std::string& why) {
+void TevClient::giveUp(const char* what, const std::string& why) {
     const std::lock_guard lock(mutex_);
     isLost_ = true;
-    warnings_.push_back(fmt::format("tev at {} has gone ({}): it has an older picture or none", address_, why));
+    warnings_.push_back(fmt::format("tev at {} {} ({}): it has an older one or none", address_, what, why));
 }
 
 } // namespace quasilux

@@ -47,7 +47,7 @@ private:
     void sendPictures();
     void sendPicture(const FilmImage& picture);
     bool sendAll(const std::string& bytes);
-    void giveUp(const std::string& why);
+    void giveUp(const char* what, const std::string& why);
 
     std::string address_, name_;
     FilmCutter cutter_;

@@ -62,13 +62,18 @@ Outcome CommandLineTest::run(const std::vector<std::string>& arguments, unsigned
 
 Outcome CommandLineTest::runWith(const std::string& library, const std::vector<std::string>& arguments,
                                  const Variables& variables) const {
+    return end(startWith(library, arguments, variables));
+}
+
+pid_t CommandLineTest::startWith(const std::string& library, const std::vector<std::string>& arguments,
+                                 const Variables& variables) const {
     Variables all = variables;
     all.emplace_back("LD_PRELOAD", library);
     all.emplace_back("ASAN_OPTIONS", "verify_asan_link_order=0");
     for (const auto& [name, value] : all) setenv(name.c_str(), value.c_str(), 1);
-    Outcome outcome = run(arguments);
+    const pid_t child = start(arguments);
     for (const auto& [name, value] : all) unsetenv(name.c_str());
-    return outcome;
+    return child;
 }
 
 Outcome CommandLineTest::runUntil(const std::vector<std::string>& arguments, const std::function<bool()>& isTime,
@@ -92,6 +97,16 @@ Outcome CommandLineTest::end(pid_t process) const {
     int status = 0;
     waitpid(process, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(root / "stdout"), readText(root / "stderr")};
+}
+
+Outcome CommandLineTest::endWithin(double seconds, pid_t process) const {
+    const Stopwatch watch;
+    siginfo_t ended{};
+    while (waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0) {
+        if (watch.seconds() > seconds) kill(process, SIGKILL);
+        usleep(20000);
+    }
+    return end(process);
 }
 
 Outcome CommandLineTest::runOnTerminal(std::vector<std::string> arguments) const {

@@ -30,11 +30,16 @@ protected:
     /// `library` stands before all others (tests/shims), with these variables of the environment.
     Outcome runWith(const std::string& library, const std::vector<std::string>& arguments,
                     const Variables& variables) const;
+    /// The first step of that: end() is the other.
+    pid_t startWith(const std::string& library, const std::vector<std::string>& arguments,
+                    const Variables& variables) const;
     /// It gets the signal once `isTime`, which is asked every few milliseconds.
     Outcome runUntil(const std::vector<std::string>& arguments, const std::function<bool()>& isTime, int signal) const;
     /// The same in two steps: what runs meanwhile, and how it ends.
     pid_t start(std::vector<std::string> arguments) const;
     Outcome end(pid_t process) const;
+    /// One that has not ended by then is killed, so that what hangs fails.
+    Outcome endWithin(double seconds, pid_t process) const;
     /// Runs it on a terminal of its own; all that it writes there.
     Outcome runOnTerminal(std::vector<std::string> arguments) const;
 
