@@ -278,8 +278,9 @@ TEST_F(CheckpointCommand, SearchThatIsKilledLeavesNoHalfCheckpoint) {
     const Outcome outcome = run(searched, 5, SIGTERM);
     // While the device is opened on a busy machine: by the signal itself.
     EXPECT_THAT(outcome.exitCode, testing::AnyOf(128 + SIGTERM, -1)) << outcome.errors;
-    if (isThere("a.ckpt")) checkpoint("a.ckpt"); // throws where it is damaged
-    EXPECT_EQ(isThere("a.exr"), isThere("a.ckpt"));
+    // One is written before the first pass, when there is no image yet. Reading throws where it is damaged.
+    const bool hasPasses = isThere("a.ckpt") && !checkpoint("a.ckpt").passes.empty();
+    EXPECT_EQ(isThere("a.exr"), hasPasses);
     for (const auto& entry : fs::directory_iterator(folder)) EXPECT_NE(entry.path().extension(), ".tmp");
 }
 

@@ -186,6 +186,36 @@ TEST(Integrator, DepthLimit) {
                 testing::HasSubstr("stderr.R"));
 }
 
+// Mitsuba refuses them too, as channels of one name, where it writes the image.
+TEST(Integrator, LayersHaveChannelsOfTheirOwn) {
+    const auto aov = [](const std::string& layers) {
+        return "<integrator type=\"aov\"><string name=\"aovs\" value=\"" + layers + "\"/></integrator>";
+    };
+    EXPECT_EQ(loadBody(aov("a:position,b:position,a:albedo,a:depth,stderr:depth")).aovs.size(), 5u);
+    SceneFiles files;
+    const auto error = [&](const std::string& layers) {
+        return test::errorOf(files.write("scene.xml", test::sceneWith(aov(layers))));
+    };
+    EXPECT_THAT(error("a:position,a:sh_normal"), testing::HasSubstr("two layers have channels 'a.X'"));
+    for (const char* taken : {"stderr", "direct", "bias"})
+        EXPECT_THAT(error(std::string(taken) + ":albedo"),
+                    testing::HasSubstr(std::string("the image has a layer '") + taken + "' itself"));
+}
+
+TEST(Integrator, LayersOfAMeterAreMissed) {
+    const auto warnings = [](const std::string& sensor) {
+        SceneFiles files;
+        return loadScene(files.write("scene.xml", R"(<scene version="3.0.0"><integrator type="aov"><string name="aovs"
+            value="d:depth"/><integrator type="path"/></integrator><emitter type="constant"/>
+            <sensor type=")" + sensor + R"("><film type="hdrfilm"><integer name="width" value="1"/>
+            <integer name="height" value="1"/></film></sensor></scene>)"))
+            .warnings;
+    };
+    EXPECT_THAT(warnings("radiancemeter"), testing::ElementsAre(testing::HasSubstr(
+                                               "the radiancemeter has neither layers of integrator 'aov' nor alpha")));
+    EXPECT_TRUE(warnings("perspective").empty());
+}
+
 // Mitsuba 3.9.1: a point lights nothing without samples of emitters, a mirror under a white sky is black without those
 // of bsdfs, and it refuses a scene with neither.
 TEST(Integrator, SamplesThatMitsubaLacksAreWarnedOf) {

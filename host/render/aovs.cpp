@@ -5,6 +5,7 @@
 #include "prepare/device_scene.h"
 #include "render/method.h"
 #include "render/pass_params.h"
+#include "scene/integrator.h"
 #include "util/process_memory.h"
 
 #include <algorithm>
@@ -14,38 +15,40 @@ namespace quasilux {
 namespace {
 
 struct Channels {
-    unsigned first, count; ///< of AOV_FLOATS
-    const char* names;     ///< one letter each
+    unsigned first; ///< of AOV_FLOATS
+    std::string_view names;
 };
 
-Channels channelsOf(AovQuantity quantity) {
+unsigned firstFloatOf(AovQuantity quantity) {
     switch (quantity) {
     case AovQuantity::albedo:
-        return {AOV_ALBEDO, 3, "RGB"};
+        return AOV_ALBEDO;
     case AovQuantity::depth:
-        return {AOV_DEPTH, 1, "T"};
+        return AOV_DEPTH;
     case AovQuantity::position:
-        return {AOV_POSITION, 3, "XYZ"};
+        return AOV_POSITION;
     case AovQuantity::geo_normal:
-        return {AOV_GEO_NORMAL, 3, "XYZ"};
+        return AOV_GEO_NORMAL;
     case AovQuantity::sh_normal:
-        return {AOV_SH_NORMAL, 3, "XYZ"};
+        return AOV_SH_NORMAL;
     case AovQuantity::uv:
-        return {AOV_UV, 2, "UV"};
+        return AOV_UV;
     case AovQuantity::dp_du:
-        return {AOV_DP_DU, 3, "XYZ"};
+        return AOV_DP_DU;
     case AovQuantity::dp_dv:
-        return {AOV_DP_DV, 3, "XYZ"};
+        return AOV_DP_DV;
     case AovQuantity::duv_dx:
-        return {AOV_DUV_DX, 2, "UV"};
+        return AOV_DUV_DX;
     case AovQuantity::duv_dy:
-        return {AOV_DUV_DY, 2, "UV"};
+        return AOV_DUV_DY;
     case AovQuantity::prim_index:
-        return {AOV_PRIM_INDEX, 1, "I"};
+        return AOV_PRIM_INDEX;
     default:
-        return {AOV_SHAPE_INDEX, 1, "I"};
+        return AOV_SHAPE_INDEX;
     }
 }
+
+Channels channelsOf(AovQuantity quantity) { return {firstFloatOf(quantity), aovChannels(quantity)}; }
 
 // Pixels that are traced at once, of so many floats each: all launches alike, as runtimes compile small ones apart.
 size_t tileOf(size_t pixels, unsigned floats, const DeviceInfo& device) {
@@ -71,7 +74,7 @@ class Layers {
 public:
     Layers(const Scene& scene, size_t pixels)
         : origin_(scene.origin), isBeforeSurroundings_(scene.surroundings && !hidesEmitters(scene)) {
-        if (scene.sensor.pixelFormat.alpha) add({AOV_ALPHA, 1, "A"}, "", pixels);
+        if (scene.sensor.pixelFormat.alpha) add({AOV_ALPHA, "A"}, "", pixels);
         for (const AovLayer& wanted : scene.aovs) add(channelsOf(wanted.quantity), wanted.name + ".", pixels);
     }
 
@@ -86,8 +89,8 @@ public:
 private:
     void add(const Channels& channels, const std::string& prefix, size_t pixels) {
         AovImage image;
-        for (unsigned c = 0; c < channels.count; ++c) image.channels.push_back(prefix + channels.names[c]);
-        image.values.reserve(pixels * channels.count);
+        for (const char name : channels.names) image.channels.push_back(prefix + name);
+        image.values.reserve(pixels * channels.names.size());
         images_.push_back(std::move(image));
         channels_.push_back(channels);
     }
@@ -97,7 +100,7 @@ private:
         const Channels& channels = channels_[layer];
         std::vector<float>& values = images_[layer].values;
         if (channels.first == AOV_ALPHA && isBeforeSurroundings_) return values.push_back(1);
-        for (unsigned c = 0; c < channels.count; ++c) {
+        for (unsigned c = 0; c < channels.names.size(); ++c) {
             const double moved =
                 channels.first == AOV_POSITION ? double(sums[AOV_COVERAGE]) * origin_[static_cast<int>(c)] : 0;
             values.push_back(static_cast<float>(sums[channels.first + c] + moved));
@@ -124,7 +127,7 @@ MemoryForecast withLayers(MemoryForecast forecast, const Scene& scene, const Dev
                           const RenderSettings& settings, const DeviceInfo& device) {
     const PixelFormat& format = scene.sensor.pixelFormat;
     uint64_t floats = (format.luminance ? 1 : 0) + (format.xyz ? 3 : 0) + (format.alpha ? 1 : 0);
-    for (const AovLayer& wanted : scene.aovs) floats += channelsOf(wanted.quantity).count;
+    for (const AovLayer& wanted : scene.aovs) floats += channelsOf(wanted.quantity).names.size();
     if (floats == 0) return forecast;
     const BufferSizes sizes = planAovs(scene, flat, device);
     uint64_t bytes = residentBytes() + imageBytes(flat, settings) + pixelsOf(flat) * floats * sizeof(float);

@@ -106,6 +106,29 @@ std::string trimmed(const std::string& text) {
 }
 
 /// "dd.y:depth,nn:sh_normal".
+constexpr std::string_view colorChannels = "RGB";
+/// What an image has beside the sum: its light by component (componentName), and errors.
+constexpr std::string_view layersOfImage[] = {"direct",   "caustic", "quasi_caustic", "diffuse",
+                                              "emission", "stderr",  "bias",          "bias_stderr"};
+
+/// Where its channels have names that others of the image have, too.
+void refuseTakenName(const std::vector<AovLayer>& layers, const SourceLocation& where) {
+    const auto& [name, quantity] = layers.back();
+    const std::string_view letters = aovChannels(quantity);
+    const auto count = std::count_if(layers.begin(), layers.end(), [&](const AovLayer& other) {
+        return other.name == name && aovChannels(other.quantity).find_first_of(letters) != std::string_view::npos;
+    });
+    if (count > 1)
+        throw InputError(where,
+                         fmt::format("parameter 'aovs': two layers have channels '{}.{}'; give each a name of its "
+                                     "own.",
+                                     name, letters.front()));
+    const std::string_view* taken = std::find(std::begin(layersOfImage), std::end(layersOfImage), name);
+    if (letters == colorChannels && taken != std::end(layersOfImage))
+        throw InputError(
+            where, fmt::format("parameter 'aovs': the image has a layer '{}' itself; choose another name.", name));
+}
+
 std::vector<AovLayer> readLayers(Properties& properties) {
     const std::string text = properties.string("aovs", "");
     const SourceLocation where = properties.where("aovs");
@@ -118,6 +141,7 @@ std::vector<AovLayer> readLayers(Properties& properties) {
             throw InputError(where,
                              fmt::format("parameter 'aovs': '{}' is no NAME:QUANTITY, such as nn:sh_normal.", item));
         layers.push_back({item.substr(0, colon), quantityOf(item.substr(colon + 1), where)});
+        refuseTakenName(layers, where);
         first = end + 1;
     }
     return layers;
@@ -196,6 +220,24 @@ IntegratorChoice readIntegrator(const Element& element, LoadContext& context) {
     const IntegratorChoice choice = plugin->read(properties);
     properties.finish();
     return choice;
+}
+
+std::string_view aovChannels(AovQuantity quantity) {
+    switch (quantity) {
+    case AovQuantity::albedo:
+        return colorChannels;
+    case AovQuantity::uv:
+    case AovQuantity::duv_dx:
+    case AovQuantity::duv_dy:
+        return "UV";
+    case AovQuantity::depth:
+        return "T";
+    case AovQuantity::prim_index:
+    case AovQuantity::shape_index:
+        return "I";
+    default:
+        return "XYZ";
+    }
 }
 
 } // namespace quasilux

@@ -15,6 +15,9 @@ struct IntegratorChoice {
     bool hidesBeyondPassages = true;
 };
 
+/// One letter for each channel of a layer.
+std::string_view aovChannels(AovQuantity quantity);
+
 /// Throws InputError for unknown plugins and parameters, and for plugins that mean another image.
 IntegratorChoice readIntegrator(const Element& element, LoadContext& context);
 

@@ -254,6 +254,16 @@ void checkFisheye(LoadContext& context) {
         "sunsky is seen; of lamps see UGR in `quasilux report`.");
 }
 
+/// Other tools would look for channels that are not there.
+void checkLayersOfMeter(LoadContext& context) {
+    const Sensor& sensor = context.scene.sensor;
+    const bool isMeter = sensor.meter == MeterKind::ray || sensor.meter == MeterKind::area;
+    if (!isMeter || (context.scene.aovs.empty() && !sensor.pixelFormat.alpha)) return;
+    context.warn(
+        sensor.where,
+        fmt::format("the {} has neither layers of integrator 'aov' nor alpha: cameras have them.", sensor.plugin));
+}
+
 /// What is read more than once, such as a group by its instances, says what it has to say each time.
 void keepEachOnce(std::vector<std::string>& messages) {
     std::set<std::string> seen;
@@ -338,6 +348,7 @@ ReadScene readScene(const SceneDocument& document, const std::string& path, cons
     checkEmitters(context);
     checkUnitsOfSky(context);
     checkFisheye(context);
+    checkLayersOfMeter(context);
     for (auto* messages : {&scene.warnings, &scene.withoutEffect, &context.forgiven}) keepEachOnce(*messages);
     listForgiven(context);
     read.withoutArea = std::move(context.withoutArea);
