@@ -7,8 +7,8 @@ cd "$(dirname "$0")/.."
 
 # Tests that take more than some five seconds; a new test is quick until it is listed here.
 slowTests=(adaptive_radius_test alpha_texture_test area_texture_test auto_test bad_input_test beam_test bench_parts_test bench_test calibration_test camera_map_test caustics_by_paths_test
-    checkpoint_command_test checkpoint_test cie171_test cie_sky_test cli_test cloud_render_test compare_command_test cornell_test daylight_test decisive_points_test density_test determinism_test directionalarea_test
-    cylindrical_test energy_balance_test envmap_scene_test failures_test faults_test film_parts_test filter_table_test fisheye_test furnace_test gathered_photons_test generic_kernels_test grid_test guide_test habits_test hard_cases_test index_texture_test irradiance_test light_tree_test live_view_test
+    checkpoint_command_test checkpoint_test cie171_test cie_sky_test cli_test cloud_render_test compare_command_test cornell_test daylight_test decisive_points_test density_test determinism_test device_workers_test directionalarea_test
+    cylindrical_test energy_balance_test envmap_scene_test failures_test faults_test film_parts_test filter_table_test fisheye_test furnace_test gathered_photons_test generic_kernels_test grid_test guide_test habits_test hard_cases_test index_texture_test interrupt_test irradiance_test light_tree_test live_view_test
     lobe_gather_test lobe_sampling_test luminaire_render_test mask_render_test media_border_test medium_render_test memory_test micro_bench_test near_points_test packet_test pass_parts_test photon_search_test photon_walk_test
     principled_thin_test read_faults_test readme_test
     report_test rough_dielectric_render_test rough_dielectric_test shading_normals_test shared_render_test sky_test slab_test texture_render_test traversal_test ugr_table_test
