@@ -102,7 +102,9 @@ TEST(MediaBorder, RaysOfACameraBeginOnItsNearPlane) {
         const double expected = throughSlab(near == 1 ? 1.5 : 2, 20);
         EXPECT_NEAR(right.mean, expected, studentT * right.standardError) << near;
         EXPECT_LT(right.standardError, 0.02 * expected) << "too noisy to decide anything";
-        if (near == 1) EXPECT_LT(wrong.mean, 0.5 * expected) << "negative control";
+        if (near == 1) {
+            EXPECT_LT(wrong.mean, 0.5 * expected) << "negative control";
+        }
     }
 }
 
