@@ -129,6 +129,8 @@ TEST_F(CommandLineTest, ValuesOutOfRangeAreRefused) {
     expectRefused({"render", "scene.xml", "--direct", "x"}, "expected emitters or photons");
     expectRefused({"render", "scene.xml", "--kernels", "x"}, "expected scene or generic");
     expectRefused({"render", "scene.xml", "--without", "bias,noise"}, "expected components or bias");
+    expectRefused({"render", "--without", "bias", "missing.xml"},
+                  "cannot read the scene file 'missing.xml'"); // no part of the list
     expectRefused({"render", "scene.xml", "--quasi-specular", "a,,b"}, "expected auto, none, all or ids");
     expectRefused({"render", "scene.xml", "--quasi-specular", "none,a"}, "expected auto, none, all or ids");
     expectRefused({"render", "scene.xml", "-D", "width"}, "expected name=value");

@@ -1,6 +1,7 @@
 // Pictures for engineers: colour maps, scales, lines of equal value, and `quasilux falsecolour` from outside.
 #include "drawing/contours.h"
 #include "drawing/value_scale.h"
+#include "output/grid_csv.h"
 #include "photometry/isolux.h"
 #include "support/program_runner.h"
 
@@ -198,7 +199,7 @@ TEST_F(FalseColourTest, DrawsAnImageWithItsScale) {
 }
 
 TEST_F(FalseColourTest, DrawsAGridWithIsoluxLines) {
-    const Outcome outcome = run({"falsecolour", "grid.csv", "-o", "grid.svg", "--levels", "250"});
+    const Outcome outcome = run({"falsecolour", "--levels", "250", "grid.csv", "-o", "grid.svg"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
     const std::string svg = readText(folder / "grid.svg");
     EXPECT_THAT(svg, HasSubstr(">250</text>"));
@@ -218,6 +219,37 @@ TEST_F(FalseColourTest, OfARenderedGridKnowsItsUnits) {
     ASSERT_EQ(run({"falsecolour", "g.exr", "-o", "e.svg"}).exitCode, 0);
     EXPECT_THAT(readText(folder / "g.svg"), HasSubstr("maximum 25 lx"));
     EXPECT_THAT(readText(folder / "e.svg"), HasSubstr("maximum 25 lx"));
+}
+
+// Of a sky in W per nanometre lux are 107 times too low, though no ratio of them.
+TEST_F(FalseColourTest, OfATablePerNanometreIsWarnedOf) {
+    FilmImage image;
+    image.width = 2;
+    image.height = image.passes = image.batches = 1;
+    image.radiance = {1, 1, 1, 2, 2, 2};
+    RenderRecord record;
+    record.meter = MeterKind::grid;
+    record.grids.emplace_back();
+    record.grids[0].nx = 2;
+    record.grids[0].ny = 1;
+    record.grids[0].edgeU = {2, 0, 0};
+    record.grids[0].edgeV = {0, 1, 0};
+    record.unobstructedIlluminance = 1000;
+    for (const bool perNanometre : {false, true}) {
+        record.isPerNanometre = perNanometre;
+        writeGridCsv((folder / "sky.csv").string(), image, record);
+        const auto warns = [&](std::vector<std::string> more) {
+            more.insert(more.begin(), {"falsecolour", "sky.csv", "-o", "sky.svg"});
+            const Outcome outcome = run(more);
+            EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+            return outcome.errors.find(
+                       "sky.csv: the sky of its scene is in W per nanometre, so that lx are some 107") !=
+                   std::string::npos;
+        };
+        EXPECT_EQ(warns({}), perNanometre);
+        EXPECT_FALSE(warns({"--daylight-factor"}));
+        EXPECT_FALSE(warns({"--quiet"}));
+    }
 }
 
 TEST_F(FalseColourTest, WithoutAFinitePixelThereIsNothingToDraw) {

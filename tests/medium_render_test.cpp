@@ -219,20 +219,24 @@ TEST(MediumRender, OpenSurfacesBoundMedia) {
 
 // Fog without a border, which nothing but the camera says it stands in: single scattering of a point's light, closed form
 // sigma / (4 pi) integral of exp(-sigma (t + d)) / d^2 along the ray, d the distance to the point.
+// A black ball aside, which says that it stands in the fog, changes nothing.
 TEST(MediumRender, FogThatTheCameraStatesScatters) {
     const test::SceneFiles files;
     const Scene scene = loadScene(files.write("fog.xml", R"(<scene version="3.0.0">
+    <medium id="fog" type="homogeneous"><float name="sigma_t" value="0.1"/><float name="albedo" value="1"/></medium>
+    <shape type="sphere"><point name="center" x="50" y="0" z="0"/><float name="radius" value="0.1"/><bsdf type="diffuse">
+        <rgb name="reflectance" value="0"/></bsdf><ref name="exterior" id="fog"/></shape>
     <integrator type="volpath"><integer name="max_depth" value="2"/></integrator>
     <sensor type="perspective"><float name="fov" value="0.1"/>
         <transform name="to_world"><lookat origin="0,0,0" target="0,0,1" up="0,1,0"/></transform>
-        <medium name="medium" type="homogeneous"><float name="sigma_t" value="0.1"/><float name="albedo" value="1"/></medium>
+        <ref name="medium" id="fog"/>
         <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/><rfilter type="box"/></film></sensor>
     <emitter type="point"><point name="position" x="0" y="2" z="0"/><rgb name="intensity" value="1"/></emitter></scene>)"));
-    constexpr double sigma = 0.1, step = 1e-3;
+    constexpr double sigma = 0.1, step = 1e-3, near = 0.01; // of near_clip, before which no fog is seen
     double expected = 0;
-    for (double t = 0.5 * step; t < 100; t += step) {
+    for (double t = near + 0.5 * step; t < 100; t += step) {
         const double d = std::sqrt(t * t + 4);
-        expected += sigma / (4 * 3.141592653589793) * std::exp(-sigma * (t + d)) / (d * d) * step;
+        expected += sigma / (4 * 3.141592653589793) * std::exp(-sigma * (t - near + d)) / (d * d) * step;
     }
     RenderSettings settings;
     settings.photonsPerPass = 64;

@@ -41,7 +41,7 @@ const char* classOf(double probability) {
 
 std::vector<std::string> warningsOf(const LuminanceImage& image, const std::string& path, const DaylightGlare& glare) {
     std::vector<std::string> warnings;
-    if (const auto warning = warningOfUnits(image, path)) warnings.push_back(*warning);
+    if (const auto warning = warningOfUnits(image.isPerNanometre, image.unit(), path)) warnings.push_back(*warning);
     if (glare.illuminance < leastIlluminanceOfGlare)
         warnings.push_back(fmt::format("{:.4g} lx at the eye: DGP was made from {:g} lx on", glare.illuminance,
                                        leastIlluminanceOfGlare));

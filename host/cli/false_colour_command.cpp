@@ -33,11 +33,17 @@ void requireImage(const FalseColourOptions& options) {
     if (options.daylightFactor) throw InputError("--daylight-factor: an image has none; give a grid's table, .csv");
 }
 
+void warnOfUnits(bool isPerNanometre, const std::string& unit, const FalseColourOptions& options) {
+    const auto warning = warningOfUnits(isPerNanometre, unit, options.input);
+    if (warning && !options.quiet) printWarning(*warning);
+}
+
 Drawing drawingOfGrid(const FalseColourOptions& options, const std::string& title) {
     if (options.photometric)
         throw InputError("--photometric: a grid's table is in lx already; leave --photometric out");
     const GridValues grid = readGridTable(
         options.input, options.daylightFactor ? GridQuantity::daylightFactor : GridQuantity::illuminance, options.grid);
+    warnOfUnits(grid.isPerNanometre, grid.unit, options);
     const ValueScale scale = options.range.empty() ? scaleOfGrid(grid, options.logarithmic) : givenScale(options);
     return isoluxDrawing(grid, {parseColourMap(options.map), scale}, options.levels, title);
 }
@@ -46,7 +52,7 @@ Drawing drawingOfImage(const FalseColourOptions& options, const std::string& tit
     requireImage(options);
     const LuminanceImage image =
         readLuminance(options.input, options.photometric ? ImageUnits::photometric : ImageUnits::asHeaderSays);
-    if (const auto warning = warningOfUnits(image, options.input); warning && !options.quiet) printWarning(*warning);
+    warnOfUnits(image.isPerNanometre, image.unit(), options);
     if (std::none_of(image.values.begin(), image.values.end(), [](float value) { return std::isfinite(value); }))
         throw InputError(options.input + ": no pixel is finite, so there is no luminance to draw; render it anew");
     const ValueScale scale = options.range.empty() ? scaleOfImage(image, options.logarithmic) : givenScale(options);

@@ -32,6 +32,7 @@ void declareFalseColour(CLI::App& app, FalseColourOptions& options) {
                     "Values that isolux lines of a grid are drawn at, with commas between (default: the scale's marks)")
         ->type_name("LIST")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(numberAbove(0, 1e30));
     command
         .add_option("--grid", options.grid,

@@ -84,10 +84,10 @@ void printSearch(const SearchPlan& search) {
     for (const auto& candidate : search.candidates) fmt::print("  {}\n", candidate);
 }
 
-void printEnergy(const std::optional<EnergyBalance>& energy) {
+void printEnergy(const std::optional<EnergyBalance>& energy, bool photometric) {
     if (!energy) return;
     const double net = energy->lost - energy->gained;
-    TextTable table({"photons' flux in the trial pass", "W"});
+    TextTable table({"photons' flux in the trial pass", photometric ? "lm" : "W"});
     table.add({"emitted", fmt::format("{:.6g}", energy->emitted)});
     table.add({"absorbed", fmt::format("{:.6g}", energy->absorbed)});
     table.add({"escaped", fmt::format("{:.6g}", energy->escaped)});
@@ -150,7 +150,7 @@ void printText(const std::string& file, const RenderSettings& settings, const Se
     printRadii(report);
     printBuffers(report.bufferBytes);
     printMemory(report.forecast);
-    printEnergy(renderer.counters().energy);
+    printEnergy(renderer.counters().energy, settings.photometric);
     printSearch(search);
 }
 

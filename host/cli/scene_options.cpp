@@ -139,6 +139,7 @@ void declareDevice(CLI::App& command, SceneOptions& options) {
                     "bias (its estimate), or both; the image is the same (default: keeps all)")
         ->type_name("LIST")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(oneOf({"components", "bias"}))
         ->group(group);
     command

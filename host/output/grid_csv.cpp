@@ -5,8 +5,7 @@
 
 #include <cmath>
 #include <fmt/ostream.h>
-#include <fstream>
-#include <stdexcept>
+#include <sstream>
 
 namespace quasilux {
 
@@ -21,7 +20,8 @@ void writeSettings(std::ostream& out, const RenderRecord& record) {
     line("quasilux", record.version);
     record.forEachSetting(line);
     if (record.error.isKnown()) line("relativeError", record.error.sum());
-    line("units", settings.photometric ? "photometric, irradiance in lm/m2" : "radiometric, irradiance in W/m2");
+    line("units", fmt::format("{}, irradiance in {}/m2{}", record.units(), settings.photometric ? "lm" : "W",
+                              record.isPerNanometre ? "/nm" : ""));
     line("illuminance",
          settings.photometric ? "lx: 0.2126 R + 0.7152 G + 0.0722 B" : "lx: 683 lm/W (0.2126 R + 0.7152 G + 0.0722 B)");
 }
@@ -79,8 +79,7 @@ void writePoint(std::ostream& out, const IlluminanceGrid& grid, unsigned i, unsi
 } // namespace
 
 void writeGridCsv(const std::string& path, const FilmImage& image, const RenderRecord& record) {
-    AtomicFile file(path);
-    std::ofstream out(file.temporary());
+    std::ostringstream out;
     writeSettings(out, record);
     const std::vector<PixelRange> ranges = rangesOf(record.grids);
     const bool hasNames = ranges.size() > 1;
@@ -99,9 +98,7 @@ void writeGridCsv(const std::string& path, const FilmImage& image, const RenderR
                            record.unobstructedIlluminance);
             }
     }
-    out.close();
-    if (!out) throw std::runtime_error("cannot write " + path);
-    file.commit();
+    writeText(path, out.str());
 }
 
 } // namespace quasilux

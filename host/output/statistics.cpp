@@ -123,15 +123,16 @@ json searchJson(const SearchReport& search) {
                         {"openingSeconds", row.openingSeconds},
                         {"predictedError", row.predictedError},
                         {"outcome", row.outcome}});
-    return {{"line", search.line()},
-            {"searched", text(search.freedom)},
-            {"candidates", rows},
-            {"chosen", search.chosen},
-            {"pilotPasses", search.passes},
-            {"pilotSeconds", search.seconds},
-            {"horizon", search.horizon},
-            {"predictedError", search.rows.empty() ? 0 : search.rows.at(search.chosen).predictedError},
-            {"outOfTime", search.outOfTime}};
+    return {
+        {"line", search.line()},
+        {"searched", text(search.freedom)},
+        {"candidates", rows},
+        {"chosen", search.rows.empty() ? json(nullptr) : json(search.chosen)},
+        {"pilotPasses", search.passes},
+        {"pilotSeconds", search.seconds},
+        {"horizon", search.horizon},
+        {"predictedError", search.rows.empty() ? json(nullptr) : json(search.rows.at(search.chosen).predictedError)},
+        {"outOfTime", search.outOfTime}};
 }
 
 json workersJson(const std::vector<WorkerRecord>& workers) {

@@ -34,6 +34,7 @@ public:
     GridValues read() {
         for (std::string line; std::getline(file_, line);) {
             ++line_;
+            if (line.starts_with("# units: radiometric per nanometre")) grid_.isPerNanometre = true;
             if (line.empty() || line.front() == '#') continue;
             if (columns_.empty())
                 columns_ = cellsOf(line);
@@ -133,7 +134,10 @@ private:
 
 GridValues readGridTable(const std::string& path, GridQuantity quantity, const std::string& grid) {
     GridValues values = TableReader(path, quantity, grid).read();
-    if (quantity == GridQuantity::daylightFactor) values.unit = "%";
+    if (quantity == GridQuantity::daylightFactor) {
+        values.unit = "%";
+        values.isPerNanometre = false; // a ratio
+    }
     return values;
 }
 

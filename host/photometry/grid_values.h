@@ -13,6 +13,7 @@ struct GridValues {
     std::vector<double> values;        ///< row by row, as the table has them
     std::vector<double> standardError; ///< empty: unknown
     std::string unit = "lx";
+    bool isPerNanometre = false; ///< as LuminanceImage's
 
     double spacingU() const { return lengthU / nx; }
     double spacingV() const { return lengthV / ny; }

@@ -53,12 +53,12 @@ LuminanceImage readLuminance(const std::string& path, ImageUnits units) {
     return found;
 }
 
-std::optional<std::string> warningOfUnits(const LuminanceImage& image, const std::string& path) {
-    if (!image.isPerNanometre) return std::nullopt;
+std::optional<std::string> warningOfUnits(bool isPerNanometre, const std::string& unit, const std::string& path) {
+    if (!isPerNanometre) return std::nullopt;
     return fmt::format("{}: the sky of its scene is in W per nanometre, so that {} are some 107 times too low; set "
                        "sun_scale and sky_scale to 106.75 there, or begin the scene with <?quasilux "
                        "units=\"photometric\"?>",
-                       path, image.unit());
+                       path, unit);
 }
 
 } // namespace quasilux

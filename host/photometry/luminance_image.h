@@ -29,7 +29,7 @@ enum class ImageUnits { asHeaderSays, photometric };
 /// primaries of sRGB (docs/method/meters.md). Throws InputError.
 LuminanceImage readLuminance(const std::string& path, ImageUnits units);
 /// What there is to say of its units; nothing, mostly.
-std::optional<std::string> warningOfUnits(const LuminanceImage& image, const std::string& path);
+std::optional<std::string> warningOfUnits(bool isPerNanometre, const std::string& unit, const std::string& path);
 
 /// Of linear sRGB pixels, interleaved.
 LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector<float>& rgb,

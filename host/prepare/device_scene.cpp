@@ -15,10 +15,10 @@ namespace quasilux {
 
 namespace {
 
+/// Whether surfaces go round it; those that only stand in it end it nowhere.
 bool hasBorder(const Scene& scene, unsigned medium) {
-    return std::any_of(scene.shapes.begin(), scene.shapes.end(), [&](const ShapeDescription& shape) {
-        return shape.interior == medium || shape.exterior == medium;
-    });
+    return std::any_of(scene.shapes.begin(), scene.shapes.end(),
+                       [&](const ShapeDescription& shape) { return shape.interior == medium; });
 }
 
 void findMediumFeatures(const Scene& scene, const std::vector<shared::Medium>& media, const EmitterTables& emitters,

@@ -12,8 +12,15 @@ namespace py = pybind11;
 
 namespace {
 
-// "nn.X", "nn.Y", "nn.Z" are layer "nn".
-std::string layerName(const std::string& channel) { return channel.substr(0, channel.rfind('.')); }
+// "nn.X", "nn.Y", "nn.Z" are layer "nn", or, where another one has that name, "nn.XYZ".
+std::string layerName(const std::vector<std::string>& channels, const py::dict& others) {
+    const size_t dot = channels.front().rfind('.');
+    std::string name = channels.front().substr(0, dot);
+    if (!others.contains(name)) return name;
+    name += '.';
+    for (const std::string& channel : channels) name += channel.substr(dot + 1);
+    return name;
+}
 
 /// (name or None, values, standard errors, points or None) of some pixels.
 py::tuple readingArrays(const Rendered& rendered, size_t first, unsigned width, unsigned height,
@@ -67,7 +74,7 @@ py::dict layerArrays(const RenderedPointer& owner) {
     add("bias", image.bias, 3);
     add("bias_stderr", image.biasError, 3);
     for (const AovImage& layer : owner->layers)
-        add(layerName(layer.channels.front()), layer.values, layer.channels.size());
+        add(layerName(layer.channels, arrays), layer.values, layer.channels.size());
     return arrays;
 }
 

@@ -17,8 +17,8 @@ pybind11::object imageArray(const RenderedPointer& owner, const std::vector<floa
 
 /// By name, "direct" …, those that there are.
 pybind11::dict componentArrays(const RenderedPointer& owner);
-/// All layers of the EXR beside the image, by the names that they have there: components, errors, what integrator `aov`
-/// and alpha add.
+/// Layers of the EXR beside the image, by the names that they have there: components, errors, what integrator `aov`
+/// and alpha add; not what is made of R, G and B.
 pybind11::dict layerArrays(const RenderedPointer& owner);
 
 /// Of the film, or of each grid: its name or None; of each pixel in lx or cd/m^2 value and standard error, (height,

@@ -80,7 +80,8 @@ class Render:
     @cached_property
     def layers(self) -> dict[str, NDArray[np.float32]]:
         """All layers of the EXR beside the image, by name, each (height, width, channels): components, ``stderr``, ``bias``, ``bias_stderr``,
-        those of integrator ``aov``, and ``A`` where the film has alpha."""
+        those of integrator ``aov`` (``stderr.T`` where a layer has the name of another one), and ``A`` where the film has alpha; not the ``Y``, ``X`` and
+        ``Z`` of the film's ``pixel_format``."""
         return self._core.layers
 
     @cached_property
@@ -187,7 +188,7 @@ class Reading:
 
     def __repr__(self) -> str:
         height, width = self.value.shape
-        unit = "lx" if "illuminance" in self.summary else "cd/m^2"
+        unit = "lx" if self.summary["quantity"] == "irradiance" else "cd/m^2"
         return f"<quasilux.Reading {width} x {height}, mean {self.value.mean():.6g} {unit}>"
 
 
