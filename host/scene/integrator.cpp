@@ -105,7 +105,6 @@ std::string trimmed(const std::string& text) {
     return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-/// "dd.y:depth,nn:sh_normal".
 constexpr std::string_view colorChannels = "RGB";
 /// What an image has beside the sum: its light by component (componentName), and errors.
 constexpr std::string_view layersOfImage[] = {"direct",   "caustic", "quasi_caustic", "diffuse",
@@ -113,8 +112,8 @@ constexpr std::string_view layersOfImage[] = {"direct",   "caustic", "quasi_caus
 
 /// Where its channels have names that others of the image have, too.
 void refuseTakenName(const std::vector<AovLayer>& layers, const SourceLocation& where) {
-    const auto& [name, quantity] = layers.back();
-    const std::string_view letters = aovChannels(quantity);
+    const std::string& name = layers.back().name;
+    const std::string_view letters = aovChannels(layers.back().quantity);
     const auto count = std::count_if(layers.begin(), layers.end(), [&](const AovLayer& other) {
         return other.name == name && aovChannels(other.quantity).find_first_of(letters) != std::string_view::npos;
     });
@@ -129,6 +128,7 @@ void refuseTakenName(const std::vector<AovLayer>& layers, const SourceLocation& 
             where, fmt::format("parameter 'aovs': the image has a layer '{}' itself; choose another name.", name));
 }
 
+/// "dd.y:depth,nn:sh_normal".
 std::vector<AovLayer> readLayers(Properties& properties) {
     const std::string text = properties.string("aovs", "");
     const SourceLocation where = properties.where("aovs");
