@@ -14,8 +14,8 @@ struct PassPart {
     bool isLast() const { return number + 1 == count; }
     bool isWhole() const { return count == 1; }
     /// What stands for the seed in the part's random numbers: no pass has those of another one, in however many parts both
-    /// come, so all may be added up.
-    uint64_t seedOf(uint64_t seed) const { return seed ^ number * 0x9E3779B97F4A7C15u; }
+    /// come, so all may be added up; nor those of pilots, whose seed is moved by another number (host/auto/search.cpp).
+    uint64_t seedOf(uint64_t seed) const { return seed ^ number * 0xD1B54A32D192ED03u; }
     /// Of the paths of a pass.
     unsigned share(unsigned paths) const { return static_cast<unsigned>((uint64_t{paths} + count - 1) / count); }
 };
