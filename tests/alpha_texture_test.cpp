@@ -192,7 +192,8 @@ double mirroredSun(double alphaAcross, double alphaInPlane) {
     return d * masking / 4;
 }
 
-// One alpha by a texture whose mean is the other alpha, on a sheet that is turned by 90 degrees: its u is the sun's plane.
+// One alpha by a texture whose mean is the other alpha, on a sheet that is turned by 90 degrees: its u is the sun's
+// plane.
 TEST(AlphaTexture, TellsTheAxesApartWhereItsMeanDoesNot) {
     test::SceneFiles files;
     const Scene scene = loadScene(files.write("scene.xml", R"(<scene version="3.0.0"><sensor type="orthographic">

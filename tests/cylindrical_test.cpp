@@ -140,8 +140,8 @@ TEST(Cylindrical, IsTheMeanOverCellsByPhotons) {
     EXPECT_FALSE(agrees(image, {0, 8}, meanOf(4 * cells.height, cylindricalAt))) << "cells of another height";
 }
 
-// Sunlight along the cells of a grid in absorbing fog, of which red light is weakened e^-2 times in each. Control: what is
-// left in the middle of a cell counts for all of it.
+// Sunlight along the cells of a grid in absorbing fog, of which red light is weakened e^-2 times in each. Control: what
+// is left in the middle of a cell counts for all of it.
 TEST(Cylindrical, PhotonsFadeAlongTheCellsInColouredFog) {
     RenderSettings settings;
     settings.direct = DirectLight::photons;

@@ -35,8 +35,8 @@ bool holds(const GuideBox& box, const std::array<float, emissionDimensions>& u) 
     return true;
 }
 
-// Beside emitters that are 1e9 times as strong, in any order: each has random numbers of its own, multiples of 2^-24, and
-// its photons weigh as these say.
+// Beside emitters that are 1e9 times as strong, in any order: each has random numbers of its own, multiples of 2^-24,
+// and its photons weigh as these say.
 TEST(GuideTables, WeakEmittersAreNotLost) {
     const auto point = [](double intensity) {
         return "<emitter type=\"point\"><rgb name=\"intensity\" value=\"" + std::to_string(intensity) +
@@ -109,8 +109,8 @@ Sources inCorners(const EmitterTables& emitters) {
     return all;
 }
 
-// Photons of each emitter go through these openings, `ofEach` of them, and the rest anyhow. `apart`: openings know of each
-// other.
+// Photons of each emitter go through these openings, `ofEach` of them, and the rest anyhow. `apart`: openings know of
+// each other.
 Sources through(const EmitterTables& emitters, const std::vector<Opening>& openings, double ofEach, double rest,
                 bool apart = true) {
     Sources all;
@@ -273,8 +273,8 @@ TEST(GuidedMean, ARoomOfAFurnaceIsAsBrightAsItsSky) {
     }
 }
 
-// At single points paths are few, and all that comes from the sky goes through these points: as openings they would take
-// nearly all photons, which bring nothing.
+// At single points paths are few, and all that comes from the sky goes through these points: as openings they would
+// take nearly all photons, which bring nothing.
 TEST(GuidedMean, PointsOfAMeterHaveTheirLight) {
     std::string points;
     for (const char* place : {"1.2,2.2,0.8", "2.9,2.6,0.8", "3.2,0.7,1.6"})

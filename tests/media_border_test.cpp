@@ -83,8 +83,9 @@ double throughSlab(double thickness, double degrees) {
     return sum / (cells * cells);
 }
 
-// A cube of absorbing fog about a camera that stands before it or in it: what lies before the near plane is not seen, so
-// light goes through the fog behind it alone. The near plane of the first lies in fog, that of the second in a border.
+// A cube of absorbing fog about a camera that stands before it or in it: what lies before the near plane is not seen,
+// so light goes through the fog behind it alone. The near plane of the first lies in fog, that of the second in a
+// border.
 TEST(MediaBorder, RaysOfACameraBeginOnItsNearPlane) {
     for (const double near : {1.0, 0.5}) {
         const Scene scene =
@@ -108,8 +109,8 @@ TEST(MediaBorder, RaysOfACameraBeginOnItsNearPlane) {
     }
 }
 
-// A white cube of fog that sticks out of a furnace: radiance is 1 everywhere. All light within the fog is scattered once
-// and more, most of it from photons.
+// A white cube of fog that sticks out of a furnace: radiance is 1 everywhere. All light within the fog is scattered
+// once and more, most of it from photons.
 TEST(MediaBorder, PhotonsOfAnEmitterBeginInTheMediumOfTheirPlace) {
     const Scene scene = sceneOf(R"(<sensor type="perspective"><float name="fov" value="30"/><transform name="to_world">
         <lookat origin="0,0,0" target="1,0,0" up="0,0,1"/></transform><film type="hdrfilm"><integer name="width" value="16"/>
@@ -126,8 +127,8 @@ TEST(MediaBorder, PhotonsOfAnEmitterBeginInTheMediumOfTheirPlace) {
     EXPECT_LT(wrong.mean, 0.9) << "negative control";
 }
 
-// A black meter at the bottom of a tilted cube of absorbing fog, on its border: light falls four units deep. Rounding puts
-// half of its places beyond the border.
+// A black meter at the bottom of a tilted cube of absorbing fog, on its border: light falls four units deep. Rounding
+// puts half of its places beyond the border.
 TEST(MediaBorder, AMeterOnABorderBeginsOnItsOwnSide) {
     const std::string turn = R"(<scale value="2"/><rotate x="1" angle="17.18873"/><rotate y="1" angle="11.45916"/>
         <translate x="0.1" y="0.2" z="0.3"/>)";

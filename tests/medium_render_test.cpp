@@ -188,8 +188,9 @@ TEST(MediumRender, FlightsEndAtTheFarClippingPlane) {
     EXPECT_LT(result.standardError, 0.01);
 }
 
-// A pool whose surface alone says what fills it: nothing tells its depth, from which photons' kernels follow. White walls
-// and water under a white sky are white. The surface lies in a plane through the origin: it goes round a volume of 0.
+// A pool whose surface alone says what fills it: nothing tells its depth, from which photons' kernels follow. White
+// walls and water under a white sky are white. The surface lies in a plane through the origin: it goes round a volume
+// of 0.
 TEST(MediumRender, OpenSurfacesBoundMedia) {
     const test::SceneFiles files;
     const auto wall = [](const char* transform) {
@@ -217,9 +218,9 @@ TEST(MediumRender, OpenSurfacesBoundMedia) {
     EXPECT_LT(result.standardError, 0.02);
 }
 
-// Fog without a border, which nothing but the camera says it stands in: single scattering of a point's light, closed form
-// sigma / (4 pi) integral of exp(-sigma (t + d)) / d^2 along the ray, d the distance to the point.
-// A black ball aside, which says that it stands in the fog, changes nothing.
+// Fog without a border, which nothing but the camera says it stands in: single scattering of a point's light, closed
+// form sigma / (4 pi) integral of exp(-sigma (t + d)) / d^2 along the ray, d the distance to the point. A black ball
+// aside, which says that it stands in the fog, changes nothing.
 TEST(MediumRender, FogThatTheCameraStatesScatters) {
     const test::SceneFiles files;
     const Scene scene = loadScene(files.write("fog.xml", R"(<scene version="3.0.0">

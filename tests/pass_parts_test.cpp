@@ -69,9 +69,9 @@ double meanOf(const std::vector<float>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-// The direct light of three passes is that of their parts' camera paths, so the mean of three passes with each part's seed,
-// but for rounding. Nothing is left to chance. Controls: parts of one seed; parts whose random numbers are those of later
-// passes, so that passes of a device with more room, added to these, would repeat them.
+// The direct light of three passes is that of their parts' camera paths, so the mean of three passes with each part's
+// seed, but for rounding. Nothing is left to chance. Controls: parts of one seed; parts whose random numbers are those
+// of later passes, so that passes of a device with more room, added to these, would repeat them.
 TEST(PassParts, HaveCameraPathsOfTheirOwn) {
     const Rendered parts = render(smallDevice(), box(), settingsOf(photons), 3);
     const unsigned count = partsOf(parts);

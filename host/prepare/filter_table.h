@@ -10,9 +10,9 @@ namespace quasilux {
 /// Any but the box of a pixel, of cameras.
 bool needsFilterTable(const Sensor& sensor);
 
-/// Whether less noise is left where pixels share samples, f^2 of them, than where each has its own, drawn in proportion to
-/// |f|: wide filters f (integral 1 along an axis) with integral f^2 < (integral |f|)^2. In a narrow one a pixel would
-/// have samples in few passes, and then with large weights.
+/// Whether less noise is left where pixels share samples, f^2 of them, than where each has its own, drawn in proportion
+/// to |f|: wide filters f (integral 1 along an axis) with integral f^2 < (integral |f|)^2. In a narrow one a pixel
+/// would have samples in few passes, and then with large weights.
 bool gainsBySharing(const Sensor& sensor);
 
 /// Cells on either side of the pixel's centre.

@@ -13,9 +13,9 @@ namespace quasilux {
 
 namespace {
 
-// The flux of stored photons has a range (kernels/packed_flux.clh). Photons that carry too much for it would be cut, and
-// their light be missing, so most of them must not be so light that heavy ones are out of it: of light ones too little
-// for it one in a few carries what the others lack.
+// The flux of stored photons has a range (kernels/packed_flux.clh). Photons that carry too much for it would be cut,
+// and their light be missing, so most of them must not be so light that heavy ones are out of it: of light ones too
+// little for it one in a few carries what the others lack.
 constexpr double heaviestToTypical = 0x1p18;
 
 // Of a photon by even numbers, times the number of photons.

@@ -30,9 +30,9 @@ public:
     static BufferSizes plan(unsigned paths, uint64_t photons, unsigned classes, bool storesDepth,
                             const DeviceInfo& device);
 
-    /// Traces the photons of a pass, or of a part of it, and indexes them with these radii, by class. A photon buffer that proves too small
-    /// is enlarged and the pass traced again, so none is lost. `volumeScale` is that of kernels in media to their first
-    /// size.
+    /// Traces the photons of a pass, or of a part of it, and indexes them with these radii, by class. A photon buffer
+    /// that proves too small is enlarged and the pass traced again, so none is lost. `volumeScale` is that of kernels
+    /// in media to their first size.
     PhotonPassCount run(unsigned pass, PassPart part, const std::array<float, LIGHT_CLASSES>& radius,
                         float volumeScale);
 

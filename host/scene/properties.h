@@ -12,8 +12,8 @@
 namespace quasilux {
 
 /// Every query marks a parameter as known; finish() refuses the ones nobody asked for. All throw InputError at the
-/// parameter's place for a wrong type or a value that cannot be read; of values out of range, where that is forgiven, the nearest
-/// is taken, if there is one.
+/// parameter's place for a wrong type or a value that cannot be read; of values out of range, where that is forgiven,
+/// the nearest is taken, if there is one.
 class Properties {
 public:
     Properties(const Element& element, LoadContext& context);

@@ -12,8 +12,8 @@ namespace quasilux {
 /// One that ends no pass within so many seconds, or ten times its longest one, gives no answer any more.
 inline constexpr double usualAnswerSeconds = 600;
 
-/// Threads that gave no answer, or had not opened their device in the end, still run: the program must end without waiting for them or taking from them what they
-/// use.
+/// Threads that gave no answer, or had not opened their device in the end, still run: the program must end without
+/// waiting for them or taking from them what they use.
 bool hasAbandonedThreads();
 
 class DeviceWorkers : public PassWorkers {

@@ -43,8 +43,8 @@ protected:
     /// Runs it on a terminal of its own; all that it writes there.
     Outcome runOnTerminal(std::vector<std::string> arguments) const;
 
-    /// Bad input: exit code 2, a message, returned, that holds `message`, nothing on stdout, and no file that was not there
-    /// before.
+    /// Bad input: exit code 2, a message, returned, that holds `message`, nothing on stdout, and no file that was not
+    /// there before.
     std::string expectRefused(const std::vector<std::string>& arguments, const std::string& message) const;
 
     TemporaryFolder temporary;

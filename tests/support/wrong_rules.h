@@ -31,15 +31,15 @@ enum class PhotonRule {
     missingStoreWeight
 };
 
-/// Camera paths of a pixel, or a mistake: the path that gathers for all counts as if there were four; or it is the first
-/// one, whose numbers are every fourth, eighth, ... of a sequence; emission that a path meets is weighed by the choice
-/// of emitters at its next event.
+/// Camera paths of a pixel, or a mistake: the path that gathers for all counts as if there were four; or it is the
+/// first one, whose numbers are every fourth, eighth, ... of a sequence; emission that a path meets is weighed by the
+/// choice of emitters at its next event.
 enum class SamplingRule { right, fourEverywhere, firstGathers, nextChoice };
 
 /// Surfaces, or a mistake: axes of anisotropic lobes follow from the normal alone; textures of eta and of k change
 /// places; where textures say the index, Fresnel's factor is that of the normal instead of the facet; roughness by
-/// texture is at its first level everywhere; shadow rays are as long behind a surface that they pass as if it had not moved
-/// them.
+/// texture is at its first level everywhere; shadow rays are as long behind a surface that they pass as if it had not
+/// moved them.
 enum class SurfaceRule { right, axesByNormal, etaIsK, fresnelOfNormal, firstLevel, movedShadows };
 
 /// Samples of a sky, or a mistake: directions of lobes are weighed against the density of the other map of it.
