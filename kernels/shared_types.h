@@ -214,6 +214,10 @@ typedef struct {
      * half height 0: a ball. */
     float kernelRadius[4], kernelHalfHeight[4];
     unsigned int firstPlane, planeCount; /* MediumPlane records that bound it with nothing inside; 0: not known */
+    /* Of a medium without a border: ball about all that is in the scene, and a mean free path more. 1/scene unit; 0: it
+     * has a border. */
+    Packed3 sceneCenter;
+    float inverseReach;
 } Medium;
 
 /* One of the phase functions that a medium's is the weighted sum of. */
@@ -247,7 +251,9 @@ typedef struct {
 
 /* Known mistakes, switched on by tests as negative controls: 1 flux at collisions is not divided by the extinction, 2
  * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken, 4
- * flux in a heterogeneous medium is divided by the mean of its extinction. */
+ * flux in a heterogeneous medium is divided by the mean of its extinction, 5 (medium_place.clh), 6 (camera.clh), 7 those
+ * that survive roulette far outside do not carry the flux of those that it ended, 8 density kernels end at null surfaces
+ * that have the same medium on both sides. */
 #ifndef MEDIUM_RULE
 #define MEDIUM_RULE 0
 #endif

@@ -295,6 +295,23 @@ TEST(BumpMapBsdf, TakesNumbersOfABitmap) {
     EXPECT_NEAR(scene.textures.at(relief.texture).texels.at(0).b, 0.2127f, 1e-4f); // its luminance
 }
 
+// They are lengths, not reflectances: of any size and sign.
+TEST(BumpMapBsdf, TakesHeightsAsTheyAre) {
+    test::SceneFiles files;
+    const float heights[] = {-0.25f, 5};
+    std::string image = "Pf\n2 1\n-1\n";
+    image.append(reinterpret_cast<const char*>(heights), sizeof heights);
+    const Scene scene = load(R"(<shape type="rectangle"><bsdf type="bumpmap"><texture type="bitmap" name="any">
+        <string name="filename" value=")" +
+                             files.write("heights.pfm", image) +
+                             R"("/></texture><bsdf type="diffuse"/></bsdf></shape>)");
+    const auto& texels = scene.textures.at(scene.bsdfs.at(0).frontRelief.value().texture).texels;
+    ASSERT_EQ(texels.size(), 2u);
+    EXPECT_EQ(texels.at(0).r, -0.25f);
+    EXPECT_EQ(texels.at(1).r, 5);
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{});
+}
+
 TEST(PrincipledBsdf, IsASumOfLobes) {
     const Bsdf plain = loadBsdf(R"(<bsdf type="principled"/>)");
     ASSERT_EQ(plain.front.size(), 2u);

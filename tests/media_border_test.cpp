@@ -142,5 +142,26 @@ TEST(MediaBorder, AMeterOnABorderBeginsOnItsOwnSide) {
     EXPECT_NEAR(found.mean, std::exp(-2), 1e-4);
 }
 
+// A white cube of fog in a furnace, crossed by null rectangles that say of both their sides that they are in it, as
+// Mitsuba asks of shapes within media: radiance is 1 everywhere, and the planes are no borders of the density kernel.
+TEST(MediaBorder, KernelsGoOnThroughSurfacesWithinFog) {
+    std::string planes;
+    for (const char* const turn : {"<translate z=\"0.1\"/>", "<rotate x=\"1\" angle=\"90\"/>"})
+        planes += std::string("<shape type=\"rectangle\"><transform name=\"to_world\">") + turn +
+                  R"(</transform><bsdf type="null"/><ref name="interior" id="fog"/><ref name="exterior" id="fog"/></shape>)";
+    const Scene scene = sceneOf(R"(<sensor type="perspective"><float name="fov" value="30"/><transform name="to_world">
+        <lookat origin="0,-4,2" target="0,0,0" up="0,0,1"/></transform><film type="hdrfilm"><integer name="width" value="16"/>
+        <integer name="height" value="16"/><rfilter type="box"/></film></sensor><emitter type="constant"/>
+        <medium type="homogeneous" id="fog"><float name="sigma_t" value="3"/><float name="albedo" value="1"/></medium>
+        <shape type="cube"><bsdf type="null"/><ref name="interior" id="fog"/></shape>)" +
+                                planes);
+    const std::vector<int> all(256, 0);
+    const auto right = means(scene, MediumRule::right, all, 8000, 4).front(),
+               wrong = means(scene, MediumRule::cutWithinFog, all, 8000, 4).front();
+    EXPECT_NEAR(right.mean, 1, studentT * right.standardError + 0.01) << "1 % for the finite kernel";
+    EXPECT_LT(right.standardError, 0.01) << "too noisy to decide anything";
+    EXPECT_GT(wrong.mean, 1.02 + studentT * wrong.standardError) << "negative control";
+}
+
 } // namespace
 } // namespace quasilux

@@ -67,6 +67,26 @@ TEST(MediaPlacement, AroundNestedShapesLiesTheInnermostMedium) {
     EXPECT_EQ(placement.exterior, (std::vector<unsigned>{MEDIUM_NONE, fog, milk, fog}));
 }
 
+// Fog in which the camera says that it stands, outside of all bodies, is what lies outside.
+TEST(MediaPlacement, OutsideLiesWhatTheCameraStandsIn) {
+    Scene scene;
+    scene.media.resize(2);
+    sphere(scene, {0, 0, 0}, 1).interior = milk;
+    cube(scene, {5, 0, 0}, 1).emitter.emplace();
+    scene.pointEmitters.emplace_back().position = {0, 5, 0};
+    scene.sensor.medium = fog;
+    moveCamera(scene, {0, 0, 5});
+    MediumPlacement placement = placeMedia(scene);
+    EXPECT_EQ(placement.exterior.front(), fog);
+    EXPECT_EQ(placement.shapeEmitters.back(), fog);
+    EXPECT_EQ(placement.pointEmitters, std::vector<unsigned>{fog});
+    moveCamera(scene, {0, 0, 0}); // what it says there is of the sphere's inside
+    placement = placeMedia(scene);
+    EXPECT_EQ(placement.exterior.front(), MEDIUM_NONE);
+    EXPECT_EQ(placement.shapeEmitters.back(), MEDIUM_NONE);
+    EXPECT_EQ(placement.pointEmitters, std::vector<unsigned>{MEDIUM_NONE});
+}
+
 TEST(MediaPlacement, TheOrderOfTheShapesDoesNotMatter) {
     Scene scene = nested();
     std::reverse(scene.shapes.begin(), scene.shapes.end());

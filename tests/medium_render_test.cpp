@@ -246,5 +246,50 @@ TEST(MediumRender, FogThatTheCameraStatesScatters) {
     EXPECT_LT(result.standardError, 0.02 * expected);
 }
 
+/// What fog that absorbs little sends back to one who looks away from a shining ball, which does not say what it stands
+/// in; by 8 x 8 pixels.
+MeanAndError fogOver(const char* border, const char* split, Variant variant, unsigned passes,
+                     MediumRule rule = MediumRule::right) {
+    const test::SceneFiles files;
+    const Scene scene = loadScene(files.write("fog.xml", fmt::format(R"(<scene version="3.0.0">
+    <medium id="fog" type="homogeneous"><float name="sigma_t" value="1"/><float name="albedo" value="0.95"/></medium>
+    <integrator type="volpath"/>
+    <sensor type="perspective"><float name="fov" value="40"/>
+        <transform name="to_world"><lookat origin="0,0,0.8" target="0,0,2" up="0,1,0"/></transform>
+        <ref name="medium" id="fog"/>
+        <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/><rfilter type="box"/></film></sensor>
+    {}
+    <shape type="sphere"><float name="radius" value="0.5"/>
+        <emitter type="area"><rgb name="radiance" value="1"/></emitter></shape></scene>)",
+                                                                     border)));
+    RenderSettings settings;
+    settings.quasiSpecular = split;
+    settings.quasiSpecularOverridesScene = true;
+    settings.variant = variant;
+    settings.photonsPerPass = 20000;
+    settings.radiusScale = 3;
+    settings.controlOptions += optionOf(rule);
+    return renderGroups(scene, settings, std::vector<int>(64, 0), batches, passes).front();
+}
+
+// Without a border roulette ends paths that go far outside. It changes nothing: a ball of the same fog, six diffusion
+// lengths about the scene, looks the same, by camera paths that follow every collision and by photons.
+TEST(MediumRender, FogWithoutABorderIsThatOfALargeBall) {
+    const char* const ball = R"(<shape type="sphere"><float name="radius" value="16"/><bsdf type="null"/>
+        <ref name="interior" id="fog"/></shape>)";
+    const auto alike = [](const MeanAndError& a, const MeanAndError& b) {
+        return std::abs(a.mean - b.mean) < 3 * std::hypot(a.standardError, b.standardError);
+    };
+    const MeanAndError bounded = fogOver(ball, "all", Variant::alternative, 20),
+                       followed = fogOver("", "all", Variant::alternative, 20),
+                       open = fogOver("", "none", Variant::main, 20),
+                       wrong = fogOver("", "none", Variant::main, 20, MediumRule::lossOutside);
+    EXPECT_TRUE(alike(followed, bounded)) << followed.mean << " is not " << bounded.mean;
+    EXPECT_TRUE(alike(open, bounded)) << open.mean << " is not " << bounded.mean;
+    EXPECT_FALSE(alike(wrong, bounded)) << wrong.mean << " looks right";
+    for (const MeanAndError& known : {bounded, open, followed})
+        EXPECT_LT(known.standardError, 0.015 * known.mean) << "too noisy to decide anything";
+}
+
 } // namespace
 } // namespace quasilux

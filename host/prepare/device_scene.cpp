@@ -199,16 +199,28 @@ unsigned shapeOfPrimitive(const Scene& scene, unsigned primitive) {
     return shape;
 }
 
-std::vector<std::string> findWarnings(const Scene& scene, const SurfaceBorders& borders) {
-    if (!borders.overlap) return {};
+std::string warningOfOverlap(const Scene& scene, const SurfaceBorders& borders) {
     const auto& first = scene.shapes[shapeOfPrimitive(scene, borders.overlap->first)];
     const auto& second = scene.shapes[shapeOfPrimitive(scene, borders.overlap->second)];
     const glm::dvec3 place = borders.overlap->place + scene.origin;
-    return {
-        fmt::format("{}: shapes '{}' and '{}' lie in one plane, face the same way and overlap near ({:.6g}, {:.6g}, "
-                    "{:.6g}): which of them a ray meets is left to rounding, and light there comes out wrong. "
-                    "Remove one of them, or move it by a thousandth of its size.",
-                    second.where.text(), first.id, second.id, place.x, place.y, place.z)};
+    return fmt::format("{}: shapes '{}' and '{}' lie in one plane, face the same way and overlap near ({:.6g}, {:.6g}, "
+                       "{:.6g}): which of them a ray meets is left to rounding, and light there comes out wrong. "
+                       "Remove one of them, or move it by a thousandth of its size.",
+                       second.where.text(), first.id, second.id, place.x, place.y, place.z);
+}
+
+std::vector<std::string> findWarnings(const Scene& scene, const SurfaceBorders& borders) {
+    std::vector<std::string> warnings;
+    if (borders.overlap) warnings.push_back(warningOfOverlap(scene, borders));
+    const auto& fog = scene.sensor.medium;
+    if (fog && !hasBorder(scene, *fog) && !scene.media[*fog].extinction &&
+        (scene.surroundings || !scene.directionalEmitters.empty()))
+        warnings.push_back(fmt::format("{}: the sensor stands in a medium without a border, and light from outside of "
+                                       "the scene (sky, parallel light) has no way through it: photons begin at the "
+                                       "scene, shadow rays never arrive. Give the medium a border, such as a large "
+                                       "sphere with bsdf 'null' and the medium as its interior.",
+                                       scene.sensor.where.text()));
+    return warnings;
 }
 
 void setDirectByPhotons(DeviceScene& scene, const std::vector<bool>& byPhotons) {

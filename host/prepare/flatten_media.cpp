@@ -1,4 +1,5 @@
 // Media into the kernels' table, with the first size of their density kernels (docs/method/volume-density.md).
+#include "prepare/bounding_sphere.h"
 #include "prepare/device_scene.h"
 #include "prepare/medium_shape.h"
 #include "prepare/pack.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace quasilux {
@@ -86,6 +88,18 @@ void appendParts(const MediumDescription& description, shared::Medium& medium, M
     }
 }
 
+// Beyond it roulette ends paths in a medium without a border: timesBeyondScene() in kernels/medium.clh.
+void setReach(const Scene& scene, shared::Medium& medium) {
+    const Sphere bounds = boundingSphere(scene);
+    const glm::dvec3 camera = scene.sensor.toWorld[3], center = bounds.center;
+    double extinction = std::numeric_limits<double>::infinity(); // the smallest that hinders anything
+    for (const float channel : {medium.sigmaT.r, medium.sigmaT.g, medium.sigmaT.b})
+        if (channel > 0) extinction = std::min(extinction, double(channel));
+    const double reach = std::max(double(bounds.radius), glm::distance(camera, center)) + 1 / extinction;
+    medium.sceneCenter = pack(center);
+    medium.inverseReach = static_cast<float>(1 / reach);
+}
+
 } // namespace
 
 unsigned appendMedia(MediumTables tables, SceneTableWriter& words) {
@@ -135,6 +149,7 @@ MediumTables flattenMedia(const Scene& scene, const std::vector<MediumDecision>&
             medium.kernelRadius[c] = static_cast<float>(size.radius);
             medium.kernelHalfHeight[c] = static_cast<float>(size.halfHeight);
         }
+        if (shape.isUnbounded && !description.extinction) setReach(scene, medium);
         medium.firstPlane = static_cast<unsigned>(tables.planes.size());
         medium.planeCount = static_cast<unsigned>(shape.planes.size());
         tables.planes.insert(tables.planes.end(), shape.planes.begin(), shape.planes.end());

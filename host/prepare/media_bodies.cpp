@@ -85,12 +85,17 @@ MediumBodies::MediumBodies(const Scene& scene) {
         if (shape.interior || shape.exterior) bodies_.emplace_back(shape);
     std::stable_sort(bodies_.begin(), bodies_.end(),
                      [](const MediumBody& a, const MediumBody& b) { return a.volume() < b.volume(); });
+    const glm::dvec3 sensor = scene.sensor.meter == MeterKind::area ? boxOf(scene.shapes[scene.sensor.meterShape]).center()
+                                                                    : glm::dvec3(scene.sensor.toWorld[3]);
+    const bool isOutside =
+        std::none_of(bodies_.begin(), bodies_.end(), [&](const MediumBody& body) { return body.holds(sensor); });
+    if (scene.sensor.medium && isOutside) outside_ = *scene.sensor.medium;
 }
 
 unsigned MediumBodies::mediumAt(const glm::dvec3& point) const {
     const auto body = std::find_if(bodies_.begin(), bodies_.end(),
                                    [&](const MediumBody& candidate) { return candidate.holds(point); });
-    return body == bodies_.end() ? MEDIUM_NONE : body->medium();
+    return body == bodies_.end() ? outside_ : body->medium();
 }
 
 unsigned MediumBodies::mediumOf(const Box& box) const {

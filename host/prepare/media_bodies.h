@@ -39,7 +39,8 @@ public:
     /// Of the shapes that state a medium. `scene` must outlive it.
     explicit MediumBodies(const Scene& scene);
 
-    /// Medium inside of the innermost body that holds `point`, or MEDIUM_NONE.
+    /// Medium inside of the innermost body that holds `point`; outside of all, what the sensor says that it stands in
+    /// there, or MEDIUM_NONE.
     unsigned mediumAt(const glm::dvec3& point) const;
     /// What all of the box lies in; MEDIUM_BY_PLACE where a surface that states media may pass through it, unless the box
     /// is a point.
@@ -49,6 +50,7 @@ public:
 
 private:
     std::vector<MediumBody> bodies_; ///< by volume
+    unsigned outside_ = MEDIUM_NONE;
 };
 
 } // namespace quasilux

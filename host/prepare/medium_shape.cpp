@@ -163,6 +163,7 @@ MediumShape findMediumShape(const Scene& scene, unsigned medium) {
         const Sphere bounds = boundingSphere(scene);
         shape.volume = 4.0 / 3 * pi * std::pow(double(bounds.radius), 3);
         shape.extent = 2 * double(bounds.radius);
+        shape.isUnbounded = true;
         return shape;
     }
     const glm::dvec3 sides = box.extent();

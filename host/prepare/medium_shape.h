@@ -15,6 +15,7 @@ struct MediumShape {
     bool isPlate = false;     ///< two parallel faces hold most of its surface
     glm::dvec3 axis{0, 0, 1}; ///< normal of the plate
     double thickness = 0;     ///< of the plate
+    bool isUnbounded = false; ///< no shape states it as its interior
     std::vector<shared::MediumPlane> planes; ///< faces of a convex polyhedron with nothing inside; empty otherwise
 };
 

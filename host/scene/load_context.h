@@ -51,10 +51,9 @@ public:
     const FileResolver& files;
     const EmbeddedParts* embedded = nullptr;              ///< null: the scene holds none
     std::unordered_map<const Element*, int> bsdfIndex;    ///< of bsdfs that shapes use, into Scene::bsdfs
-    std::unordered_map<const Element*, int> textureIndex; ///< of textures in use, into Scene::textures; -1: one colour
-    std::unordered_map<const Element*, int> emissionTextureIndex; ///< of those that emitters use
-    std::unordered_map<const Element*, int> indexTextureIndex;    ///< of those that are indices of refraction
-    std::unordered_map<int, unsigned> scalarTextureIndex;         ///< of the grey copy of a coloured texture
+    /// Of textures in use, by use, into Scene::textures; -1: one colour.
+    std::unordered_map<const Element*, std::map<TextureUse, int>> textureIndex;
+    std::unordered_map<int, unsigned> scalarTextureIndex; ///< of the grey copy of a coloured texture
     std::unordered_map<const Element*, unsigned> mediumIndex;     ///< of media in use, into Scene::media
     std::unordered_map<const Element*, unsigned> volumeIndex;     ///< of volumes in use, into Scene::volumes
     std::set<const Element*> shownVolumes;                        ///< by textures

@@ -104,9 +104,7 @@ void checkUnusedBsdfs(const Element& root, LoadContext& context, const std::vect
 /// Textures that no bsdf uses, likewise.
 void checkUnusedTextures(const Element& root, LoadContext& context) {
     for (const Element& element : root.children) {
-        if (element.tag != "texture" || context.textureIndex.count(&element) ||
-            context.emissionTextureIndex.count(&element) || context.indexTextureIndex.count(&element))
-            continue;
+        if (element.tag != "texture" || context.textureIndex.count(&element)) continue;
         if (isConstantTexture(element))
             readConstantTexture(element, ColorUse::emission, context);
         else if (!replacesTexture(element, context))

@@ -114,8 +114,8 @@ struct VolumeDescription {
 };
 
 /// What a texture multiplies: what surfaces scatter, in [0, 1], or what emitters send, at least 0. Or it is an index of
-/// refraction, at least 0.
-enum class TextureUse { reflectance, emission, index };
+/// refraction, at least 0. Or the height of a bump map.
+enum class TextureUse { reflectance, emission, index, height };
 
 /// A factor over a surface that scatters or emits, or over the directions of a point emitter.
 struct TextureDescription {

@@ -20,9 +20,9 @@ void readImageFile(std::string_view input) {
         expectInputErrors([&] {
             guard.withinMemory([&] {
                 if (emits)
-                    readUnboundedImage(path, true, {path}, guard);
+                    readImage(path, true, TextureUse::emission, {path}, guard);
                 else
-                    readImage(path, false, {path}, guard);
+                    readImage(path, false, TextureUse::reflectance, {path}, guard);
             });
         });
     }

@@ -12,8 +12,19 @@ enum class LawRule { right, quasiSpecularUntilFirst, diffuseAtEveryHit, fullAlon
 /// The right handling of media, or one of the known mistakes: flux at collisions not divided by the extinction;
 /// refracted radiance not scaled by 1/eta^2; the phase function's g of the wrong sign where photons are taken; flux in
 /// a heterogeneous medium divided by the mean of its extinction; what a border of media passes through is in vacuum;
-/// camera rays begin before the near plane, at the pinhole.
-enum class MediumRule { right, missingSigmaT, missingEtaSquared, wrongSignOfG, meanSigmaT, vacuumAtBorders, pinhole };
+/// camera rays begin before the near plane, at the pinhole; photons far outside that survive roulette do not carry the
+/// flux of those that it ended; density kernels end at null surfaces with the same medium on both sides.
+enum class MediumRule {
+    right,
+    missingSigmaT,
+    missingEtaSquared,
+    wrongSignOfG,
+    meanSigmaT,
+    vacuumAtBorders,
+    pinhole,
+    lossOutside,
+    cutWithinFog,
+};
 
 /// The right tracing of photons, or a known mistake: flux that escapes is not counted in the energy balance; scattering
 /// multiplies flux by 1.02; shading normals are taken for the geometry's where photons scatter, or where they are

@@ -61,7 +61,7 @@ BsdfLobes readBumpMap(Properties& properties) {
     shared::Relief relief{};
     relief.type = RELIEF_HEIGHTS;
     relief.scale = static_cast<float>(properties.number("scale", 1));
-    relief.texture = useScalarTexture(*texture, properties.context());
+    relief.texture = useScalarTexture(*texture, properties.context(), TextureUse::height);
     if (properties.context().scene.textures[relief.texture].device.type != TEXTURE_BITMAP)
         throw InputError(texture->where,
                          fmt::format("bumpmap: a texture '{}' has no slope; use a bitmap.", texture->get("type")));

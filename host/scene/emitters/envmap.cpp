@@ -44,7 +44,7 @@ SceneEmitter readEnvmap(Properties& properties) {
     image.axes = axesOfSurroundings(properties);
 
     const std::string path = properties.context().files.resolve(name, where);
-    const Image read = readUnboundedImage(path, false, where, properties.context().files.guard());
+    const Image read = readImage(path, false, TextureUse::emission, where, properties.context().files.guard());
     if (read.height < 2 || std::max(read.width, read.height) > longestSide)
         throw InputError(where,
                          fmt::format("the image '{}' has {} x {} pixels; an environment map has at least two rows, "

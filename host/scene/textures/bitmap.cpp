@@ -18,14 +18,11 @@ const Image& imageOf(const std::string& name, bool raw, TextureUse use, const So
     const auto key = std::tuple(path, raw, use);
     const auto known = context.images.find(key);
     if (known != context.images.end()) return known->second;
-    const bool unbounded = use != TextureUse::reflectance;
-    LoadGuard& guard = context.files.guard();
     const Image& image =
-        context.images
-            .emplace(key, unbounded ? readUnboundedImage(path, raw, where, guard) : readImage(path, raw, where, guard))
-            .first->second;
-    const char* const what = unbounded ? "negative and are taken as 0"
-                                       : "above 1 and are taken as 1: a surface cannot reflect more light than it gets";
+        context.images.emplace(key, readImage(path, raw, use, where, context.files.guard())).first->second;
+    const char* const what = use == TextureUse::reflectance
+                                 ? "above 1 and are taken as 1: a surface cannot reflect more light than it gets"
+                                 : "negative and are taken as 0";
     if (image.clamped > 0)
         context.warn(
             where, fmt::format("{} of the {} pixels of '{}' are {}.", image.clamped, image.pixels.size(), name, what));

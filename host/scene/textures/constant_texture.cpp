@@ -141,7 +141,7 @@ const Names& constantTextureNames() {
 Rgb readConstantTexture(const Element& element, ColorUse use, LoadContext& context) {
     std::vector<const Element*>& open = context.openTextures;
     context.enter(element, open);
-    context.textureIndex.emplace(&element, -1);
+    context.textureIndex[&element].emplace(TextureUse::reflectance, -1);
     Properties properties(element, context);
     const Rgb color = findConstant(element)->read(properties, use);
     properties.finish();

@@ -35,7 +35,14 @@ struct Range {
     const char* rule;
 };
 constexpr Range reflectances{0, 1, false, "reflectances lie within [0, 1]"};
-constexpr Range unbounded{0, std::numeric_limits<float>::max(), true, "expected a finite number"};
+constexpr float largest = std::numeric_limits<float>::max();
+constexpr Range positive{0, largest, true, "expected a finite number"};
+constexpr Range heights{-largest, largest, true, "expected a finite number"};
+
+const Range& rangeOf(TextureUse use) {
+    if (use == TextureUse::height) return heights;
+    return use == TextureUse::reflectance ? reflectances : positive;
+}
 
 // Formats that name no further files, by the ending: others of OpenImageIO's readers play films, for example.
 constexpr std::pair<std::string_view, const char*> plainFormats[] = {
@@ -134,7 +141,10 @@ private:
     std::array<float, 256> known_{};
 };
 
-Image readWithin(const Range& range, const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard) {
+} // namespace
+
+Image readImage(const std::string& path, bool raw, TextureUse use, const SourceLocation& where, LoadGuard& guard) {
+    const Range& range = rangeOf(use);
     const auto [spec, channels, values] = readStored(path, where, guard);
     const bool encoded = !raw && !spec.format.is_floating_point();
     const std::optional<glm::dmat3> toSrgb = toLinearSrgb(spec);
@@ -161,16 +171,6 @@ Image readWithin(const Range& range, const std::string& path, bool raw, const So
     }
     image.pixels = std::move(pixels);
     return image;
-}
-
-} // namespace
-
-Image readImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard) {
-    return readWithin(reflectances, path, raw, where, guard);
-}
-
-Image readUnboundedImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard) {
-    return readWithin(unbounded, path, raw, where, guard);
 }
 
 } // namespace quasilux

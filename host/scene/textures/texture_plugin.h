@@ -77,10 +77,8 @@ double clampedWeight(Properties& properties, const std::string& name, double val
 Scalar readWeight(Properties& properties, const std::string& name, float missing);
 
 /// Reads an image file. Files of integers are taken as sRGB encoded unless `raw`; one channel is grey, alpha is left
-/// out. Throws InputError at `where` where the file cannot be read, or has negative or non-finite values.
-Image readImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard);
-/// An image of radiance, or of indices of refraction: as readImage, but values may be above 1, and negative ones become
-/// 0.
-Image readUnboundedImage(const std::string& path, bool raw, const SourceLocation& where, LoadGuard& guard);
+/// out. Reflectances above 1 become 1, negative radiance and indices of refraction 0; heights are as they are. Throws
+/// InputError at `where` where the file cannot be read, or has non-finite values or negative reflectances.
+Image readImage(const std::string& path, bool raw, TextureUse use, const SourceLocation& where, LoadGuard& guard);
 
 } // namespace quasilux

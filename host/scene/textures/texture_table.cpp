@@ -43,14 +43,11 @@ Rgb largestValue(const TextureDescription& texture) {
 
 /// Index into Scene::textures; read once however often it is used.
 int useTexture(const Element& element, LoadContext& context, TextureUse use) {
-    auto& indices = use == TextureUse::emission ? context.emissionTextureIndex
-                    : use == TextureUse::index  ? context.indexTextureIndex
-                                                : context.textureIndex;
-    const auto known = indices.find(&element);
-    if (known != indices.end()) return known->second;
+    const auto known = context.textureIndex.find(&element);
+    if (known != context.textureIndex.end() && known->second.count(use) > 0) return known->second.at(use);
     context.scene.textures.push_back(readTexture(element, context, use));
     const int index = static_cast<int>(context.scene.textures.size()) - 1;
-    indices.emplace(&element, index);
+    context.textureIndex[&element].emplace(use, index);
     return index;
 }
 

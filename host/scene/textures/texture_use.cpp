@@ -37,6 +37,7 @@ const char* ruleOf(TextureUse use) {
         return "radiance is at least 0";
     case TextureUse::index:
         return "indices of refraction are at least 0";
+    case TextureUse::height: // only of bitmaps
     case TextureUse::reflectance:
         break;
     }
