@@ -301,10 +301,10 @@ TEST(BumpMapBsdf, TakesHeightsAsTheyAre) {
     const float heights[] = {-0.25f, 5};
     std::string image = "Pf\n2 1\n-1\n";
     image.append(reinterpret_cast<const char*>(heights), sizeof heights);
-    const Scene scene = load(R"(<shape type="rectangle"><bsdf type="bumpmap"><texture type="bitmap" name="any">
+    const Scene scene =
+        load(R"(<shape type="rectangle"><bsdf type="bumpmap"><texture type="bitmap" name="any">
         <string name="filename" value=")" +
-                             files.write("heights.pfm", image) +
-                             R"("/></texture><bsdf type="diffuse"/></bsdf></shape>)");
+             files.write("heights.pfm", image) + R"("/></texture><bsdf type="diffuse"/></bsdf></shape>)");
     const auto& texels = scene.textures.at(scene.bsdfs.at(0).frontRelief.value().texture).texels;
     ASSERT_EQ(texels.size(), 2u);
     EXPECT_EQ(texels.at(0).r, -0.25f);

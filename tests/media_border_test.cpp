@@ -147,8 +147,9 @@ TEST(MediaBorder, AMeterOnABorderBeginsOnItsOwnSide) {
 TEST(MediaBorder, KernelsGoOnThroughSurfacesWithinFog) {
     std::string planes;
     for (const char* const turn : {"<translate z=\"0.1\"/>", "<rotate x=\"1\" angle=\"90\"/>"})
-        planes += std::string("<shape type=\"rectangle\"><transform name=\"to_world\">") + turn +
-                  R"(</transform><bsdf type="null"/><ref name="interior" id="fog"/><ref name="exterior" id="fog"/></shape>)";
+        planes +=
+            std::string("<shape type=\"rectangle\"><transform name=\"to_world\">") + turn +
+            R"(</transform><bsdf type="null"/><ref name="interior" id="fog"/><ref name="exterior" id="fog"/></shape>)";
     const Scene scene = sceneOf(R"(<sensor type="perspective"><float name="fov" value="30"/><transform name="to_world">
         <lookat origin="0,-4,2" target="0,0,0" up="0,0,1"/></transform><film type="hdrfilm"><integer name="width" value="16"/>
         <integer name="height" value="16"/><rfilter type="box"/></film></sensor><emitter type="constant"/>

@@ -85,8 +85,9 @@ MediumBodies::MediumBodies(const Scene& scene) {
         if (shape.interior || shape.exterior) bodies_.emplace_back(shape);
     std::stable_sort(bodies_.begin(), bodies_.end(),
                      [](const MediumBody& a, const MediumBody& b) { return a.volume() < b.volume(); });
-    const glm::dvec3 sensor = scene.sensor.meter == MeterKind::area ? boxOf(scene.shapes[scene.sensor.meterShape]).center()
-                                                                    : glm::dvec3(scene.sensor.toWorld[3]);
+    const glm::dvec3 sensor = scene.sensor.meter == MeterKind::area
+                                  ? boxOf(scene.shapes[scene.sensor.meterShape]).center()
+                                  : glm::dvec3(scene.sensor.toWorld[3]);
     const bool isOutside =
         std::none_of(bodies_.begin(), bodies_.end(), [&](const MediumBody& body) { return body.holds(sensor); });
     if (scene.sensor.medium && isOutside) outside_ = *scene.sensor.medium;

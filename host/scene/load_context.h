@@ -49,19 +49,19 @@ public:
 
     Scene& scene;
     const FileResolver& files;
-    const EmbeddedParts* embedded = nullptr;              ///< null: the scene holds none
-    std::unordered_map<const Element*, int> bsdfIndex;    ///< of bsdfs that shapes use, into Scene::bsdfs
+    const EmbeddedParts* embedded = nullptr;           ///< null: the scene holds none
+    std::unordered_map<const Element*, int> bsdfIndex; ///< of bsdfs that shapes use, into Scene::bsdfs
     /// Of textures in use, by use, into Scene::textures; -1: one colour.
     std::unordered_map<const Element*, std::map<TextureUse, int>> textureIndex;
-    std::unordered_map<int, unsigned> scalarTextureIndex; ///< of the grey copy of a coloured texture
-    std::unordered_map<const Element*, unsigned> mediumIndex;     ///< of media in use, into Scene::media
-    std::unordered_map<const Element*, unsigned> volumeIndex;     ///< of volumes in use, into Scene::volumes
-    std::set<const Element*> shownVolumes;                        ///< by textures
-    std::vector<const Element*> openPhases;                       ///< being read now, as openBsdfs
-    std::set<const Element*> usedPhases;                          ///< that a medium has
-    int defaultBsdf = -1, defaultEmitterBsdf = -1; ///< of shapes without one; -1 until the first needs it
-    std::vector<const Element*> openBsdfs;         ///< being read now, outermost first: a cycle shows here
-    std::vector<const Element*> openTextures;      ///< likewise
+    std::unordered_map<int, unsigned> scalarTextureIndex;     ///< of the grey copy of a coloured texture
+    std::unordered_map<const Element*, unsigned> mediumIndex; ///< of media in use, into Scene::media
+    std::unordered_map<const Element*, unsigned> volumeIndex; ///< of volumes in use, into Scene::volumes
+    std::set<const Element*> shownVolumes;                    ///< by textures
+    std::vector<const Element*> openPhases;                   ///< being read now, as openBsdfs
+    std::set<const Element*> usedPhases;                      ///< that a medium has
+    int defaultBsdf = -1, defaultEmitterBsdf = -1;            ///< of shapes without one; -1 until the first needs it
+    std::vector<const Element*> openBsdfs;                    ///< being read now, outermost first: a cycle shows here
+    std::vector<const Element*> openTextures;                 ///< likewise
     std::map<std::tuple<std::string, bool, TextureUse>, Image> images; ///< read already, by path and `raw`
     std::map<std::tuple<std::string, size_t, double, bool>, unsigned>
         luminaireTypes; ///< into Scene::luminaireTypes, by path, set of lamps, unit, and whether the shape shines
