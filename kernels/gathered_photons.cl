@@ -3,6 +3,15 @@
  * it is asked to. From: camera rays, photon map. To: a bit for each photon. */
 #include "camera_paths.cl"
 
+/* Pixels, or places in the grid of samples. */
+inline uint placeCount(const CameraParams* params) {
+#ifdef SHARES_SAMPLES
+    return gridColumns(&params->camera) * (params->camera.height + 2 * SAMPLE_BORDER(&params->camera));
+#else
+    return params->camera.width * params->camera.height;
+#endif
+}
+
 __kernel void markGathered(__global const BvhNode* nodes, __global const PrimitiveBlock* blocks,
                            __global const uint* tables, __global const uint* cellStart, __global const uint* sorted,
                            __global uint* marks, const CameraParams params, __global const uint* pathCounts
@@ -12,7 +21,7 @@ __kernel void markGathered(__global const BvhNode* nodes, __global const Primiti
 #endif
 ) {
     const uint index = get_global_id(0);
-    if (index >= pathCount(&params)) return;
+    if (index >= placeCount(&params)) return;
     const World world = {nodes,        blocks, tables, {sorted, cellStart, &params.map, marks}, pathCounts,
 #ifdef ADAPTIVE_RADIUS
                          radiusScales,

@@ -110,6 +110,23 @@ TEST(FilmParts, OfSharedSamplesHaveTheSameBits) {
     EXPECT_NE(whole.image.radiance, usual().image.radiance) << "negative control: another filter";
 }
 
+// From pass 16 on, two passes of four estimate the bias. Of a range that has none of these, or those of one batch alone,
+// the bias is not known, rather than 0.
+TEST(FilmBias, OfFewLatePassesIsNotKnown) {
+    const auto hasBias = [](unsigned first, unsigned last) {
+        Renderer renderer(testDevice(), projectScene("cornell_phong.xml"), settingsOf({}));
+        for (unsigned pass = first; pass < last; ++pass) renderer.renderPass(pass);
+        const FilmImage image = renderer.develop();
+        EXPECT_EQ(image.bias.empty(), image.biasError.empty());
+        EXPECT_EQ(image.bias.empty(), image.components[LIGHT_DIFFUSE].bias.empty());
+        return !image.bias.empty();
+    };
+    EXPECT_FALSE(hasBias(19, 21));
+    EXPECT_FALSE(hasBias(16, 21));
+    EXPECT_TRUE(hasBias(16, 24));
+    EXPECT_TRUE(hasBias(0, 2));
+}
+
 TEST(FilmParts, AreSavedAsOne) {
     const Rendered parts = render(smallDevice(), {}, 1, &usual().state);
     EXPECT_EQ(parts.image.radiance, usual().image.radiance);

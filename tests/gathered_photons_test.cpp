@@ -11,7 +11,7 @@
 namespace quasilux {
 namespace {
 
-Scene twoPlates(const char* target) {
+Scene twoPlates(const char* target, const std::string& filter = "box") {
     test::SceneFiles files;
     return loadScene(files.write(
         "scene.xml",
@@ -19,17 +19,18 @@ Scene twoPlates(const char* target) {
             R"(<scene version="3.0.0"><integrator type="path"/><sensor type="orthographic"><transform name="to_world">
         <lookat origin="0,0,1" target=")") +
             target + R"(" up="0,1,0"/></transform>
-        <film type="hdrfilm"><rfilter type="box"/><integer name="width" value="32"/><integer name="height" value="32"/></film></sensor>
+        <film type="hdrfilm"><rfilter type=")" +
+            filter + R"("/><integer name="width" value="32"/><integer name="height" value="32"/></film></sensor>
         <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.8"/></bsdf></shape>
         <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><translate z="2"/></transform>
         <bsdf type="diffuse"><rgb name="reflectance" value="0.8"/></bsdf></shape>
         <emitter type="point"><point name="position" value="0,0,0.7"/><rgb name="intensity" value="1"/></emitter></scene>)"));
 }
 
-GatheredCount gathered(const char* target) {
+GatheredCount gathered(const char* target, const std::string& filter = "box") {
     RenderSettings settings;
     settings.photonsPerPass = 20'000;
-    Renderer renderer(testDevice(), twoPlates(target), settings);
+    Renderer renderer(testDevice(), twoPlates(target, filter), settings);
     renderer.renderPass(0);
     return renderer.countGathered().value();
 }
@@ -42,6 +43,12 @@ TEST(GatheredPhotons, AreThoseOfThePlateThatIsSeen) {
     EXPECT_NEAR(floor.share() + ceiling.share(), 1, 0.01);
     EXPECT_GT(floor.share(), 0.2);
     EXPECT_GT(ceiling.share(), 0.2);
+}
+
+// With a filter wider than a pixel, samples lie beyond the image's edge too.
+TEST(GatheredPhotons, AreThoseOfSharedSamples) {
+    const double box = gathered("0,0,0").share(), wide = gathered("0,0,0", "lanczos").share();
+    EXPECT_NEAR(wide, box, 0.02);
 }
 
 TEST(GatheredPhotons, AreNotCountedWithoutAPhotonMapForACamera) {

@@ -299,6 +299,30 @@ TEST(Search, KeepsTheStartWhereAllFail) {
     EXPECT_EQ(found.settings.photonsPerPass, 0u);
 }
 
+// Other numbers win against those that the search has, or not at all: where these find no memory, nothing is changed.
+// Control: with memory the others win.
+TEST(Search, NumbersDoNotWinUnopposed) {
+    for (const bool lacksMemory : {false, true}) {
+        double clock = 0;
+        int opened = 0;
+        SearchWorld world;
+        world.open = [&](const RenderSettings& settings) -> std::unique_ptr<Pilot> {
+            const bool isStart = settings.photonsPerPass == 0 && settings.radiusScale == 1;
+            if (lacksMemory && isStart && opened++ > 0) throw std::bad_alloc();
+            const unsigned photons = settings.photonsPerPass > 0 ? settings.photonsPerPass : 1000;
+            return std::make_unique<FakePilot>(Truth{0.1, isStart ? 1 : 0.5}, photons, clock);
+        };
+        world.clock = [&] { return clock += 0.01; };
+        StopRule stop;
+        stop.seconds = 400;
+        const Scene scene = projectScene("cornell_phong.xml");
+        const Freedom numbers{false, false, false, true, true};
+        const auto found = Search(world, scene, numbers, stop).run({}, world.open({}));
+        const bool isStart = found.settings.photonsPerPass == 0 && found.settings.radiusScale == 1;
+        EXPECT_EQ(isStart, lacksMemory);
+    }
+}
+
 // A step that pays is followed by the next one: to a sixteenth, and no further.
 TEST(Search, GoesOnTheSameWay) {
     const World world = [](const RenderSettings& s) {

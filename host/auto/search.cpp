@@ -187,6 +187,9 @@ bool Search::raceOfNumbers(double seconds) {
 void Search::race(const std::vector<RenderSettings>& candidates, unsigned fewest, double leastGain, double seconds) {
     const double end = world_.clock() + seconds, middle = world_.clock() + seconds / 2;
     Field field = enter(candidates, fewest, leastGain, middle, end);
+    // What must win by some gain wins against the first or not at all: there may be no memory for that beside the best.
+    const auto name = [](const RenderSettings& settings) { return text(settings, settings.photonsPerPass); };
+    if (leastGain > 1 && (field.empty() || name(field.front().settings) != name(candidates.front()))) return;
     renderAll(field, fewest, mostAtFirst, field.size() > 2 ? middle : end);
     halve(field, end);
     if (field.empty()) return;

@@ -40,6 +40,8 @@ public:
     void finish();
 
 private:
+    bool knowsBias() const;
+
     FilmLayout layout_;
     FilmCounts counts_;
     unsigned passes_;

@@ -24,6 +24,10 @@ struct RadianceEstimate {
         bias.resize(hasBias ? values : 0);
         biasError.resize(hasBias ? values : 0);
     }
+    void dropBias() {
+        bias.clear();
+        biasError.clear();
+    }
     bool operator==(const RadianceEstimate&) const = default;
 };
 

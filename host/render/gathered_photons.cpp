@@ -21,7 +21,8 @@ GatheredCount countGathered(Device& device, const std::string& options, const Ge
     const uint64_t all = std::accumulate(count.stored.begin(), count.stored.end(), uint64_t{0});
     Buffer<uint32_t> marks(device, all / bitsOfWord + 1, "marks of gathered photons");
     marks.fill(0);
-    const size_t paths = size_t(params.camera.width) * params.camera.height;
+    const size_t border = SAMPLE_BORDER(&params.camera); // of samples that pixels share, if they do
+    const size_t paths = (params.camera.width + 2 * border) * (params.camera.height + 2 * border);
     Kernel kernel = program.kernel("markGathered");
     const auto launch = [&](const auto&... more) {
         kernel.launch(paths, geometry.nodes, geometry.blocks, geometry.tables, photons.table().cellStart(),

@@ -38,7 +38,6 @@ struct QuasiSpecularChoice {
 struct LevelTexture {
     unsigned texture = 0; ///< index into Scene::textures, of equal channels
     double offset = 0, factor = 1;
-    bool ofIndex = false; ///< of an index of refraction, by which both alphas of a lobe go alike
 
     bool operator==(const LevelTexture&) const = default;
 };

@@ -28,7 +28,7 @@ void setFacetLevels(const Principled& p, LobeDescription& lobe) {
     if (p.roughness.texture) lobe.levelTextures.push_back({*p.roughness.texture});
     if (p.anisotropic.texture) lobe.levelTextures.push_back({*p.anisotropic.texture, 1, -0.9});
     const bool byIndex = p.passed && p.eta.texture;
-    if (byIndex) lobe.levelTextures.push_back({*p.eta.texture, 0, 1, true});
+    if (byIndex) lobe.levelTextures.push_back({*p.eta.texture});
     if (lobe.levelTextures.empty()) return;
     lobe.axesByTexture = p.anisotropic.texture || (p.roughness.texture && p.anisotropic.value > 0);
     lobe.setLevel = [p, byIndex](shared::Lobe& device, const std::vector<double>& values) {
