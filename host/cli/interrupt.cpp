@@ -15,8 +15,9 @@ constexpr int signalBase = 128; // exit code of a program that a signal ends, as
 constexpr std::array<int, 3> endingSignals{SIGINT, SIGTERM, SIGHUP};
 
 // One cause may send several: a terminal that is closed SIGHUP by the shell and by the kernel, systemd SIGTERM with
-// SIGHUP, `timeout` SIGTERM to the program and to its group. These come close together.
-constexpr int64_t millisecondsOfOneCause = 2000;
+// SIGHUP, `timeout` its signal to the program and to its group. These come close together; Ctrl-C is a key that somebody
+// may press twice.
+constexpr int64_t millisecondsOfOneCause = 2000, millisecondsOfOneKey = 200;
 
 std::atomic<bool> interrupted{false};
 std::atomic<int> firstSignal{0};
@@ -38,7 +39,7 @@ void onInterrupt(int signal) {
     if (firstTime.compare_exchange_strong(first, now)) {
         firstSignal = signal;
         interrupted = true;
-    } else if (signal == SIGINT || now - first > millisecondsOfOneCause) {
+    } else if (now - first > (signal == SIGINT ? millisecondsOfOneKey : millisecondsOfOneCause)) {
         _exit(signalBase + signal);
     }
 }
