@@ -310,8 +310,7 @@ int SensorRender::finish() {
         writeFiles(options_.named(namePartsOf(record.settings.seed, image.passes)), image, aovs, record, written);
     progress_.clear();
     summarise(record, written, curve);
-    std::vector<std::string> warnings =
-        renderWarnings(record.counters, record.report, uint64_t{image.width} * image.height);
+    std::vector<std::string> warnings = renderWarnings(record.counters, record.report, image);
     warnings.insert(warnings.end(), done_.warnings.begin(), done_.warnings.end());
     if (!options_.show.empty())
         if (const auto why = showImage(options_.show, image, options_.exposure)) warnings.push_back(*why);

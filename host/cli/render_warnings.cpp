@@ -1,5 +1,6 @@
 #include "cli/render_warnings.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -23,15 +24,27 @@ std::string rarePhotons(double share, double effective) {
     return fmt::format(
         "{:.2g} % of the image's light comes from photons, but effectively only {:.2g} photons contribute: too few to "
         "estimate that light or its error; render longer, use more --photons, or follow such paths from the camera "
-        "(--bdd "
-        "1, or --quasi-specular all --variant alternative)",
+        "(--bdd 1, or "
+        "--quasi-specular all --variant alternative)",
         100 * share, effective);
+}
+
+bool isBlack(const FilmImage& image) {
+    return std::all_of(image.radiance.begin(), image.radiance.end(), [](float value) { return value == 0; });
 }
 
 } // namespace
 
-std::vector<std::string> renderWarnings(const RenderCounters& counters, const SceneReport& report, uint64_t pixels) {
+std::vector<std::string> renderWarnings(const RenderCounters& counters, const SceneReport& report,
+                                        const FilmImage& image) {
+    const uint64_t pixels = uint64_t{image.width} * image.height;
     std::vector<std::string> warnings;
+    if (counters.passes > 0 && !report.emitters.empty() && isBlack(image))
+        warnings.push_back(
+            fmt::format("the scene has light, but none has reached the image in {} {}, so that its error "
+                        "is not known; see whether the sensor looks at anything that is lit (layers of "
+                        "the integrator 'aov' show what it sees), or render longer",
+                        counters.passes, counters.passes == 1 ? "pass" : "passes"));
     if (counters.nonFinite > 0)
         warnings.push_back(fmt::format("{} samples were not finite and were dropped, the image lacks their light",
                                        counters.nonFinite));

@@ -9,6 +9,7 @@
 namespace quasilux {
 
 /// Light that is missing, or not known well enough for its error to mean anything; a sentence each.
-std::vector<std::string> renderWarnings(const RenderCounters& counters, const SceneReport& report, uint64_t pixels);
+std::vector<std::string> renderWarnings(const RenderCounters& counters, const SceneReport& report,
+                                        const FilmImage& image);
 
 } // namespace quasilux

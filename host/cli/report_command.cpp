@@ -171,9 +171,7 @@ private:
         part.passes = result.image.passes;
         part.seconds = seconds() - begun;
         if (result.failure) endBy(result.failure);
-        for (const auto& warning :
-             renderWarnings(result.counters, result.report, uint64_t(result.image.width) * result.image.height))
-            warn(warning);
+        for (const auto& warning : renderWarnings(result.counters, result.report, result.image)) warn(warning);
         return result;
     }
 

@@ -59,8 +59,7 @@ std::shared_ptr<const Rendered> render(const RenderOptions& options, const Scene
     rendered->warnings = std::move(warnings);
     for (const auto& warning : started.warnings()) rendered->warnings.push_back(warning);
     const RenderRecord& record = rendered->record;
-    for (auto& warning :
-         renderWarnings(record.counters, record.report, uint64_t{render.image.width} * render.image.height))
+    for (auto& warning : renderWarnings(record.counters, record.report, render.image))
         rendered->warnings.push_back(std::move(warning));
     if (const std::string why = started.checkpointFailure(); !why.empty())
         rendered->warnings.push_back("no checkpoint of the last passes could be written: " + why);

@@ -46,7 +46,8 @@ CommandLineTest::CommandLineTest() {
     <float name="fov" value="40"/>
     <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film>
   </sensor>
-  <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>
+  <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1"/></emitter>
+    <transform name="to_world"><rotate y="1" angle="180"/><translate z="2"/></transform></shape>
 </scene>
 )";
 }
