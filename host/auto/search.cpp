@@ -1,6 +1,7 @@
 #include "auto/search.h"
 
 #include "render/adaptive_radius.h"
+#include "render/renderer.h"
 #include "util/error.h"
 
 #include <algorithm>
@@ -34,6 +35,20 @@ constexpr double leastSeconds = 1;       // renders shorter than this are not wo
 constexpr double longestHorizon = 86400; // seconds, where only an error was asked for
 
 constexpr uint64_t pilotSeed = 0x9E3779B97F4A7C15ull; // added: what decides must be no part of the image
+
+/// What an action failed with, unless the whole render is given up.
+std::optional<std::string> failureUnlessAbandoned(const std::function<void()>& action) {
+    bool isAbandoned = false;
+    const auto why = failureOf([&] {
+        try {
+            action();
+        } catch (const RenderAbandoned&) {
+            isAbandoned = true;
+        }
+    });
+    if (isAbandoned) throw RenderAbandoned();
+    return why;
+}
 
 bool isWithin(double factor, double most) { return factor < most * 1.05 && factor * most > 1 / 1.05; }
 
@@ -113,7 +128,7 @@ std::unique_ptr<Pilot> Search::renderFirst(Contender& start, bool& begun) {
         RenderSettings settings = start.settings;
         settings.seed += pilotSeed;
         kept = std::move(start.pilot);
-        const auto why = failureOf([&] {
+        const auto why = failureUnlessAbandoned([&] {
             start.pilot = world_.open(settings);
             begun = renderUpTo(start, fewestPasses);
         });
@@ -143,7 +158,7 @@ CameraSampling Search::samplingOf(Contender& contender, const PilotMeasure& meas
         contender.pilot->pathsOfSamplingGain(cameraPaths) * ofPath > shareOfSamplingPilot * secondsLeft())
         return before;
     SamplingGain gain;
-    if (failureOf([&] { gain = contender.pilot->samplingGain(cameraPaths); })) return before;
+    if (failureUnlessAbandoned([&] { gain = contender.pilot->samplingGain(cameraPaths); })) return before;
     return gainOfSampling(measure, gain) > leastGainOfSampling ? CameraSampling::adaptive : CameraSampling::even;
 }
 
@@ -327,7 +342,7 @@ void Search::measureTogether(Field& field) {
 
 bool Search::dare(Contender& contender, const std::function<void()>& action) {
     if (!contender.failure.empty()) return false;
-    if (const auto why = failureOf(action)) contender.failure = why->empty() ? "no reason given" : *why;
+    if (const auto why = failureUnlessAbandoned(action)) contender.failure = why->empty() ? "no reason given" : *why;
     return contender.failure.empty();
 }
 

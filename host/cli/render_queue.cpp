@@ -22,6 +22,11 @@ namespace {
 
 constexpr std::chrono::milliseconds betweenLooks{100};
 
+const char* adviceOf(const std::string& first, const std::string& second) {
+    const auto stem = [](const std::string& scene) { return std::filesystem::path(scene).stem(); };
+    return stem(first) == stem(second) ? "" : "write {scene} into the name, or ";
+}
+
 // Each scene with the names of its files. All are checked before the first is rendered, and no two may write the same
 // file.
 std::vector<RenderOptions> optionsByScene(const RenderOptions& options) {
@@ -38,9 +43,8 @@ std::vector<RenderOptions> optionsByScene(const RenderOptions& options) {
             const auto name = std::filesystem::path(file).lexically_normal().string();
             const auto [other, isNew] = sceneOfFile.emplace(name, scene);
             if (!isNew && options.scenes.size() > 1)
-                throw InputError(fmt::format("{} and {} would both be written to {}: write {{scene}} into the name, or "
-                                             "render them one by one",
-                                             other->second, scene, file));
+                throw InputError(fmt::format("{} and {} would both be written to {}: {}render them one by one",
+                                             other->second, scene, file, adviceOf(other->second, scene)));
         }
     }
     if (all.size() > 1)

@@ -112,7 +112,7 @@ private:
             view_.onProgress(progress);
         };
         const auto afterPass = [&](const AutoRender& soFar, const Renderer& renderer, double seconds, bool isLast) {
-            keep(soFar.settings);
+            keep(soFar);
             learned_ = renderer.learned();
             if (!isKnown) learnedFor_ = edits_;
             view_.afterPass(soFar, renderer, seconds, isLast);
@@ -125,9 +125,11 @@ private:
         if (result.failure) std::rethrow_exception(result.failure);
     }
 
-    // What was searched once is not searched again: a change is to be seen at once.
-    void keep(const RenderSettings& chosen) {
-        if (options_.fixed) return;
+    // What was searched once is not searched again: a change is to be seen at once. A search that a change ended has
+    // chosen nothing.
+    void keep(const AutoRender& soFar) {
+        if (options_.fixed || soFar.search.interrupted) return;
+        const RenderSettings& chosen = soFar.settings;
         options_.fixed = true;
         options_.autoAll = false;
         options_.bdd = chosen.bdd;

@@ -3,15 +3,21 @@
 
 #include "output/exr.h"
 #include "scene/xml/xml_document.h"
+#include "util/stopwatch.h"
 #include "util/temporary_folder.h"
 #include "view/frame.h"
 #include "view/frame_pace.h"
 #include "view/page_files.h"
 
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
 #include <httplib.h>
+#include <netinet/in.h>
 #include <sstream>
+#include <sys/socket.h>
 #include <thread>
 
 namespace quasilux {
@@ -24,6 +30,7 @@ using httplib::Response;
 
 // Threads, of which each request that waits for something new takes one.
 constexpr size_t serverThreads = 24;
+constexpr int keepAliveSeconds = 1;
 constexpr std::chrono::milliseconds patience{3000}, patienceOfSaving{600000};
 
 constexpr int badRequest = 400, forbidden = 403, notFound = 404, noContent = 204, unsupportedType = 415;
@@ -71,6 +78,24 @@ double numberParameter(const Request& request, const char* name, double otherwis
     return value;
 }
 
+uint16_t portOf(const sockaddr_storage& address) {
+    return ntohs(address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
+                                               : reinterpret_cast<const sockaddr_in&>(address).sin_port);
+}
+
+/// Ends all connections that this program has accepted at the port: the library knows them no more.
+void dropConnections(int port) {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        const int socket = std::atoi(entry.path().filename().c_str());
+        sockaddr_storage own{}, other{};
+        socklen_t ownSize = sizeof own, otherSize = sizeof other;
+        const bool isConnected = getsockname(socket, reinterpret_cast<sockaddr*>(&own), &ownSize) == 0 &&
+                                 getpeername(socket, reinterpret_cast<sockaddr*>(&other), &otherSize) == 0;
+        if (isConnected && (own.ss_family == AF_INET || own.ss_family == AF_INET6) && portOf(own) == port)
+            shutdown(socket, SHUT_RDWR);
+    }
+}
+
 void reply(Response& response, const nlohmann::json& json) {
     response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "application/json");
 }
@@ -86,7 +111,8 @@ struct ViewServer::Http {
             setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
         });
         server.set_default_headers(safetyHeaders);
-        server.set_keep_alive_timeout(1); // as long may the end of the program have to wait for an idle browser
+        server.set_keep_alive_timeout(
+            keepAliveSeconds); // as long may the end of the program have to wait for an idle browser
         server.set_keep_alive_max_count(1000);
         server.set_payload_max_length(1u << 18);
         server.set_tcp_nodelay(true);
@@ -99,12 +125,21 @@ struct ViewServer::Http {
                 fmt::format("--listen {} --port {}: the system refuses this address (another program may have it); "
                             "give another one, or --port 0 for any that is free",
                             listen, options.port));
-        thread = std::thread([this] { server.listen_after_bind(); });
+        thread = std::thread([this] {
+            server.listen_after_bind();
+            hasEnded = true;
+        });
         while (!server.is_running()) std::this_thread::yield(); // or else stop() may come too early
     }
 
+    /// Threads of the library read for as long as somebody sends a byte now and then, and the image waits for them here.
     ~Http() {
         server.stop();
+        const Stopwatch watch;
+        while (!hasEnded) {
+            if (watch.seconds() > keepAliveSeconds) dropConnections(port);
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
         thread.join();
     }
 
@@ -329,6 +364,7 @@ struct ViewServer::Http {
     std::atomic<double> meanRadiance{0}; // of the whole image, by its last picture
     httplib::Server server;
     std::thread thread;
+    std::atomic<bool> hasEnded{false};
 };
 
 ViewServer::ViewServer(const ViewOptions& options, LiveView& view) : http_(std::make_unique<Http>(options, view)) {}

@@ -7,6 +7,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -362,6 +363,29 @@ class RunningRender(unittest.TestCase):
         with Viewed(PROGRAM, SCENE, *options, "--view", command="render") as view:
             view.process.wait(20)
             numpy.testing.assert_array_equal(pixels_of((view.folder / "out.exr").read_bytes()), watched)
+
+    def test_who_sends_a_byte_now_and_then_keeps_no_image(self):
+        options = [*SMALL, "--passes", "40", "-o", "out.exr"]
+        with Viewed(PROGRAM, SCENE, *options, "--view", command="render") as view:
+            with socket.create_connection((view.host, view.port), 5) as drip:
+                drip.sendall(b"GET /")
+                end = time.monotonic() + 40
+                while view.process.poll() is None and time.monotonic() < end:
+                    try:
+                        drip.sendall(b"a")
+                    except OSError:  # the connection is dropped
+                        break
+                    time.sleep(0.3)
+                view.process.wait(20)
+            self.assertEqual(view.process.returncode, 0)
+            self.assertTrue((view.folder / "out.exr").exists())
+
+    def test_a_change_ends_no_search_for_good(self):
+        with Viewed(PROGRAM, SCENE, *SMALL, "--auto", "--time", "6") as view:
+            view.wait(lambda state: state["phase"] == "pilot passes", 60)
+            self.assertEqual(view.post("edit", lamps=[2])[0], 200)
+            # It is searched once more.
+            view.wait(lambda state: state["render"] > 0 and state["phase"] == "pilot passes", 60)
 
 
 if __name__ == "__main__":
