@@ -223,7 +223,7 @@ TEST(TexturedShapes, SayWhatIsWrong) {
     const std::pair<std::string, std::string> bad[] = {
         {"<shape type=\"obj\" id=\"m\"><string name=\"filename\" value=\"m.obj\"/>" + checkers +
              "</texture></emitter></shape>",
-         "scene.xml:4:1: shape 'm' has no texture coordinates, or not at every corner, but its emitter has a texture"},
+         "scene.xml:4:1: shape 'm' has no texture coordinates, but its emitter has a texture"},
         {"<shape type=\"obj\" id=\"m\"><string name=\"filename\" value=\"m.obj\"/><emitter type=\"area\">\n<texture "
          "type=\"mesh_attribute\" name=\"radiance\"><string name=\"name\" "
          "value=\"vertex_color\"/></texture></emitter></shape>",

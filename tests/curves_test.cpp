@@ -147,7 +147,9 @@ TEST(Curves, NormalsLeanWithTheRadius) {
 
 // As in Mitsuba, transforms move the points and leave the radii.
 TEST(Curves, RadiiAreNotTransformed) {
-    const Mesh mesh = curveMesh("linearcurve", "0 0 0 0.5\n0 0 1 0.5\n",
+    const Mesh mesh = curveMesh("linearcurve",
+                                "\xef\xbb\xbf"
+                                "0 0 0 0.5\n0 0 1 0.5\n",
                                 "<transform name=\"to_world\"><scale value=\"3\"/></transform>");
     float top = 0, out = 0;
     for (const glm::vec3& p : mesh.positions) {

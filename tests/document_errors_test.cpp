@@ -28,6 +28,8 @@ const BadFile badFiles[] = {
     {"Empty", "", "malformed XML"},
     {"NoEndTag", "<scene version=\"3.0.0\">\n<!-- </x> --><shape name='>'/>\n<a><b>\n</a></scene>",
      "scene.xml:4:1: malformed XML: </a> where <b> of line 3 is open; expected </b> first."},
+    {"ByteOrderMark", "\xef\xbb\xbf<scene version=\"3.0.0\"><a><b></a></scene>",
+     "scene.xml:1:30: malformed XML: </a> where <b> of line 1 is open; expected </b> first."},
     {"NoLastEndTag", "<scene version=\"3.0.0\">\n<a></a>\n",
      "scene.xml:3:1: malformed XML: the file ends, but <scene> of line 1 has no end; expected </scene>."},
     {"EndTagTooMany", "<scene version=\"3.0.0\"></scene\n>\n</scene>",

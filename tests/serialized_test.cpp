@@ -133,6 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadBody{"TooMany", with([](MeshBody& m) { m.vertices = 1000; }),
                             "m.serialized: position: the mesh ends too early"},
                     BadBody{"Faces", with([](MeshBody& m) { m.triangles = 2; }), "triangle: the mesh ends too early"},
+                    BadBody{"LongName", with([](MeshBody& m) { m.name = std::string(1 << 24, 'a'); }),
+                            "m.serialized: the mesh's name has more than 65536 bytes; shorten it"},
                     BadBody{"NoFaces", with([](MeshBody& m) { m.triangles = 0; }), "the mesh has no triangles"},
                     BadBody{"MissingNormals", with([](MeshBody& m) { m.flags |= 1; }), "the mesh ends too early"}),
     [](const auto& row) { return std::string(row.param.name); });

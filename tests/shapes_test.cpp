@@ -182,6 +182,21 @@ TEST(ObjMesh, CornersMayBeCutShortAndComeFirst) {
     EXPECT_EQ(meshOf(points + "hello world\nf 1 2 3\n", lenient).triangles.size(), 1u);
 }
 
+TEST(ObjMesh, LinesMayContinueAndAByteOrderMarkComeFirst) {
+    SceneFiles files;
+    const auto sceneOf = [&](const std::string& content) {
+        files.write("a.obj", content);
+        return files.write("scene.xml", sceneWith(meshShape("obj", "a.obj")));
+    };
+    const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    for (const std::string& content :
+         {"\xef\xbb\xbf" + points + "f 1 2 3 4\n", points + "f 1 2\\\n3 \\\n 4", points + "f 1 2 \\\r\n\\\r\n3 4\r\n",
+          points + "l 1 \\\n 2\n# of C:\\\nf 1 2 3 4\\", points + "f 1 2 3 4 \\\n# end \\\n"})
+        EXPECT_EQ(loadScene(sceneOf(content)).shapes.at(0).mesh.triangles.size(), 2u) << content;
+    EXPECT_THAT(test::errorOf(sceneOf(points + "f 1 \\\n 2 \\\n 3\nf 1 2 x\n")), testing::HasSubstr("a.obj:8: face"));
+    EXPECT_THAT(test::errorOf(sceneOf(points + "f 1 \\\n 2 \\\n x\n")), testing::HasSubstr("a.obj:5: face"));
+}
+
 TEST(ObjMesh, NormalsThatAreMissingAreMeansWeightedByAngle) {
     // At the fold two triangles of either quad share vertex 1 (angles 45° + 45° left, 90° in two parts right): equal
     // weights.
@@ -282,6 +297,12 @@ TEST(PlyMesh, BinaryOfEitherByteOrderWithQuadsNormalsAndPropertiesToPassOver) {
         ASSERT_EQ(mesh.cornerNormals.size(), 6u);
         expectNear(mesh.cornerNormals[1], {0.6f, 0, 0.8f});
     }
+}
+
+TEST(PlyMesh, AByteOrderMarkIsPassedOver) {
+    SceneFiles files;
+    files.write("mesh.ply", "\xef\xbb\xbf" + binaryPly(false));
+    EXPECT_EQ(loadScene(files.write("scene.xml", sceneWith(meshShape("ply", "mesh.ply")))).shapes.size(), 1u);
 }
 
 TEST(PlyMesh, AsciiTetrahedronLooksOutwards) {

@@ -58,10 +58,12 @@ TEST_P(SpectrumColors, AreThoseOfTheSameSpectrumInAFile) {
     std::string lines = c.list;
     for (char& letter : lines) letter = letter == ':' ? ' ' : (letter == ',' || letter == ' ' ? '\n' : letter);
     SceneFiles files;
-    files.write("s.spd", "# nm, value\n\n" + lines);
-    const Scene scene =
-        loadScene(files.write("scene.xml", sceneWith(lamp("<spectrum name=\"radiance\" filename=\"s.spd\"/>"))));
-    expectColor(radianceOf(scene), c.emission);
+    for (const std::string& content : {"# nm, value\n\n" + lines, "\xef\xbb\xbf" + lines}) {
+        files.write("s.spd", content);
+        const Scene scene =
+            loadScene(files.write("scene.xml", sceneWith(lamp("<spectrum name=\"radiance\" filename=\"s.spd\"/>"))));
+        expectColor(radianceOf(scene), c.emission);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Spectrum, SpectrumColors,
@@ -149,6 +151,18 @@ TEST(SpectrumPlugins, AnUnusedOneIsReported) {
     const Scene scene = test::loadBody("<texture type=\"d65\" id=\"idle\"/>");
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_THAT(scene.warnings[0], HasSubstr("texture 'idle' is used by no bsdf"));
+}
+
+// Sums that are no numbers any more were taken as black.
+TEST(SpectrumPlugins, ValuesTooLargeToBeAddedUpAreRefused) {
+    SceneFiles files;
+    for (const char* radiance :
+         {"<spectrum name=\"radiance\" value=\"360:1e307,830:1e307\"/>",
+          "<spectrum name=\"radiance\" value=\"360:-1e307,830:-1e307\"/>",
+          "<spectrum name=\"radiance\" type=\"blackbody\"><float name=\"temperature\" value=\"1e300\"/></spectrum>"})
+        EXPECT_THAT(errorOf(files.write("scene.xml", sceneWith("\n" + lamp("\n" + std::string(radiance))))),
+                    HasSubstr("scene.xml:6:1: the values of the spectrum are too large"))
+            << radiance;
 }
 
 struct BadSpectrum {

@@ -81,12 +81,22 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(TextureErrors, MeshWithoutCoordinates) {
     SceneFiles files;
-    files.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3\n");
-    const auto error = test::errorOf(files.write(
-        "scene.xml",
-        sceneWith("\n<shape type=\"obj\" id=\"m\"><string name=\"filename\" value=\"m.obj\"/><bsdf "
-                  "type=\"diffuse\"><texture type=\"checkerboard\" name=\"reflectance\"/></bsdf></shape>")));
-    EXPECT_THAT(error, HasSubstr("scene.xml:5:1: shape 'm' has no texture coordinates"));
+    const std::string shape = "\n<shape type=\"obj\" id=\"m\"><string name=\"filename\" value=\"m.obj\"/><bsdf "
+                              "type=\"diffuse\">";
+    const std::string plain = files.write("plain.xml", sceneWith(shape + "</bsdf></shape>"));
+    const std::string textured = files.write(
+        "scene.xml", sceneWith(shape + "<texture type=\"checkerboard\" name=\"reflectance\"/></bsdf></shape>"));
+    files.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.5\nf 1 2 3\n");
+    EXPECT_THAT(test::errorOf(textured), HasSubstr("scene.xml:5:1: shape 'm' has no texture coordinates, but"));
+    // As in Mitsuba, where those that a corner lacks are whatever was in memory.
+    files.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.75\nf 1/1 2/1 3\nf 3 2 1/1\n");
+    const Scene scene = loadScene(textured);
+    const std::vector<glm::vec2> expected{{.5f, .25f}, {.5f, .25f}, {0, 0}, {0, 0}, {0, 0}, {.5f, .25f}};
+    EXPECT_EQ(scene.shapes.at(0).mesh.cornerUvs, expected);
+    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr(
+                                    "scene.xml:5:1: shape 'm' has no texture coordinates at 3 of its 6 corners, but "
+                                    "its bsdf has a texture; they are taken as (0, 0).")));
+    EXPECT_THAT(loadScene(plain).warnings, testing::IsEmpty());
 }
 
 /// A triangle with these properties of its vertices, and of itself, beside their places.

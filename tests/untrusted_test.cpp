@@ -4,11 +4,15 @@
 #include "support/scene_files.h"
 #include "support/vol_files.h"
 
+#include "scene/load_guard.h"
 #include "util/process_memory.h"
 
+#include <OpenImageIO/imageio.h>
+#include <cerrno>
 #include <chrono>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <system_error>
 
 namespace quasilux {
 namespace {
@@ -226,6 +230,65 @@ TEST_F(Untrusted, MemoryIsLimited) {
     EXPECT_THAT(load(obj("many.obj"), limitedTo([](LoadLimits& limits) { limits.memory = 4; })),
                 names("scene.xml:4:19", "memory"));
     EXPECT_EQ(load(obj("many.obj")), ""); // the limit is gone
+}
+
+TEST_F(Untrusted, MemoryOfImagesIsLimited) {
+    if (dataBytes() == 0) GTEST_SKIP() << "the system has no such limit";
+    const OIIO::ImageSpec spec(4096, 2048, 3, OIIO::TypeDesc::HALF);
+    const std::vector<float> black(spec.image_pixels() * 3);
+    const auto threads = OIIO::get_int_attribute("exr_threads");
+    OIIO::attribute("exr_threads", -1); // a pool of them would be known from then on
+    const auto image = OIIO::ImageOutput::create("a.exr");
+    ASSERT_TRUE(image->open((inside / "black.exr").string(), spec) &&
+                image->write_image(OIIO::TypeDesc::FLOAT, black.data()) && image->close());
+    OIIO::attribute("exr_threads", threads);
+    const std::string texture = "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><texture type=\"bitmap\" "
+                                "name=\"reflectance\">\n<string name=\"filename\" value=\"black.exr\"/></texture>"
+                                "</bsdf></shape>";
+    for (const unsigned mebibytes : {1, 2, 4, 8, 12, 16, 18, 19, 20, 22, 24, 32, 64})
+        EXPECT_THAT(load(texture, limitedTo([&](LoadLimits& limits) { limits.memory = mebibytes; })),
+                    names("scene.xml:5:1", "memory"))
+            << mebibytes;
+    EXPECT_EQ(load(texture), "");
+    EXPECT_EQ(OIIO::get_int_attribute("exr_threads"), threads);
+}
+
+// Of what is thrown where memory is short, and otherwise.
+TEST_F(Untrusted, LackOfMemoryIsToldFromOtherErrors) {
+    LoadGuard guard("scene.xml", LoadLimits{});
+    const auto message = [&](const std::function<void()>& work) {
+        return refusal([&] { guard.withinMemory(work); }).value_or("");
+    };
+    const auto limited = names("scene.xml", "memory");
+    using std::errc;
+    const auto fail = [](errc code) { return [=] { throw std::system_error(std::make_error_code(code)); }; };
+    EXPECT_THAT(message(fail(errc::resource_unavailable_try_again)), limited); // no thread can be begun
+    EXPECT_THROW(message(fail(errc::no_such_file_or_directory)), std::system_error);
+    const auto damaged = [] { throw InputError("the image is damaged"); };
+    EXPECT_EQ(message(damaged), "the image is damaged");
+    EXPECT_THAT(message([&] {
+                    errno = ENOMEM; // as malloc leaves it
+                    damaged();
+                }),
+                limited);
+}
+
+// 10⁵ of each in a file of 2 MB: each compared with all before it, they took 15 s and more.
+TEST_F(Untrusted, ManyNamesTakeNoLongTime) {
+    std::string keys, properties, values;
+    for (unsigned k = 0; k < 100000; ++k) {
+        keys += fmt::format(" a{}=\"1\"", k);
+        properties += fmt::format("property float a{}_x\n", k);
+        values += " 0";
+    }
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_THAT(load("<?quasilux" + keys + "?>"), HasSubstr("unknown key 'a0'"));
+    put("scene/many.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+                          "float z\n" +
+                              properties + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0" +
+                              values + "\n1 0 0" + values + "\n0 1 0" + values + "\n3 0 1 2\n");
+    EXPECT_EQ(load("<shape type=\"ply\"><string name=\"filename\" value=\"many.ply\"/></shape>"), "");
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 // Headers that promise a billion of something.

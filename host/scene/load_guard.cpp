@@ -2,11 +2,14 @@
 
 #include "util/memory_limit.h"
 
+#include <OpenImageIO/imageio.h>
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fmt/format.h>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 namespace quasilux {
 
@@ -19,6 +22,19 @@ std::string withoutLinks(const fs::path& path) {
     const fs::path real = fs::weakly_canonical(fs::absolute(path), status);
     return status ? std::string() : real.string();
 }
+
+/// While it lives, no threads of libraries help to read images: their stacks, one for each processor, would count
+/// towards the limit on memory.
+class ImagesByThisThread {
+public:
+    ImagesByThisThread() : exrThreads_(OIIO::get_int_attribute("exr_threads")) { OIIO::attribute("exr_threads", -1); }
+    ~ImagesByThisThread() { OIIO::attribute("exr_threads", exrThreads_); }
+    ImagesByThisThread(const ImagesByThisThread&) = delete;
+    ImagesByThisThread& operator=(const ImagesByThisThread&) = delete;
+
+private:
+    int exrThreads_;
+};
 
 } // namespace
 
@@ -87,9 +103,17 @@ void LoadGuard::note(const SourceLocation& where) {
 void LoadGuard::withinMemory(const std::function<void()>& load) {
     if (isTrusted()) return load();
     const auto exceeded = [&] { check(&LoadLimits::memory, limits_->memory + 1, now_); };
+    const ImagesByThisThread images;
     try {
         const MemoryLimit limit(limits_->memory << 20);
+        errno = 0;
         return load();
+    } catch (const InputError&) {
+        if (errno == ENOMEM) exceeded(); // libraries say of a file that they cannot read it, if they lack memory
+        throw;
+    } catch (const std::system_error& error) { // there is no room for the stack of a thread
+        if (error.code() != std::errc::resource_unavailable_try_again) throw;
+        exceeded();
     } catch (const std::bad_alloc&) {
         exceeded();
     } catch (const std::length_error&) { // of an array for which no memory could ever suffice

@@ -138,10 +138,11 @@ struct MeshAttribute {
 };
 
 struct Mesh {
-    std::vector<glm::vec3> positions;      ///< world space
-    std::vector<glm::uvec3> triangles;     ///< indices into positions; counter-clockwise seen from the normal's side
-    std::vector<glm::vec3> cornerNormals;  ///< 3 per triangle, unit; empty = flat. flip_normals is already applied
-    std::vector<glm::vec2> cornerUvs;      ///< 3 per triangle; empty = the mesh has none
+    std::vector<glm::vec3> positions;     ///< world space
+    std::vector<glm::uvec3> triangles;    ///< indices into positions; counter-clockwise seen from the normal's side
+    std::vector<glm::vec3> cornerNormals; ///< 3 per triangle, unit; empty = flat. flip_normals is already applied
+    std::vector<glm::vec2> cornerUvs;     ///< 3 per triangle; empty = the mesh has none
+    size_t cornersWithoutUv = 0;          ///< corners to which the file gives none, if it gives some: theirs are (0, 0)
     std::vector<MeshAttribute> attributes; ///< of the file, those that the bsdf shows
 };
 

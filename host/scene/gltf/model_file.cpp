@@ -189,8 +189,7 @@ bool isKnownGltfExtension(const std::string& name) {
 
 tinygltf::Model readGltfModel(const std::string& path, const FileResolver& files, Unknown unknown,
                               std::vector<std::string>& forgiven) {
-    std::string bytes = readFile(path, {}, "scene");
-    if (bytes.compare(0, 3, "\xef\xbb\xbf") == 0) bytes.erase(0, 3);
+    std::string bytes = readTextFile(path, {}, "scene");
     if (bytes.size() >= UINT32_MAX)
         throw InputError({path}, "the file has 4 GiB or more; expected a smaller one, with its buffers in files.");
     const std::string_view json = jsonOf(bytes, path);

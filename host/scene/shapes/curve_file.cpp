@@ -39,7 +39,7 @@ std::vector<Curve> readCurves(Properties& properties, size_t fewest) {
                          fmt::format("{} needs <string name=\"filename\" value=\"…\"/>.", properties.describe()));
     const std::string path = properties.context().files.resolve(name, whereName);
     const glm::dmat4 own = properties.ownTransform("to_world");
-    std::istringstream lines(readFile(path, whereName, "curve"));
+    std::istringstream lines(readTextFile(path, whereName, "curve"));
     std::vector<Curve> curves(1);
     SourceLocation where{path, 0, 0};
     for (std::string line; std::getline(lines, line);) {

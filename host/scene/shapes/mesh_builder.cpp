@@ -110,11 +110,11 @@ bool areFlat(const std::vector<Normals>& normals, const MeshSource& source, cons
     return true;
 }
 
-bool everyCornerHasUv(const MeshSource& source) {
+size_t cornersWithoutUv(const MeshSource& source) {
+    size_t count = 0;
     for (const auto& triangle : source.triangles)
-        for (const MeshSource::Corner& corner : triangle)
-            if (corner.uv == QL_NONE) return false;
-    return true;
+        for (const MeshSource::Corner& corner : triangle) count += corner.uv == QL_NONE;
+    return count;
 }
 
 } // namespace
@@ -154,7 +154,9 @@ Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNorm
     const bool isMirrored = placement && glm::determinant(glm::dmat3(*placement)) < 0;
     const bool keepNormals = !faceNormals && !areFlat(normals, source, world);
 
-    const bool hasUvs = everyCornerHasUv(source);
+    const size_t withoutUv = cornersWithoutUv(source);
+    const bool hasUvs = withoutUv < 3 * source.triangles.size();
+    if (hasUvs) mesh.cornersWithoutUv = withoutUv;
     mesh.attributes = source.attributes;
 
     for (size_t t = 0; t < source.triangles.size(); ++t) {
@@ -167,7 +169,7 @@ Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNorm
         const size_t second = reversed ? 2 : 1, third = reversed ? 1 : 2;
         mesh.triangles.emplace_back(corner[0].position, corner[second].position, corner[third].position);
         for (size_t i : {size_t(0), second, third})
-            if (hasUvs) mesh.cornerUvs.emplace_back(source.uvs[corner[i].uv]);
+            if (hasUvs) mesh.cornerUvs.emplace_back(corner[i].uv == QL_NONE ? glm::dvec2(0) : source.uvs[corner[i].uv]);
         if (!keepNormals) continue;
         const double sign = flipNormals ? -1 : 1;
         for (size_t i : {size_t(0), second, third}) mesh.cornerNormals.emplace_back(sign * normals[t][i]);

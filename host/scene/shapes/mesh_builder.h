@@ -36,7 +36,7 @@ Mesh flatMesh(const std::vector<glm::dvec3>& positions, const std::vector<glm::u
 /// Meshes of files, with the corner normals of Mitsuba 3: those of the file; where it has none at all, means over the
 /// faces at a vertex, weighted by angle; flat where `faceNormals`. Flat faces and computed normals follow the winding
 /// after the transform; normals of the file go by the inverse transpose and the winding is made to agree with them.
-/// Texture coordinates are kept where every corner has some. `placement`: the part of `toWorld` that is an instance's,
+/// Texture coordinates are kept where some corner has them. `placement`: the part of `toWorld` that is an instance's,
 /// under which all normals go by the inverse transpose.
 Mesh fileMesh(const MeshSource& source, const glm::dmat4& toWorld, bool flipNormals, bool faceNormals,
               const SourceLocation& where, const std::optional<glm::dmat4>& placement = {});

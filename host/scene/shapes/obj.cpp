@@ -29,12 +29,13 @@ public:
     }
 
     MeshSource read() {
-        size_t begin = 0;
-        while (begin < text_.size()) {
-            ++where_.line;
-            const size_t end = std::min(text_.find('\n', begin), text_.size());
+        where_.line = 1;
+        for (size_t begin = 0; begin < text_.size();) {
+            int lines = 0;
+            const size_t end = joinLines(begin, lines);
             readLine(std::string_view(text_).substr(begin, end - begin));
             begin = end + 1;
+            where_.line += lines;
         }
         positions_.check(mesh_.positions.size());
         normals_.check(mesh_.normals.size());
@@ -57,6 +58,21 @@ private:
                                  fmt::format("face: {} index {} does not exist; the file has {}.", what, index, count));
         }
     };
+
+    /// Makes those `lines` one of which each but the last ends in a backslash, which continues it; one that ends a
+    /// comment is part of that. Returns where they end.
+    size_t joinLines(size_t begin, int& lines) {
+        size_t end = begin;
+        for (lines = 1;; ++lines) {
+            const size_t start = end;
+            end = std::min(text_.find('\n', start), text_.size());
+            const std::string_view line = std::string_view(text_).substr(start, end - start);
+            const size_t last = line.find_last_not_of('\r');
+            if (last == std::string_view::npos || line[last] != '\\' || line.find('#') != std::string_view::npos)
+                return end;
+            std::fill_n(text_.begin() + ptrdiff_t(start + last), std::min(end + 1, text_.size()) - start - last, ' ');
+        }
+    }
 
     void readLine(std::string_view line) {
         line = line.substr(0, line.find('#'));
@@ -166,7 +182,7 @@ void readObj(Properties& properties, ShapeDescription& shape) {
         properties.context().refuseUnknown(where, message, "lines of unknown keywords are passed over");
     };
     const auto read = [&] {
-        return ObjReader(file.path, readFile(file.path, file.where, "mesh"), file.flipTexCoords, refuse).read();
+        return ObjReader(file.path, readTextFile(file.path, file.where, "mesh"), file.flipTexCoords, refuse).read();
     };
     shape.mesh = placeMeshFile(file, read, properties, shape);
 }

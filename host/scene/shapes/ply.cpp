@@ -131,7 +131,7 @@ void readPly(Properties& properties, ShapeDescription& shape) {
     MeshFile file = readMeshFile(properties);
     file.flipTexCoords = properties.boolean("flip_tex_coords", false);
     const auto read = [&] {
-        PlyReader reader(file.path, readFile(file.path, file.where, "mesh"));
+        PlyReader reader(file.path, readTextFile(file.path, file.where, "mesh"));
         return PlyMeshReader(reader, file.flipTexCoords).read();
     };
     shape.mesh = placeMeshFile(file, read, properties, shape);

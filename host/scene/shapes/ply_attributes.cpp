@@ -91,8 +91,7 @@ PlyAttributes::PlyAttributes(const PlyElement& element, const std::string& kind)
 }
 
 void PlyAttributes::add(std::string name, const std::vector<size_t>& properties) {
-    for (const MeshAttribute& other : attributes_)
-        if (other.name == name) return; // the first one counts
+    if (!names_.insert(name).second) return; // the first one counts
     MeshAttribute attribute;
     attribute.name = std::move(name);
     attribute.channels = static_cast<unsigned>(properties.size());

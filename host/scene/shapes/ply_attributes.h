@@ -4,6 +4,8 @@
 #include "scene/scene.h"
 #include "scene/shapes/ply_reader.h"
 
+#include <set>
+
 namespace quasilux {
 
 /// The attributes of one element, by Mitsuba 3's names: colours r, g, b or red, green, blue are "color"; neighbouring
@@ -23,6 +25,7 @@ private:
 
     const PlyElement& element_;
     std::vector<MeshAttribute> attributes_;
+    std::set<std::string> names_;              ///< theirs
     std::vector<std::vector<size_t>> sources_; ///< properties that each is made of, one or three
 };
 

@@ -94,9 +94,7 @@ public:
 
     MeshSource read() {
         flags_ = in_.number<uint32_t>("flags");
-        if (version_ >= 4)
-            while (in_.number<unsigned char>("name") != 0) {
-            }
+        if (version_ >= 4) passOverName();
         vertices_ = count("vertices", 3 * scalarBytes());
         const size_t faces = count("triangles", 3 * sizeof(uint32_t));
         if (faces == 0) failSerialized(path_, "the mesh has no triangles.");
@@ -109,6 +107,14 @@ public:
     }
 
 private:
+    /// A few bytes of a file may unpack to any length.
+    void passOverName() {
+        constexpr size_t most = 1 << 16;
+        for (size_t length = 0; in_.number<unsigned char>("name") != 0; ++length)
+            if (length == most)
+                failSerialized(path_, fmt::format("the mesh's name has more than {} bytes; shorten it.", most));
+    }
+
     size_t scalarBytes() const { return flags_ & doublePrecision ? sizeof(double) : sizeof(float); }
 
     size_t count(const char* what, size_t bytesEach) {

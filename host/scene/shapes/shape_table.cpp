@@ -44,12 +44,17 @@ bool isEmbeddedMesh(const Element& element, const LoadContext& context) {
 Names compoundShapes() { return {"instance", "shapegroup", "merge"}; }
 
 /// `textured`: which of its objects needs them.
-void checkTexCoords(const ShapeDescription& shape, const char* textured) {
+void checkTexCoords(const ShapeDescription& shape, const char* textured, LoadContext& context) {
     if (!shape.sphere && shape.mesh.cornerUvs.empty())
         throw InputError(shape.where,
-                         fmt::format("shape '{}' has no texture coordinates, or not at every corner, but its {} has "
-                                     "a texture; add them to the mesh file, or use {} {} without textures.",
+                         fmt::format("shape '{}' has no texture coordinates, but its {} has a texture; add them to the "
+                                     "mesh file, or use {} {} without textures.",
                                      shape.id, textured, textured[0] == 'e' ? "an" : "a", textured));
+    if (shape.mesh.cornersWithoutUv > 0)
+        context.warn(shape.where,
+                     fmt::format("shape '{}' has no texture coordinates at {} of its {} corners, but its {} has a "
+                                 "texture; they are taken as (0, 0). Add them to the mesh file.",
+                                 shape.id, shape.mesh.cornersWithoutUv, shape.mesh.cornerUvs.size(), textured));
 }
 
 /// For an emitter along its normals.
@@ -109,13 +114,13 @@ ShapeDescription readShape(const Element& element, LoadContext& context, const E
                                  shape.id));
     shape.bsdf = bsdf ? useBsdf(*bsdf, context) : useDefaultBsdf(element, emitter != nullptr, context);
     if (needsTexCoords(context.scene, context.scene.bsdfs[static_cast<size_t>(shape.bsdf)]))
-        checkTexCoords(shape, "bsdf");
+        checkTexCoords(shape, "bsdf", context);
     if (emitter) shape.emitter = readShapeEmitter(*emitter, context);
     shape.emitterIsOff = emitter && !shape.emitter;
     keepShownAttributes(shape, context);
     if (shape.emitter) {
         if (shape.emitter->texture && needTexCoords(context.scene, {*shape.emitter->texture}))
-            checkTexCoords(shape, "emitter");
+            checkTexCoords(shape, "emitter", context);
         if (shape.emitter->alongNormal) checkFlat(shape);
     }
     checkArea(shape, sensor != nullptr, context);

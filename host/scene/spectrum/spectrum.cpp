@@ -85,7 +85,7 @@ Spectrum parseSpectrum(const std::string& text, const SourceLocation& where, con
 }
 
 Spectrum readSpectrumFile(const std::string& path, const SourceLocation& where) {
-    const std::string text = readFile(path, where, "spectrum");
+    const std::string text = readTextFile(path, where, "spectrum");
     Spectrum spectrum;
     SourceLocation line{path, 0, 0};
     for (size_t begin = 0; begin < text.size();) {
@@ -118,6 +118,8 @@ Rgb colorOfSpectrum(const Spectrum& spectrum, ColorUse use, const SourceLocation
 Rgb colorOfSpectrum(const std::function<double(double)>& values, ColorUse use, const SourceLocation& where,
                     LoadContext& context) {
     const Integrals sum = integrate(values, use);
+    if (!std::isfinite(sum.x) || !std::isfinite(sum.y) || !std::isfinite(sum.z))
+        throw InputError(where, "the values of the spectrum are too large to be added up; give smaller ones.");
     const double scale = 1 / whiteLuminance(use);
     std::array<float, 3> color{};
     bool clamped = false;

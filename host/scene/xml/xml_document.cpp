@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <pugixml.hpp>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -72,8 +73,7 @@ public:
     /// Root element of a file, as it stands; `mention` is the place that named the file.
     Element readRoot(const std::string& path, const SourceLocation& mention, int depth = 0) {
         checkNesting(path, mention);
-        std::string text = readFile(path, mention, "scene");
-        if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
+        std::string text = readTextFile(path, mention, "scene");
         const TextPositions positions(path, text);
         pugi::xml_document document;
         const pugi::xml_parse_result result = document.load_buffer_inplace(
@@ -115,7 +115,7 @@ private:
     [[noreturn]] void throwMalformed(const std::string& path, const SourceLocation& mention,
                                      const TextPositions& positions, const pugi::xml_parse_result& result) const {
         const bool isOfTags = result.status == pugi::status_end_element_mismatch;
-        const std::string text = isOfTags ? readFile(path, mention, "scene") : "";
+        const std::string text = isOfTags ? readTextFile(path, mention, "scene") : "";
         const auto mismatch = findTagMismatch(text);
         if (!mismatch)
             throw InputError(positions.at(result.offset), fmt::format("malformed XML: {}.", result.description()));
@@ -322,6 +322,7 @@ Instruction parseInstruction(std::string_view text, const SourceLocation& where)
         instruction.kind = word;
         position = wordEnd;
     }
+    std::set<std::string_view> keys;
     while ((position = text.find_first_not_of(blanks, position)) != std::string_view::npos) {
         const size_t equals = text.find('=', position);
         if (equals == std::string_view::npos || equals == position || equals + 1 >= text.size()) throw malformed();
@@ -331,8 +332,8 @@ Instruction parseInstruction(std::string_view text, const SourceLocation& where)
             throw malformed();
         const size_t end = text.find(quote, equals + 2);
         if (end == std::string_view::npos) throw malformed();
-        for (const Attribute& entry : instruction.entries)
-            if (entry.name == key) throw InputError(where, fmt::format("<?quasilux?> has '{}' twice; keep one.", key));
+        if (!keys.insert(key).second)
+            throw InputError(where, fmt::format("<?quasilux?> has '{}' twice; keep one.", key));
         instruction.entries.push_back({std::string(key), std::string(text.substr(equals + 2, end - equals - 2))});
         position = end + 1;
         if (position < text.size() && blanks.find(text[position]) == std::string_view::npos) throw malformed();
@@ -364,6 +365,12 @@ std::string readFile(const std::string& path, const SourceLocation& where, std::
         fail(fmt::format("only {} of its {} bytes could be read", file.gcount(), content.size()),
              "Check the disk, or copy it anew.");
     return content;
+}
+
+std::string readTextFile(const std::string& path, const SourceLocation& where, std::string_view what) {
+    std::string text = readFile(path, where, what);
+    if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+    return text;
 }
 
 } // namespace quasilux

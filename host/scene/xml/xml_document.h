@@ -33,4 +33,7 @@ Instruction parseInstruction(std::string_view text, const SourceLocation& where)
 /// The whole of a file. Throws InputError at `where` if it cannot be read; `what` names it ("mesh", "scene").
 std::string readFile(const std::string& path, const SourceLocation& where, std::string_view what);
 
+/// The same, without the byte order mark by which editors begin UTF-8.
+std::string readTextFile(const std::string& path, const SourceLocation& where, std::string_view what);
+
 } // namespace quasilux
