@@ -206,6 +206,29 @@ TEST_F(CompareCommandTest, OtherRenderersFiles) {
     EXPECT_LT(report({"b.hdr", "a.exr"})["regions"][0]["relMSE"], 1e-4); // 8 bits of mantissa
     write("grey.exr", {"Y"}, [](int, int, int) { return 2.0; });
     EXPECT_EQ(report({"grey.exr", "reference.exr"})["regions"][0]["relMSE"], 0);
+    // Radiance: the same picture of half the exposure, from the bottom.
+    std::string exposed = readText(folder / "b.hdr");
+    const std::string asWritten = "\n\n-Y 4 +X 8\n";
+    const size_t at = exposed.find(asWritten);
+    ASSERT_NE(at, std::string::npos);
+    exposed.replace(at, asWritten.size(), "\nEXPOSURE=0.5\n\n+Y 4 +X 8\n");
+    std::ofstream(folder / "d.hdr", std::ios::binary) << exposed;
+    write("d.exr", rgb, [&](int x, int y, int c) { return 2 * value(x, height - 1 - y, c); });
+    EXPECT_LT(report({"d.hdr", "d.exr"})["regions"][0]["relMSE"], 1e-4);
+}
+
+// Headers of a few bytes that promise much, and files that end too early.
+TEST_F(CompareCommandTest, HeadersAreNotBelieved) {
+    const auto put = [&](const char* name, const std::string& content) {
+        std::ofstream(folder / name, std::ios::binary) << content;
+    };
+    put("huge.pfm", "PF\n100000 100000\n-1.0\n");
+    put("huger.pfm", "PF\n2000000000 2000000000\n-1.0\n");
+    put("huge.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n");
+    for (const std::string name : {"huge.pfm", "huger.pfm", "huge.hdr"})
+        refuse({name, "reference.exr"}, name + ": cannot read the image: it has ");
+    put("cut.pfm", "PF\n8 4\n-1.0\n" + std::string(95, 'x'));
+    refuse({"cut.pfm", "reference.exr"}, "cut.pfm: cannot read the pixels: it ends before its last row");
 }
 
 TEST_F(CompareCommandTest, BadInputIsRefused) {

@@ -5,6 +5,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -43,7 +44,8 @@ double thetaOf(Projection projection, double width, double r) {
 
 /// 50 cd/m² everywhere, and 20,000 cd/m² in cones of half angle 0.1 about `lamps`.
 LuminanceImage imageOf(const View& view, unsigned size, const std::vector<glm::dvec3>& lamps) {
-    LuminanceImage image{size, size, {}, {}, false, "", std::nullopt};
+    LuminanceImage image;
+    image.width = image.height = size;
     for (unsigned j = 0; j < size; ++j)
         for (unsigned i = 0; i < size; ++i) {
             const double x = (i + 0.5) / (size / 2.0) - 1, y = 1 - (j + 0.5) / (size / 2.0), r = std::hypot(x, y);
@@ -219,6 +221,50 @@ TEST_F(DgpTest, WarnsOfASkyPerNanometre) {
     EXPECT_EQ(run({"dgp", "sky.exr", "--photometric"}).errors.find("nanometre"), std::string::npos);
     EXPECT_THAT(run({"falsecolour", "sky.exr", "-o", "sky.svg"}).errors, HasSubstr("cd/m² are some 107 times too low"));
     EXPECT_EQ(run({"falsecolour", "watts.exr", "-o", "sky.svg"}).errors, "") << "control";
+}
+
+// A file may have fewer pixels than its view, or more.
+TEST_F(DgpTest, RefusesAPartOfAView) {
+    OIIO::ImageSpec spec(16, 16, 3, OIIO::TypeDesc::FLOAT);
+    spec.full_width = spec.full_height = 32;
+    spec.x = spec.y = 8;
+    const std::vector<float> rgb(3 * 16 * 16, 1.F);
+    const auto file = OIIO::ImageOutput::create("openexr");
+    ASSERT_TRUE(file->open((folder / "part.exr").string(), spec) &&
+                file->write_image(OIIO::TypeDesc::FLOAT, rgb.data()) && file->close());
+    expectRefused({"dgp", "part.exr", "--illuminance", "2000"},
+                  "part.exr: has 16 x 16 pixels from 8, 8 on of a view of 32 x 32");
+}
+
+// Radiance has 179 lm/W, and states in EXPOSURE by what it multiplied.
+TEST_F(DgpTest, AsksForTheUnitsOfARadiancePicture) {
+    constexpr int size = 64;
+    const auto write = [&](const char* name, const std::string& lines, unsigned char exponent) {
+        std::ofstream file(folder / name, std::ios::binary);
+        file << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" << lines << "\n-Y " << size << " +X " << size << '\n';
+        for (int k = 0; k < size * size; ++k) file << "\x80\x80\x80" << char(exponent);
+    };
+    write("eye.hdr", "", 129);                                  // 1 W
+    write("exposed.hdr", "EXPOSURE=4\nEXPOSURE= 0.125\n", 128); // 0.5 by two exposures, of 0.5 together
+    const auto illuminance = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), "dgp");
+        more.emplace_back("--json");
+        return nlohmann::json::parse(run(more).output)["illuminance"].get<double>();
+    };
+    EXPECT_NEAR(illuminance({"eye.hdr"}), 683 * pi, 0.01 * 683 * pi);
+    EXPECT_EQ(illuminance({"exposed.hdr"}), illuminance({"eye.hdr"}));
+    EXPECT_NEAR(illuminance({"eye.hdr", "--efficacy", "179"}), 179 * pi, 0.01 * 179 * pi);
+    EXPECT_NEAR(illuminance({"eye.hdr", "--photometric"}), pi, 0.01 * pi);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"dgp", "eye.hdr"}, {"falsecolour", "eye.hdr", "-o", "eye.svg"}}) {
+        EXPECT_THAT(run(command).errors, HasSubstr("eye.hdr: a Radiance picture says nothing of its units"));
+        auto stated = command;
+        stated.insert(stated.end(), {"--efficacy", "179"});
+        EXPECT_EQ(run(stated).errors.find("units"), std::string::npos);
+    }
+    EXPECT_THAT(readText(folder / "eye.svg"), HasSubstr("179 lm/W"));
+    write("never.hdr", "EXPOSURE=0\n", 129);
+    expectRefused({"dgp", "never.hdr"}, "never.hdr: EXPOSURE in its header is no positive number");
 }
 
 TEST_F(DgpTest, RefusesBadInput) {

@@ -209,6 +209,14 @@ TEST_F(FalseColourTest, DrawsAGridWithIsoluxLines) {
     EXPECT_FALSE(pixelsOfFile("grid.png", spec).empty());
 }
 
+TEST_F(FalseColourTest, TakesEndingsInUpperCase) {
+    std::filesystem::copy_file(folder / "grid.csv", folder / "GRID.CSV");
+    ASSERT_EQ(run({"falsecolour", "GRID.CSV", "-o", "GRID.SVG"}).exitCode, 0);
+    EXPECT_THAT(readText(folder / "GRID.SVG"), HasSubstr("maximum 400 lx"));
+    ASSERT_EQ(run({"falsecolour", "GRID.CSV", "-o", "GRID.PNG"}).exitCode, 0);
+    EXPECT_THAT(readText(folder / "GRID.PNG"), HasSubstr("PNG"));
+}
+
 TEST_F(FalseColourTest, OfARenderedGridKnowsItsUnits) {
     std::ofstream(folder / "room.xml")
         << "<scene version=\"3.0.0\"><?quasilux units=\"photometric\"?><emitter type=\"point\"><rgb name=\"intensity\" "
@@ -269,6 +277,7 @@ TEST_F(FalseColourTest, RefusesBadInput) {
     refused({"grey.exr", "-o", "a.png", "--range", "5:1"}, "two numbers A:B");
     refused({"grey.exr", "-o", "a.png", "--range", "0:1", "--log"}, "begins above 0");
     refused({"grey.exr", "-o", "a.png", "--levels", "5"}, "isolux lines are of grids");
+    refused({"grid.csv", "-o", "a.png", "--efficacy", "179"}, "a grid's table is in lx already");
     refused({"grid.csv", "-o", "a.png", "--daylight-factor"}, "grid.csv:3: the table has no column 'daylight_factor'");
     std::ofstream(folder / "bad.csv") << "i,j,x,y,z,illuminance,illuminance_stderr\n0,0,0,0,0,ten,\n";
     refused({"bad.csv", "-o", "a.png"}, "bad.csv:2: column 'illuminance': 'ten' is not a finite number");

@@ -93,7 +93,9 @@ double illuminanceOf(const Scene& scene, Projection projection, unsigned passes,
     Renderer renderer(testDevice(), scene, settings);
     for (unsigned pass = 0; pass < passes; ++pass) renderer.renderPass(pass);
     const FilmImage image = renderer.develop();
-    LuminanceImage luminance{image.width, image.height, {}, {}, false, "", std::nullopt};
+    LuminanceImage luminance;
+    luminance.width = image.width;
+    luminance.height = image.height;
     for (size_t k = 0; k < image.radiance.size(); k += 3) luminance.values.push_back(image.radiance[k]);
     return daylightGlare(luminance, {projection, pi}, 1e9, std::nullopt).illuminance;
 }
@@ -176,6 +178,32 @@ TEST_F(FisheyeImage, SaysToDgpHowItShowsDirections) {
     write(R"(<integer name="crop_width" value="48"/>)");
     ASSERT_EQ(run({"render", "sky.xml", "--fixed", "--passes", "1", "--quiet"}).exitCode, 0);
     EXPECT_EQ(projectionIn("sky.exr"), "");
+    expectRefused({"dgp", "sky.exr"}, "sky.exr: its header does not say how it shows directions");
+    EXPECT_EQ(run({"dgp", "sky.exr", "--projection", "orthographic"}).exitCode, 0) << "what is given holds";
+}
+
+// Only a camera that looks through the middle of its film shows directions as DGP takes them.
+TEST_F(FisheyeImage, OfAnotherCameraIsNoFisheye) {
+    const auto render = [&](const std::string& sensor, const std::string& ofFilm) {
+        std::ofstream(folder / "sky.xml")
+            << "<scene version=\"3.0.0\"><sensor " << sensor << "<film type=\"hdrfilm\">"
+            << "<integer name=\"width\" value=\"32\"/><integer name=\"height\" value=\"32\"/>" << ofFilm
+            << R"(</film></sensor><emitter type="constant"><rgb name="radiance" value="1"/></emitter></scene>)";
+        EXPECT_EQ(run({"render", "sky.xml", "--fixed", "--passes", "1", "--quiet"}).exitCode, 0);
+        return projectionIn("sky.exr");
+    };
+    const std::string perspective = R"(type="perspective"><float name="fov" value="40"/>)";
+    EXPECT_EQ(render(perspective, ""), "perspective");
+    expectRefused({"dgp", "sky.exr"}, "shows 14 % of what lights the eye");
+    expectRefused({"dgp", "sky.exr", "--projection", "equisolid", "--fov", "90"}, "shows 50 % of what lights the eye");
+    EXPECT_EQ(run({"dgp", "sky.exr", "--illuminance", "2000"}).exitCode, 0) << "the angle is that of the header";
+    for (const auto& [sensor, ofFilm] : std::vector<std::pair<std::string, std::string>>{
+             {perspective, R"(<integer name="crop_width" value="16"/>)"},
+             {perspective + R"(<float name="principal_point_offset_x" value="0.1"/>)", ""},
+             {R"(type="orthographic">)", ""}}) {
+        EXPECT_EQ(render(sensor, ofFilm), "") << sensor;
+        expectRefused({"dgp", "sky.exr", "--illuminance", "2000"}, "give --projection NAME and --fov DEGREES");
+    }
 }
 
 } // namespace

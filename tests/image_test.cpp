@@ -67,6 +67,30 @@ INSTANTIATE_TEST_SUITE_P(
                     ImageCase{"Halves", "a.exr", 3, OIIO::TypeDesc::HALF, true, linearFirst, linearSecond}),
     [](const auto& row) { return std::string(row.param.name); });
 
+// Radiance pictures may be stored in eight orders: the first axis is that of the rows of the file.
+TEST(RadiancePictures, AreUprightInEveryOrder) {
+    for (const std::string order :
+         {"-Y 2 +X 3", "-Y 2 -X 3", "+Y 2 +X 3", "+Y 2 -X 3", "+X 3 -Y 2", "-X 3 -Y 2", "+X 3 +Y 2", "-X 3 +Y 2"}) {
+        SceneFiles files;
+        std::string content = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + order + "\n";
+        const bool byColumns = order[1] == 'X', fromRight = order.find("-X") != std::string::npos,
+                   fromBottom = order.find("+Y") != std::string::npos;
+        for (int k = 0; k < 6; ++k) {
+            const int i = byColumns ? k / 2 : k % 3, j = byColumns ? k % 2 : k / 3;
+            const int x = fromRight ? 2 - i : i, y = fromBottom ? 1 - j : j;
+            const char mantissa = static_cast<char>(16 * (1 + x + 3 * y)); // of 1, 2, 3 above 4, 5, 6
+            content += {mantissa, mantissa, mantissa, static_cast<char>(132)};
+        }
+        files.write("a.hdr", content);
+        const Scene scene = loadScene(files.write("scene.xml", sceneWith(R"(<emitter type="envmap">
+            <string name="filename" value="a.hdr"/></emitter>)")));
+        const EnvironmentImage& image = *scene.surroundings->image;
+        ASSERT_EQ(image.width, 3u) << order;
+        ASSERT_EQ(image.height, 2u) << order;
+        for (size_t k = 0; k < 6; ++k) EXPECT_NEAR(image.pixels[k].r, float(k + 1), 0.04F) << order << ", " << k;
+    }
+}
+
 /// The pixels of an OpenEXR file, all alike, with these channels and, if not empty, chromaticities, as linear sRGB.
 Rgb pixelOf(const std::vector<std::string>& channels, const std::vector<float>& chromaticities,
             const std::array<float, 3>& values) {

@@ -313,6 +313,9 @@ TEST_F(Untrusted, HeadersAreNotBelieved) {
         EXPECT_THAT(load(body), HasSubstr(file));
         EXPECT_THAT(test::errorOf((inside / "scene.xml").string()), HasSubstr(file)); // trusted
     }
+    // Nothing is taken for the 768 MB that it promises.
+    EXPECT_THAT(load(texture("wide.pfm"), limitedTo([](LoadLimits& limits) { limits.memory = 128; })),
+                HasSubstr("it ends before its last row"));
 }
 
 // Formats whose readers might follow to other files.

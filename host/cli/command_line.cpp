@@ -10,6 +10,7 @@
 #include "ranks/job.h"
 #include "scene/gltf/gltf_document.h"
 #include "share/device_workers.h"
+#include "util/file_ending.h"
 #include "util/messages.h"
 #include "util/nearest.h"
 
@@ -45,7 +46,8 @@ std::vector<std::string> completed(CLI::App& app, std::vector<std::string> argum
     if (!arguments.empty() && std::none_of(commands.begin(), commands.end(), isFirst)) {
         const std::filesystem::path path(arguments[0]);
         std::error_code ignored;
-        if (path.extension() == ".xml" || isGltf(arguments[0]) || std::filesystem::is_regular_file(path, ignored))
+        if (fileEnding(arguments[0]) == ".xml" || isGltf(arguments[0]) ||
+            std::filesystem::is_regular_file(path, ignored))
             arguments.insert(arguments.begin(), "render");
     }
     for (size_t k = 0; k < arguments.size(); ++k)

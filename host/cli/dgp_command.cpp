@@ -20,16 +20,34 @@ constexpr double enoughOfField = 0.98;
 constexpr size_t listedSources = 10;
 
 View viewOf(const DgpOptions& options, const LuminanceImage& image) {
-    const auto& stated = image.fisheye;
-    const Projection projection = parseProjection(options.projection.value_or(stated ? stated->first : "equidistant"));
-    if (projection == Projection::perspective && !options.degrees)
+    const auto& stated = image.view;
+    if (image.isViewUnknown && !options.projection)
+        throw InputError(options.input +
+                         ": its header does not say how it shows directions, as of a part of a view, an orthographic "
+                         "camera, a merged image or an older version; render it anew as a whole, by a "
+                         "quasilux_fisheye, or give --projection NAME and --fov DEGREES");
+    const std::string name = options.projection.value_or(stated ? stated->first : "equidistant");
+    const Projection projection = parseProjection(name);
+    const bool isStated = stated && stated->first == name; // of another projection the header says no angle
+    if (projection == Projection::perspective && !options.degrees && !isStated)
         throw InputError("--projection perspective: the image does not say how wide it is; give --fov DEGREES");
-    // Of another projection the header says no angle.
-    const bool isStated = stated && parseProjection(stated->first) == projection;
     const double degrees = options.degrees.value_or(isStated ? stated->second : 180);
     if (projection == Projection::perspective && degrees > 175)
-        throw InputError(fmt::format("--fov {}: a perspective image spans at most 175 degrees here", degrees));
+        throw InputError(
+            fmt::format("{}: is {} degrees wide; a perspective image spans at most 175 here", options.input, degrees));
     return {projection, degrees * std::numbers::pi / 180};
+}
+
+void checkPixels(const DgpOptions& options, const LuminanceImage& image) {
+    if (image.isIlluminance)
+        throw InputError(fmt::format("{}: is an image of irradiance; DGP is of what a camera sees", options.input));
+    if (!image.part.empty())
+        throw InputError(fmt::format("{0}: has {1}; DGP needs all of them: render the whole view or, where all about "
+                                     "these pixels is black, make it whole: oiiotool {0} --croptofull -o whole.exr",
+                                     options.input, image.part));
+    if (!std::all_of(image.values.begin(), image.values.end(), [](float v) { return v >= 0 && v < 1e30F; }))
+        throw InputError(
+            fmt::format("{}: some pixels are negative or not finite; DGP needs all of them", options.input));
 }
 
 /// As EN 17037 draws the lines.
@@ -39,9 +57,9 @@ const char* classOf(double probability) {
     return probability <= 0.45 ? "disturbing" : "intolerable";
 }
 
-std::vector<std::string> warningsOf(const LuminanceImage& image, const std::string& path, const DaylightGlare& glare) {
+std::vector<std::string> warningsOf(const LuminanceImage& image, const DaylightGlare& glare) {
     std::vector<std::string> warnings;
-    if (const auto warning = warningOfUnits(image.isPerNanometre, image.unit(), path)) warnings.push_back(*warning);
+    if (!image.unitsWarning.empty()) warnings.push_back(image.unitsWarning);
     if (glare.illuminance < leastIlluminanceOfGlare)
         warnings.push_back(fmt::format("{:.4g} lx at the eye: DGP was made from {:g} lx on", glare.illuminance,
                                        leastIlluminanceOfGlare));
@@ -95,20 +113,16 @@ void printGlare(const DgpOptions& options, const DaylightGlare& glare) {
 
 int dgpCommand(const DgpOptions& options) {
     const LuminanceImage image =
-        readLuminance(options.input, options.photometric ? ImageUnits::photometric : ImageUnits::asHeaderSays);
+        readLuminance(options.input, options.photometric ? std::optional(1.0) : options.efficacy);
+    checkPixels(options, image);
     const View view = viewOf(options, image);
-    if (image.isIlluminance)
-        throw InputError(fmt::format("{}: is an image of irradiance; DGP is of what a camera sees", options.input));
-    if (!std::all_of(image.values.begin(), image.values.end(), [](float v) { return v >= 0 && v < 1e30F; }))
-        throw InputError(
-            fmt::format("{}: some pixels are negative or not finite; DGP needs all of them", options.input));
     const DaylightGlare glare = daylightGlare(image, view, options.threshold, options.illuminance);
     if (!options.illuminance && glare.covered < enoughOfField)
         throw InputError(fmt::format("{}: shows {:.0f} % of what lights the eye, so that the illuminance there is not "
                                      "known; give --illuminance LX, "
                                      "as a meter at the eye reads it, or a fisheye image of 180 degrees",
                                      options.input, 100 * glare.covered));
-    const auto warnings = warningsOf(image, options.input, glare);
+    const auto warnings = warningsOf(image, glare);
     if (!options.quiet)
         for (const auto& warning : warnings) printWarning(warning);
     if (options.json)

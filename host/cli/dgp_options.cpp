@@ -34,8 +34,16 @@ void declareDgp(CLI::App& app, DgpOptions& options) {
                     "Vertical illuminance at the eye, in lx, as a meter there reads it (default: that of the image)")
         ->type_name("LX")
         ->check(numberAbove(0, 1e30));
-    command.add_flag("--photometric", options.photometric,
-                     "The image is in cd/m2 already, whatever its header says (default: off)");
+    CLI::Option* const photometric = command.add_flag(
+        "--photometric", options.photometric, "The image is in cd/m2 already, whatever its header says (default: off)");
+    command
+        .add_option(
+            "--efficacy", options.efficacy,
+            "Luminous efficacy that makes luminance of radiance, 179 of Radiance's pictures (default: 683, or 1 "
+            "where the header says photometric)")
+        ->type_name("LM/W")
+        ->check(numberAbove(0, 1e30))
+        ->excludes(photometric);
     command.add_flag("--json", options.json, "The figures on stdout as one JSON object (default: off, text)");
     command.add_flag("--quiet", options.quiet, "No text and no warnings; errors and --json remain (default: off)");
 }

@@ -12,7 +12,7 @@ struct DgpOptions {
     std::optional<std::string> projection; ///< both: else what the image's header says
     std::optional<double> degrees;         ///< that the image is wide
     double threshold = 2000;               ///< cd/m²
-    std::optional<double> illuminance;
+    std::optional<double> illuminance, efficacy;
     bool photometric = false, json = false, quiet = false;
 };
 

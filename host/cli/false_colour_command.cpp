@@ -3,6 +3,7 @@
 #include "cli/drawing_file.h"
 #include "photometry/isolux.h"
 #include "util/error.h"
+#include "util/file_ending.h"
 #include "util/messages.h"
 
 #include <algorithm>
@@ -33,17 +34,14 @@ void requireImage(const FalseColourOptions& options) {
     if (options.daylightFactor) throw InputError("--daylight-factor: an image has none; give a grid's table, .csv");
 }
 
-void warnOfUnits(bool isPerNanometre, const std::string& unit, const FalseColourOptions& options) {
-    const auto warning = warningOfUnits(isPerNanometre, unit, options.input);
-    if (warning && !options.quiet) printWarning(*warning);
-}
-
 Drawing drawingOfGrid(const FalseColourOptions& options, const std::string& title) {
     if (options.photometric)
         throw InputError("--photometric: a grid's table is in lx already; leave --photometric out");
+    if (options.efficacy) throw InputError("--efficacy: a grid's table is in lx already; leave --efficacy out");
     const GridValues grid = readGridTable(
         options.input, options.daylightFactor ? GridQuantity::daylightFactor : GridQuantity::illuminance, options.grid);
-    warnOfUnits(grid.isPerNanometre, grid.unit, options);
+    const auto warning = warningOfUnits(grid.isPerNanometre, grid.unit, options.input);
+    if (warning && !options.quiet) printWarning(*warning);
     const ValueScale scale = options.range.empty() ? scaleOfGrid(grid, options.logarithmic) : givenScale(options);
     return isoluxDrawing(grid, {parseColourMap(options.map), scale}, options.levels, title);
 }
@@ -51,8 +49,8 @@ Drawing drawingOfGrid(const FalseColourOptions& options, const std::string& titl
 Drawing drawingOfImage(const FalseColourOptions& options, const std::string& title) {
     requireImage(options);
     const LuminanceImage image =
-        readLuminance(options.input, options.photometric ? ImageUnits::photometric : ImageUnits::asHeaderSays);
-    warnOfUnits(image.isPerNanometre, image.unit(), options);
+        readLuminance(options.input, options.photometric ? std::optional(1.0) : options.efficacy);
+    if (!image.unitsWarning.empty() && !options.quiet) printWarning(image.unitsWarning);
     if (std::none_of(image.values.begin(), image.values.end(), [](float value) { return std::isfinite(value); }))
         throw InputError(options.input + ": no pixel is finite, so there is no luminance to draw; render it anew");
     const ValueScale scale = options.range.empty() ? scaleOfImage(image, options.logarithmic) : givenScale(options);
@@ -64,8 +62,8 @@ Drawing drawingOfImage(const FalseColourOptions& options, const std::string& tit
 int falseColourCommand(const FalseColourOptions& options) {
     checkDrawingPath(options.output, "--output");
     const std::string title = fs::path(options.input).filename().string();
-    writeDrawing(options.output, fs::path(options.input).extension() == ".csv" ? drawingOfGrid(options, title)
-                                                                               : drawingOfImage(options, title));
+    writeDrawing(options.output,
+                 fileEnding(options.input) == ".csv" ? drawingOfGrid(options, title) : drawingOfImage(options, title));
     if (!options.quiet) fmt::print("wrote {}\n", options.output);
     return 0;
 }

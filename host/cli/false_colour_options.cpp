@@ -40,9 +40,17 @@ void declareFalseColour(CLI::App& app, FalseColourOptions& options) {
         ->type_name("NAME");
     command.add_flag("--daylight-factor", options.daylightFactor,
                      "Of a grid the daylight factor in per cent instead of the illuminance (default: off)");
-    command.add_flag("--photometric", options.photometric,
-                     "The image is in cd/m2 or lx already, whatever its header says (default: off, W unless the header "
-                     "says photometric)");
+    CLI::Option* const photometric = command.add_flag(
+        "--photometric", options.photometric,
+        "The image is in cd/m2 or lx already, whatever its header says (default: off, W unless the header "
+        "says photometric)");
+    command
+        .add_option("--efficacy", options.efficacy,
+                    "Luminous efficacy that makes luminance of an image's radiance, 179 of Radiance's pictures "
+                    "(default: 683, or 1 where the header says photometric)")
+        ->type_name("LM/W")
+        ->check(numberAbove(0, 1e30))
+        ->excludes(photometric);
     command.add_flag("--quiet", options.quiet, "No text; errors remain (default: off)");
 }
 

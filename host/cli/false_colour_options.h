@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ struct FalseColourOptions {
     std::string map = "viridis";
     std::vector<double> levels; ///< of grids; empty: the scale's marks
     bool photometric = false, daylightFactor = false;
-    std::string grid; ///< of a table of several; empty: it has one
+    std::optional<double> efficacy; ///< lm/W of an image
+    std::string grid;               ///< of a table of several; empty: it has one
     bool quiet = false;
 };
 

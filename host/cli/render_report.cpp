@@ -28,7 +28,7 @@ RenderRecord makeRecord(const Scene& scene, const StopRule& stop, Device& device
     record.meter = scene.sensor.meter;
     if (record.meter == MeterKind::grid) record.grids = scene.grids;
     for (IlluminanceGrid& grid : record.grids) grid.origin += scene.origin;
-    record.fisheye = fisheyeViewOf(scene.sensor);
+    record.view = imageViewOf(scene.sensor);
     record.pixelFormat = scene.sensor.pixelFormat;
     record.peakBufferBytes = render.peakBufferBytes;
     record.peakHostBytes = peakResidentBytes();

@@ -298,9 +298,9 @@ private:
         const AutoRender result = render(scene_, endOf(pictureShare), part, [](const Renderer&) { return false; });
         const FilmImage& image = result.image;
         if (image.passes == 0) return; // interrupted
-        part.luminance =
-            luminanceImage(image.width, image.height, image.radiance,
-                           image.isErrorKnown() ? image.standardError : std::vector<float>(), photometric_);
+        part.luminance = luminanceImage(image.width, image.height, image.radiance,
+                                        image.isErrorKnown() ? image.standardError : std::vector<float>(),
+                                        photometric_ ? 1 : luminousEfficacy);
         part.toneMapped = toneMap(image, chooseToneCurve(image, {}));
         part.error = estimateError(image);
         content_.picture = std::move(part);

@@ -18,8 +18,9 @@ struct RadianceImage {
 };
 
 /// Channels R, G, B, or the one channel of a grey image three times; standard errors from `stderr.R`, `stderr.G`,
-/// `stderr.B` if all are there. Of a file with several parts the first is taken. Throws InputError: no such file,
-/// missing channels (the message lists what there is), whole-number pixels, which hold no linear radiance.
+/// `stderr.B` if all are there. Of a file with several parts the first is taken. Values of a Radiance picture are
+/// divided by its EXPOSURE. Throws InputError: no such file, missing channels (the message lists what there is),
+/// whole-number pixels, which hold no linear radiance.
 RadianceImage readRadiance(const std::string& path);
 
 /// Standard errors that are not all finite and at least 0, as after a single pass, become unknown, with a warning.

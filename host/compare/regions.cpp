@@ -1,6 +1,7 @@
 // Values of a mask as text, and the pixels that have them.
 #include "compare/regions.h"
 
+#include "images/image_rows.h"
 #include "util/error.h"
 
 #include <OpenImageIO/imageio.h>
@@ -45,9 +46,8 @@ Mask readMask(const std::string& path, unsigned width, unsigned height) {
         throw InputError(fmt::format("--mask {}: pixels are {}, expected 8 or 16 bits or floating point", path,
                                      spec.format.c_str()));
     Mask mask{spec.nchannels >= 3 ? size_t{3} : size_t{1}, spec.format.basetype == OIIO::TypeDesc::UINT8, {}};
-    mask.values.resize(size_t{width} * height * mask.channels);
-    if (!input->read_image(0, 0, 0, static_cast<int>(mask.channels), OIIO::TypeDesc::FLOAT, mask.values.data()))
-        throw InputError(fmt::format("--mask {}: cannot read the pixels: {}", path, input->geterror()));
+    if (const auto fault = readRows(*input, static_cast<int>(mask.channels), mask.values); !fault.empty())
+        throw InputError(fmt::format("--mask {}: cannot read the pixels: {}", path, fault));
     for (float& value : mask.values) {
         if (!std::isfinite(value)) throw InputError(fmt::format("--mask {}: holds a value that is not finite", path));
         if (scale != 1) value = static_cast<float>(std::lround(value * scale));

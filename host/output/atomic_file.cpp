@@ -2,9 +2,8 @@
 #include "output/atomic_file.h"
 
 #include "util/error.h"
+#include "util/file_ending.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -84,8 +83,7 @@ void probeFolder(const std::string& path, const std::string& option) {
 
 void checkOutputPath(const std::string& path, const std::string& option, const std::string& extension) {
     const fs::path file(path);
-    std::string found = file.extension().string();
-    std::transform(found.begin(), found.end(), found.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string found = fileEnding(path);
     if (found != extension)
         throw InputError(fmt::format("{} {}: {}, expected a name that ends in {}{}", option, path,
                                      found.empty() ? "no extension" : "unknown extension '" + found + "'", extension,

@@ -114,9 +114,9 @@ void describe(OIIO::ImageSpec& spec, const RenderRecord& record) {
     set("kernels", settings.genericKernels ? "generic" : "scene");
     set("quantity", quantityName(record.meter));
     set("units", record.units());
-    if (record.fisheye) {
-        set("projection", record.fisheye->projection);
-        set("fov", record.fisheye->degrees);
+    if (record.view) {
+        set("projection", record.view->projection);
+        set("fov", record.view->degrees);
     }
     describeError(spec, record.error);
 }

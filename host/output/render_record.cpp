@@ -6,10 +6,12 @@
 
 namespace quasilux {
 
-std::optional<FisheyeView> fisheyeViewOf(const Sensor& sensor) {
+std::optional<ImageView> imageViewOf(const Sensor& sensor) {
     const bool isWhole = sensor.width == sensor.filmWidth && sensor.height == sensor.filmHeight;
-    if (sensor.fisheye == FISHEYE_NONE || !isWhole) return std::nullopt;
-    return FisheyeView{fisheyeName(sensor.fisheye), sensor.fovX * 180 / std::numbers::pi};
+    const bool isInMiddle = sensor.principalPoint.x == 0 && sensor.principalPoint.y == 0;
+    if (sensor.meter != MeterKind::none || sensor.orthographic || !isWhole || !isInMiddle) return std::nullopt;
+    return ImageView{sensor.fisheye == FISHEYE_NONE ? "perspective" : fisheyeName(sensor.fisheye),
+                     sensor.fovX * 180 / std::numbers::pi};
 }
 
 } // namespace quasilux

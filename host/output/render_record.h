@@ -15,12 +15,12 @@
 namespace quasilux {
 
 /// How an image shows directions: what `quasilux dgp` needs to rate it.
-struct FisheyeView {
+struct ImageView {
     std::string projection;
     double degrees = 180; ///< that the image's width spans
 };
-/// None of another sensor, and of a crop window.
-std::optional<FisheyeView> fisheyeViewOf(const Sensor& sensor);
+/// Of a camera that looks through the middle of its film; none of another sensor, and of a crop window.
+std::optional<ImageView> imageViewOf(const Sensor& sensor);
 
 struct RenderRecord {
     std::string version = QUASILUX_VERSION;
@@ -34,8 +34,8 @@ struct RenderRecord {
     std::optional<GatheredCount> gathered; ///< which photons of a pass camera paths gather
     SearchReport search;                   ///< which settings were searched, and why these were chosen
     ErrorEstimate error;
-    PixelFormat pixelFormat;            ///< what the image holds beside R, G, B
-    std::optional<FisheyeView> fisheye; ///< how the image shows directions, if by a fisheye in the middle of its film
+    PixelFormat pixelFormat; ///< what the image holds beside R, G, B
+    std::optional<ImageView> view;
     bool isPerNanometre = false;        ///< surroundings are in W per nanometre, of which 683 lm/W makes no lux
     MeterKind meter = MeterKind::none;  ///< what the image's values are: radiance, or of area and grid irradiance
     std::vector<IlluminanceGrid> grids; ///< whose points the image has one after the other, where the file has them

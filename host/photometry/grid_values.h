@@ -13,7 +13,7 @@ struct GridValues {
     std::vector<double> values;        ///< row by row, as the table has them
     std::vector<double> standardError; ///< empty: unknown
     std::string unit = "lx";
-    bool isPerNanometre = false; ///< as LuminanceImage's
+    bool isPerNanometre = false; ///< made of W per nanometre, so that it is some 107 times too low
 
     double spacingU() const { return lengthU / nx; }
     double spacingV() const { return lengthV / ny; }

@@ -19,37 +19,60 @@ std::vector<float> photometricOf(const std::vector<float>& rgb, double efficacy)
     return values;
 }
 
-/// Empty where the file cannot be read as an image.
-OIIO::ImageSpec headerOf(const std::string& path) {
+struct Header {
+    OIIO::ImageSpec spec; ///< empty where the file cannot be read as an image
+    std::string format;
+};
+Header headerOf(const std::string& path) {
     const auto input = OIIO::ImageInput::open(path);
-    return input ? input->spec() : OIIO::ImageSpec();
+    return input ? Header{input->spec(), input->format_name()} : Header();
+}
+
+/// Of a file that has a part of its view, or more than that.
+std::string partOf(const OIIO::ImageSpec& spec) {
+    if (spec.x == spec.full_x && spec.y == spec.full_y && spec.width == spec.full_width &&
+        spec.height == spec.full_height)
+        return {};
+    return fmt::format("{} x {} pixels from {}, {} on of a view of {} x {}", spec.width, spec.height,
+                       spec.x - spec.full_x, spec.y - spec.full_y, spec.full_width, spec.full_height);
+}
+
+void readView(const OIIO::ImageSpec& spec, LuminanceImage& image) {
+    const std::string projection = spec.get_string_attribute("quasilux:projection");
+    if (!projection.empty()) image.view = {projection, spec.get_float_attribute("quasilux:fov")};
+    image.isViewUnknown = projection.empty() && spec.find_attribute("quasilux:version") != nullptr;
+    image.part = partOf(spec);
 }
 
 } // namespace
 
 LuminanceImage luminanceImage(unsigned width, unsigned height, const std::vector<float>& rgb,
-                              const std::vector<float>& standardError, bool unitsArePhotometric) {
-    const double efficacy = unitsArePhotometric ? 1 : luminousEfficacy;
-    return {width,
-            height,
-            photometricOf(rgb, efficacy),
-            photometricOf(standardError, efficacy),
-            false,
-            unitsArePhotometric ? "0.2126 R + 0.7152 G + 0.0722 B"
-                                : fmt::format("{:g} lm/W (0.2126 R + 0.7152 G + 0.0722 B)", luminousEfficacy),
-            std::nullopt};
+                              const std::vector<float>& standardError, double efficacy) {
+    LuminanceImage image;
+    image.width = width;
+    image.height = height;
+    image.values = photometricOf(rgb, efficacy);
+    image.standardError = photometricOf(standardError, efficacy);
+    const std::string weights = "0.2126 R + 0.7152 G + 0.0722 B";
+    image.conversion = efficacy == 1 ? weights : fmt::format("{:g} lm/W ({})", efficacy, weights);
+    return image;
 }
 
-LuminanceImage readLuminance(const std::string& path, ImageUnits units) {
+LuminanceImage readLuminance(const std::string& path, std::optional<double> efficacy) {
     const RadianceImage image = readRadiance(path);
-    const OIIO::ImageSpec header = headerOf(path);
+    const auto [header, format] = headerOf(path);
     const std::string stated = header.get_string_attribute("quasilux:units");
-    const bool photometric = units == ImageUnits::photometric || stated == "photometric";
-    LuminanceImage found = luminanceImage(image.width, image.height, image.radiance, image.standardError, photometric);
-    found.isPerNanometre = !photometric && stated == "radiometric per nanometre";
+    LuminanceImage found = luminanceImage(image.width, image.height, image.radiance, image.standardError,
+                                          efficacy.value_or(stated == "photometric" ? 1 : luminousEfficacy));
     found.isIlluminance = header.get_string_attribute("quasilux:quantity") == "irradiance";
-    const std::string projection = header.get_string_attribute("quasilux:projection");
-    if (!projection.empty()) found.fisheye = {projection, header.get_float_attribute("quasilux:fov")};
+    readView(header, found);
+    if (efficacy) return found;
+    found.unitsWarning = warningOfUnits(stated == "radiometric per nanometre", found.unit(), path).value_or("");
+    if (stated.empty() && format == "hdr")
+        found.unitsWarning =
+            fmt::format("{}: a Radiance picture says nothing of its units; taken as watts of {:g} lm/W. Give "
+                        "--efficacy 179 where a program of Radiance made it, --photometric where it is in {}",
+                        path, luminousEfficacy, found.unit());
     return found;
 }
 

@@ -13,6 +13,7 @@
 #include "scene/transform.h"
 #include "scene/xml/tags.h"
 #include "util/error.h"
+#include "util/file_ending.h"
 #include "util/stopwatch.h"
 
 #include <pybind11/stl.h>
@@ -67,7 +68,7 @@ py::tuple render(const LoadedScene& scene, const std::vector<std::string>& argum
 
 void save(const Rendered& rendered, const std::string& path, std::optional<double> stops, std::optional<double> scale) {
     const py::gil_scoped_release release;
-    const std::string extension = path.substr(std::min(path.rfind('.'), path.size()));
+    const std::string extension = fileEnding(path);
     if (extension == ".exr") {
         checkOutputPath(path, "save", extension);
         writeExr(path, rendered.image, rendered.record, rendered.layers);

@@ -54,7 +54,7 @@ void LiveView::begin(Device& device, const Scene& scene, const RenderSettings& s
     record_.stop = stop;
     record_.isPerNanometre = scene.surroundings && scene.surroundings->isPerNanometre;
     record_.meter = scene.sensor.meter;
-    record_.fisheye = fisheyeViewOf(scene.sensor);
+    record_.view = imageViewOf(scene.sensor);
     record_.pixelFormat = scene.sensor.pixelFormat;
     state_.begin({record_.scene, scene.sensor.width, scene.sensor.height, isEndless, isIrradiance(scene.sensor.meter)});
     state_.setSettings(settings);

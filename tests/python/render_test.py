@@ -93,7 +93,7 @@ class AgainstTheProgram(unittest.TestCase):
         self.assertEqual(without_times(dict(self.picture.record)), without_times(written))
 
     def test_same_files(self):
-        for name in ("python.exr", "python.png", "python.json"):
+        for name in ("python.exr", "python.png", "python.json", "PYTHON.EXR"):
             self.picture.save(self.folder / name)
         saved = layers_of(self.folder / "python.exr")
         self.assertEqual(sorted(saved), sorted(self.layers))

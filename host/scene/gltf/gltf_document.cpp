@@ -7,10 +7,7 @@
 #include "scene/gltf/scene_extras.h"
 #include "scene/gltf/shapes.h"
 #include "scene/xml/tags.h"
-
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
+#include "util/file_ending.h"
 
 namespace quasilux {
 
@@ -92,8 +89,7 @@ private:
 } // namespace
 
 bool isGltf(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = fileEnding(path);
     return ending == ".gltf" || ending == ".glb";
 }
 

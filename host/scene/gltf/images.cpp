@@ -1,5 +1,6 @@
 #include "scene/gltf/images.h"
 
+#include "images/image_rows.h"
 #include "scene/color.h"
 #include "scene/gltf/accessors.h"
 
@@ -67,8 +68,8 @@ const GltfImages::Pixels& GltfImages::pixelsOf(int index) {
                          spec.nchannels, maximumPixels));
     context_.files.guard().addPixels(static_cast<uint64_t>(count), where);
     const int channels = std::min(spec.nchannels, 4);
-    std::vector<float> values(static_cast<size_t>(count) * static_cast<size_t>(channels));
-    if (!file->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data())) fail(file->geterror());
+    std::vector<float> values;
+    if (const std::string fault = readRows(*file, channels, values); !fault.empty()) fail(fault);
     last_ = {static_cast<unsigned>(spec.width), static_cast<unsigned>(spec.height), {}};
     last_.values.reserve(static_cast<size_t>(count));
     for (size_t i = 0; i < values.size(); i += static_cast<size_t>(channels))

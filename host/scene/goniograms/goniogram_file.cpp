@@ -2,9 +2,9 @@
 #include "scene/goniograms/eulumdat_file.h"
 #include "scene/goniograms/ies_file.h"
 #include "scene/xml/xml_document.h"
+#include "util/file_ending.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace quasilux {
@@ -74,8 +74,7 @@ Goniogram checked(Goniogram goniogram) {
 
 Goniogram readGoniogram(const std::string& path, const SourceLocation& where, size_t lampSet,
                         const FileCheck& mayRead) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = fileEnding(path);
     if (ending != ".ies" && ending != ".ldt")
         throw InputError(where,
                          fmt::format("'{}' has the ending '{}'; expected a luminaire's file, .ies (IES LM-63) or .ldt "

@@ -1,17 +1,18 @@
 // Image files for textures, by OpenImageIO.
+#include "images/image_rows.h"
+#include "images/radiance_header.h"
 #include "scene/color.h"
 #include "scene/textures/image_primaries.h"
 #include "scene/textures/texture_plugin.h"
 #include "scene/xml/names.h"
 #include "scene/xml/xml_document.h"
+#include "util/file_ending.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -21,8 +22,6 @@
 namespace quasilux {
 
 namespace {
-
-constexpr int64_t maximumPixels = 1 << 28; // 3.2 GB of texels
 
 [[noreturn]] void failImage(const std::string& path, const std::string& why, const SourceLocation& where) {
     throw InputError(where, fmt::format("cannot read the image '{}': {}", path, why));
@@ -49,13 +48,6 @@ constexpr std::pair<std::string_view, const char*> plainFormats[] = {
     {".exr", "openexr"}, {".hdr", "hdr"}, {".png", "png"},   {".jpg", "jpeg"}, {".jpeg", "jpeg"}, {".tif", "tiff"},
     {".tiff", "tiff"},   {".bmp", "bmp"}, {".tga", "targa"}, {".pfm", "pnm"},  {".ppm", "pnm"},   {".pgm", "pnm"}};
 
-/// Letters in lower case, with the dot.
-std::string endingOf(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ending;
-}
-
 /// By the reader of a format, or of an ending without the dot; null where there is none.
 std::unique_ptr<OIIO::ImageInput> readerOf(const std::string& format, OIIO::Filesystem::IOProxy& content) {
     auto reader = OIIO::ImageInput::create(format);
@@ -66,7 +58,7 @@ std::unique_ptr<OIIO::ImageInput> readerOf(const std::string& format, OIIO::File
 std::unique_ptr<OIIO::ImageInput> openPlain(const std::string& path, const OIIO::ImageSpec& wish,
                                             OIIO::Filesystem::IOProxy& content, const SourceLocation& where) {
     for (const auto& [known, format] : plainFormats) {
-        if (endingOf(path) != known) continue;
+        if (fileEnding(path) != known) continue;
         auto file = readerOf(format, content);
         OIIO::ImageSpec spec;
         if (!file) failImage(path, fmt::format("OpenImageIO was built without the format {}.", format), where);
@@ -83,7 +75,7 @@ std::unique_ptr<OIIO::ImageInput> openPlain(const std::string& path, const OIIO:
 /// Files that are called what they are not, and those of a few rare formats, OpenImageIO opens itself.
 std::unique_ptr<OIIO::ImageInput> openAny(const std::string& path, const OIIO::ImageSpec& wish,
                                           OIIO::Filesystem::IOProxy& content, const SourceLocation& where) {
-    const std::string ending = endingOf(path);
+    const std::string ending = fileEnding(path);
     auto file = ending.size() > 1 ? readerOf(ending.substr(1), content) : nullptr;
     OIIO::ImageSpec spec;
     if (file && file->open(path, spec, wish)) return file;
@@ -95,6 +87,7 @@ std::unique_ptr<OIIO::ImageInput> openAny(const std::string& path, const OIIO::I
 /// Values as the file has them, of up to three channels.
 struct StoredPixels {
     OIIO::ImageSpec spec;
+    unsigned width = 0, height = 0;
     int channels = 0;
     std::vector<float> values;
 };
@@ -108,18 +101,15 @@ StoredPixels readStored(const std::string& path, const SourceLocation& where, Lo
     const auto file = (guard.isTrusted() ? openAny : openPlain)(path, asStored, memory, where);
     StoredPixels stored;
     const OIIO::ImageSpec& spec = stored.spec = file->spec();
-    const int64_t count = int64_t(spec.width) * spec.height;
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || count > maximumPixels)
-        failImage(
-            path,
-            fmt::format("it has {} x {} x {} pixels of {} channels; expected a flat picture of at most {} pixels.",
-                        spec.width, spec.height, spec.depth, spec.nchannels, maximumPixels),
-            where);
-    guard.addPixels(static_cast<uint64_t>(count), where);
+    if (const std::string fault = faultOfSize(spec); !fault.empty()) failImage(path, fault, where);
+    guard.addPixels(spec.image_pixels(), where);
+    stored.width = static_cast<unsigned>(spec.width);
+    stored.height = static_cast<unsigned>(spec.height);
     stored.channels = std::min(spec.nchannels, 3);
-    stored.values.resize(static_cast<size_t>(count) * static_cast<size_t>(stored.channels));
-    if (!file->read_image(0, 0, 0, stored.channels, OIIO::TypeDesc::FLOAT, stored.values.data()))
-        failImage(path, file->geterror(), where);
+    if (const std::string fault = readRows(*file, stored.channels, stored.values); !fault.empty())
+        failImage(path, fault, where);
+    if (file->format_name() == std::string_view("hdr"))
+        turnUpright(radianceHeader(content), stored.width, stored.height, stored.values);
     return stored;
 }
 
@@ -145,13 +135,13 @@ private:
 
 Image readImage(const std::string& path, bool raw, TextureUse use, const SourceLocation& where, LoadGuard& guard) {
     const Range& range = rangeOf(use);
-    const auto [spec, channels, values] = readStored(path, where, guard);
+    const auto [spec, width, height, channels, values] = readStored(path, where, guard);
     const bool encoded = !raw && !spec.format.is_floating_point();
     const std::optional<glm::dmat3> toSrgb = toLinearSrgb(spec);
     Decoder decode(spec.format == OIIO::TypeDesc::UINT8);
     const auto step = static_cast<size_t>(channels);
     const size_t green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2; // one channel, or grey and alpha
-    Image image{static_cast<unsigned>(spec.width), static_cast<unsigned>(spec.height), {}, 0};
+    Image image{width, height, {}, 0};
     std::vector<Rgb> pixels;
     pixels.reserve(values.size() / step);
     for (size_t i = 0; i < values.size(); i += step) {
