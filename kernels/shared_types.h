@@ -251,9 +251,9 @@ typedef struct {
 
 /* Known mistakes, switched on by tests as negative controls: 1 flux at collisions is not divided by the extinction, 2
  * refracted radiance is not scaled by 1/eta^2, 3 the phase function has the wrong sign of g where photons are taken, 4
- * flux in a heterogeneous medium is divided by the mean of its extinction, 5 (medium_place.clh), 6 (camera.clh), 7 those
- * that survive roulette far outside do not carry the flux of those that it ended, 8 density kernels end at null surfaces
- * that have the same medium on both sides. */
+ * flux in a heterogeneous medium is divided by the mean of its extinction, 5 (medium_place.clh), 6 (camera.clh), 7
+ * those that survive roulette far outside do not carry the flux of those that it ended, 8 density kernels end at null
+ * surfaces that have the same medium on both sides. */
 #ifndef MEDIUM_RULE
 #define MEDIUM_RULE 0
 #endif

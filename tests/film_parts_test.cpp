@@ -110,8 +110,8 @@ TEST(FilmParts, OfSharedSamplesHaveTheSameBits) {
     EXPECT_NE(whole.image.radiance, usual().image.radiance) << "negative control: another filter";
 }
 
-// From pass 16 on, two passes of four estimate the bias. Of a range that has none of these, or those of one batch alone,
-// the bias is not known, rather than 0.
+// From pass 16 on, two passes of four estimate the bias. Of a range that has none of these, or those of one batch
+// alone, the bias is not known, rather than 0.
 TEST(FilmBias, OfFewLatePassesIsNotKnown) {
     const auto hasBias = [](unsigned first, unsigned last) {
         Renderer renderer(testDevice(), projectScene("cornell_phong.xml"), settingsOf({}));

@@ -50,8 +50,8 @@ protected:
     }
 };
 
-// The shell and the kernel both say that a terminal is gone, `timeout -s INT` sends its signal to the program and to its
-// group; a pass takes longer than the time between.
+// The shell and the kernel both say that a terminal is gone, `timeout -s INT` sends its signal to the program and to
+// its group; a pass takes longer than the time between.
 TEST_F(InterruptTest, TwoOfOneCauseAreOne) {
     for (const int signal : {SIGHUP, SIGTERM, SIGINT}) {
         removeOutputs();

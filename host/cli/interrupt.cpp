@@ -15,8 +15,8 @@ constexpr int signalBase = 128; // exit code of a program that a signal ends, as
 constexpr std::array<int, 3> endingSignals{SIGINT, SIGTERM, SIGHUP};
 
 // One cause may send several: a terminal that is closed SIGHUP by the shell and by the kernel, systemd SIGTERM with
-// SIGHUP, `timeout` its signal to the program and to its group. These come close together; Ctrl-C is a key that somebody
-// may press twice.
+// SIGHUP, `timeout` its signal to the program and to its group. These come close together; Ctrl-C is a key that may be
+// pressed twice.
 constexpr int64_t millisecondsOfOneCause = 2000, millisecondsOfOneKey = 200;
 
 std::atomic<bool> interrupted{false};

@@ -132,7 +132,7 @@ struct ViewServer::Http {
         while (!server.is_running()) std::this_thread::yield(); // or else stop() may come too early
     }
 
-    /// Threads of the library read for as long as somebody sends a byte now and then, and the image waits for them here.
+    /// Threads of the library read as long as somebody sends a byte now and then, and the image waits for them here.
     ~Http() {
         server.stop();
         const Stopwatch watch;
