@@ -174,6 +174,15 @@ TEST_F(FisheyeImage, SaysToDgpHowItShowsDirections) {
     EXPECT_EQ(illuminance({}), illuminance({"--projection", "orthographic"}));
     EXPECT_NE(illuminance({}), illuminance({"--projection", "equidistant"})) << "what is given holds";
     EXPECT_EQ(projectionIn("sky.exr"), "orthographic");
+    // Merged passes are of the same view.
+    for (const char* passes : {"0:1", "1:2"}) {
+        const std::string name = passes + std::string(1, '.') + "ckpt";
+        ASSERT_EQ(run({"render", "sky.xml", "--fixed", "--passes", passes, "--checkpoint", name, "--quiet"}).exitCode,
+                  0);
+    }
+    ASSERT_EQ(run({"merge", "0:1.ckpt", "1:2.ckpt", "-o", "sky.exr"}).exitCode, 0);
+    EXPECT_EQ(projectionIn("sky.exr"), "orthographic");
+    EXPECT_NEAR(illuminance({}), 200 * pi, 0.01 * 200 * pi);
     // Of a part of the film nothing is said.
     write(R"(<integer name="crop_width" value="48"/>)");
     ASSERT_EQ(run({"render", "sky.xml", "--fixed", "--passes", "1", "--quiet"}).exitCode, 0);

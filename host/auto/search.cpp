@@ -39,7 +39,7 @@ constexpr uint64_t pilotSeed = 0x9E3779B97F4A7C15ull; // added: what decides mus
 /// What an action failed with, unless the whole render is given up.
 std::optional<std::string> failureUnlessAbandoned(const std::function<void()>& action) {
     bool isAbandoned = false;
-    const auto why = failureOf([&] {
+    auto why = failureOf([&] {
         try {
             action();
         } catch (const RenderAbandoned&) {

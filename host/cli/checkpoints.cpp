@@ -41,6 +41,7 @@ Checkpoint checkpointOf(const RenderOptions& options, const Scene& scene, const 
     checkpoint.stop = stop;
     checkpoint.scene = fs::path(options.scene).filename().string();
     checkpoint.isPerNanometre = scene.surroundings && scene.surroundings->isPerNanometre;
+    checkpoint.view = imageViewOf(scene.sensor);
     if (checkpoint.meter == MeterKind::none) checkpoint.layersOfScene = layersOf(scene);
     return checkpoint;
 }

@@ -43,6 +43,7 @@ RenderRecord recordOf(const Checkpoint& merged, const FilmImage& image) {
     record.scene = merged.scene;
     record.settings = merged.settings;
     record.isPerNanometre = merged.isPerNanometre;
+    record.view = merged.view;
     record.stop = merged.stop;
     record.device = merged.device;
     record.report.photonsPerPass = merged.photonsPerPass;

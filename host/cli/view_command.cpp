@@ -46,7 +46,10 @@ public:
         std::fflush(stdout); // a program that reads it is to have it at once
         while (!interruptFlag()) {
             const auto why = failureOf([&] { renderUntilChange(); });
-            if (why) view_.state().setProblem(*why);
+            if (why) {
+                view_.state().setPhase("failed");
+                view_.state().setProblem(*why);
+            }
             if (why && !interruptFlag()) waitForChange();
             takeChanges();
         }
@@ -153,8 +156,10 @@ private:
     bool hasNewScene() { return reloaded_ || reloadIfSaved(); }
 
     void waitForChange() {
-        while (!interruptFlag() && !view_.hasEdits() && !hasNewScene())
+        while (!interruptFlag() && !view_.hasEdits() && !hasNewScene()) {
+            view_.errands().dismiss();
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
     }
 
     void takeChanges() {

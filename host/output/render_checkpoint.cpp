@@ -54,6 +54,7 @@ Json describe(const Checkpoint& c) {
             {"scene", c.scene},
             {"layersOfScene", c.layersOfScene},
             {"isPerNanometre", c.isPerNanometre},
+            {"view", c.view ? Json{{"projection", c.view->projection}, {"degrees", c.view->degrees}} : Json()},
             {"photonsPerPass", c.photonsPerPass},
             {"search", toJson(c.search)},
             {"device", toJson(c.device)},
@@ -86,6 +87,8 @@ Checkpoint checkpointOf(const CheckpointReader& reader) {
         c.scene = from.at("scene");
         c.layersOfScene = from.value("layersOfScene", "");
         c.isPerNanometre = from.value("isPerNanometre", false);
+        if (const auto view = from.find("view"); view != from.end() && !view->is_null())
+            c.view = ImageView{view->at("projection").get<std::string>(), view->at("degrees").get<double>()};
         c.photonsPerPass = wholeNumber<decltype(c.photonsPerPass)>(from.at("photonsPerPass"));
         c.search = parsed<SearchReport>(from.at("search"));
         c.device = parsed<DeviceInfo>(from.at("device"));

@@ -36,7 +36,8 @@ struct Checkpoint {
     /// For people.
     std::string scene;         ///< file name
     std::string layersOfScene; ///< of the image, which the film does not hold: "A, albedo", empty where there are none
-    bool isPerNanometre = false; ///< RenderRecord::isPerNanometre
+    bool isPerNanometre = false; ///< as RenderRecord has it; and
+    std::optional<ImageView> view;
     unsigned photonsPerPass = 0;
     SearchReport search;
     DeviceInfo device;

@@ -3,12 +3,12 @@
 namespace quasilux {
 
 bool Errands::run(Errand errand, const Due& due, std::chrono::milliseconds patience) {
-    Entry entry{std::move(errand), due, false, nullptr};
+    Entry entry{std::move(errand), due, false, false, nullptr};
     std::unique_lock lock(mutex_);
     if (isClosed_) return false;
     entries_.push_back(&entry);
     waiting_ = entries_.size();
-    done_.wait_for(lock, patience, [&] { return entry.isDone || isClosed_; });
+    done_.wait_for(lock, patience, [&] { return entry.isDone || entry.isDismissed || isClosed_; });
     if (!entry.isDone) entries_.remove(&entry);
     waiting_ = entries_.size();
     if (entry.failure) std::rethrow_exception(entry.failure);
@@ -37,6 +37,12 @@ void Errands::doDue(const RenderMoment& moment) {
 void Errands::hurry() {
     const std::lock_guard lock(mutex_);
     for (Entry* entry : entries_) entry->due.notBefore = {};
+}
+
+void Errands::dismiss() {
+    const std::lock_guard lock(mutex_);
+    for (Entry* entry : entries_) entry->isDismissed = true;
+    done_.notify_all();
 }
 
 void Errands::close() {

@@ -46,6 +46,8 @@ public:
     bool areAwaited() const { return waiting_ > 0; }
     /// What waits for its time need not any more.
     void hurry();
+    /// Wakes all who wait: there is no picture for them now.
+    void dismiss();
     /// Wakes all who wait, for good.
     void close();
 
@@ -53,7 +55,7 @@ private:
     struct Entry {
         Errand errand;
         Due due;
-        bool isDone = false;
+        bool isDone = false, isDismissed = false;
         std::exception_ptr failure;
     };
 

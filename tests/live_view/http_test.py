@@ -196,6 +196,9 @@ class DoneRender(unittest.TestCase):
         self.view.post("edit", quasiSpecular="nowhere")
         state = self.view.wait(lambda state: state["render"] > before and state["problem"])
         self.assertIn("nowhere", state["problem"])
+        self.assertEqual(self.view.state()["phase"], "failed")
+        for name in ("frame", "image.exr"):  # there is no picture, and nobody waits for one
+            self.assertEqual(self.view.get(name)[0], 204)
         self.assertEqual(self.view.edit()["problem"], "")
 
     def test_a_broken_scene_shows_its_line_and_the_picture_stays(self):

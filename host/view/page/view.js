@@ -80,7 +80,7 @@ function showPointerHelp() {
 }
 
 function showState() {
-  const isRunning = !['stopped', 'done', 'ended'].includes(state.phase);
+  const isRunning = !['stopped', 'done', 'failed', 'ended'].includes(state.phase);
   document.title = `${state.scene} · quasilux`;
   byId('scene').textContent = state.scene || 'quasilux';
   byId('status').textContent = statusText();
