@@ -295,9 +295,8 @@ TEST_F(CommandLineTest, RareLightIsWarnedOf) {
 // Without light there is no noise to see: 0 % of error is no promise. Control: the lamp before the camera.
 TEST_F(CommandLineTest, BlackImagesAreWarnedOf) {
     std::string behind = readText(folder / "scene.xml");
-    const std::string before = "<translate z=\"20\"/>";
-    std::ofstream(folder / "behind.xml") << behind.replace(behind.find(before), before.size(),
-                                                           "<translate z=\"-20\"/>");
+    const std::string before = "<translate z=\"8\"/>";
+    std::ofstream(folder / "behind.xml") << behind.replace(behind.find(before), before.size(), "<translate z=\"-8\"/>");
     const auto errors = [&](const char* scene) { return run({"render", scene, "--fixed", "--passes", "2"}).errors; };
     EXPECT_THAT(errors("behind.xml"),
                 HasSubstr("none has reached the image in 2 passes, so that its error is not known"));

@@ -47,7 +47,7 @@ CommandLineTest::CommandLineTest() {
     <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film>
   </sensor>
   <shape type="rectangle"><emitter type="area"><rgb name="radiance" value="1"/></emitter>
-    <transform name="to_world"><rotate y="1" angle="180"/><translate z="20"/></transform></shape>
+    <transform name="to_world"><rotate y="1" angle="180"/><translate z="8"/></transform></shape>
 </scene>
 )";
 }
