@@ -24,7 +24,7 @@ View viewOf(const DgpOptions& options, const LuminanceImage& image) {
     if (image.isViewUnknown && !options.projection)
         throw InputError(options.input +
                          ": its header does not say how it shows directions, as of a part of a view, an orthographic "
-                         "camera, a merged image or an older version; render it anew as a whole, by a "
+                         "camera or an older version; render it anew as a whole, by a "
                          "quasilux_fisheye, or give --projection NAME and --fov DEGREES");
     const std::string name = options.projection.value_or(stated ? stated->first : "equidistant");
     const Projection projection = parseProjection(name);
